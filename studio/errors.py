@@ -1,0 +1,98 @@
+"""What can go wrong, and how it is told.
+
+    StudioError
+    ├── ScenarioError       a scenario file or a change of it is wrong
+    ├── MapError            a map file is missing, unreadable or holds no roads
+    ├── RouteError          roads do not connect, or are not on the map
+    ├── ApplicationError    a plug-in does not load, or raised during a run
+    ├── StoreError          runs.db cannot be opened or written
+    ├── UnknownError        a run, scenario or channel that does not exist
+    └── ServerError         the server cannot start
+
+Every error carries a list of problems; each says where, what, which value, what is allowed, and the remedy.
+"""
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, field
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong: where it stands, what is wrong, the value, what is allowed, how to mend it."""
+
+    where: str
+    what: str
+    value: str = ""
+    allowed: str = ""
+    remedy: str = ""
+
+    def __str__(self) -> str:
+        text = f"{self.where}: {self.what}"
+        if self.value:
+            text += f" (got {self.value})"
+        if self.allowed:
+            text += f"; allowed: {self.allowed}"
+        if self.remedy:
+            text += f"; {self.remedy}"
+        return text
+
+
+@dataclass(eq=False)
+class StudioError(Exception):
+    """Base of all errors that the studio tells its user about."""
+
+    message: str
+    problems: list[Problem] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        return "\n".join([self.message, *(f"  {problem}" for problem in self.problems)])
+
+    def __reduce__(self):
+        return type(self), (self.message, self.problems)
+
+    def as_json(self) -> dict:
+        """The body of a REST error."""
+        return {"message": self.message, "problems": [asdict(problem) for problem in self.problems]}
+
+
+class ScenarioError(StudioError):
+    """A scenario file, or a change of it, is wrong."""
+
+
+class MapError(StudioError):
+    """A map file is missing, unreadable, or holds no roads."""
+
+
+class RouteError(StudioError):
+    """Roads do not connect, or are not on the map."""
+
+
+class ApplicationError(StudioError):
+    """A plug-in does not load, or raised during a run."""
+
+
+class StoreError(StudioError):
+    """runs.db cannot be opened or written."""
+
+
+class UnknownError(StudioError):
+    """A run, scenario or channel that does not exist."""
+
+
+class ServerError(StudioError):
+    """The server cannot start."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A remedy that names the nearest right names, or lists what there is.
+
+    >>> nearest("cac", ["acc", "cacc"])
+    "did you mean 'cacc'?"
+    """
+    names = sorted(known)
+    close = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    if close:
+        return f"did you mean {close[0]!r}?"
+    shown = ", ".join(names[:8]) + (", …" if len(names) > 8 else "")
+    return f"known: {shown}" if names else "there is none"
