@@ -1,0 +1,130 @@
+"""The vehicles on a viser server: one batch per colour and shape, one for all wheels, one for all shadows."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import viser
+
+from studio.scene import pose, vehicle
+from studio.scene.glb import Material, glb
+from studio.scene.layer import SUN
+
+BELOW_GROUND = -500.0
+# shadows lie above road, markings and the city's shadow [m]
+SHADOW_HEIGHT = 0.075
+PAINT = Material(roughness=0.28)
+RUBBER = Material(roughness=0.55)
+SOFT_SHADOW = Material(unlit=True, blend=True)
+
+
+@dataclass(frozen=True)
+class Look:
+    """How one vehicle looks: its name, the colour of its paint "#rrggbb", and its dimensions."""
+
+    name: str
+    color: str
+    dimensions: vehicle.Dimensions = field(default_factory=vehicle.Dimensions)
+
+
+class Fleet:
+    """The batches of one set of vehicles; `move` is the only thing that happens per frame."""
+
+    def __init__(self, server: viser.ViserServer, looks: Sequence[Look]) -> None:
+        self.looks = tuple(looks)
+        self._server = server
+        self._bodies = [self._add_bodies(*group) for group in enumerate(_groups(self.looks).items())]
+        sizes = [look.dimensions for look in self.looks]
+        self._offsets = np.array([_wheel_places(size) for size in sizes], np.float32).reshape(-1, 4, 3)
+        self._middle = np.array([size.centre for size in sizes], np.float32)
+        # half the way that the shadow of the roof has been thrown
+        self._throw = np.array([-SUN[:2] / SUN[2] * size.height * 0.5 for size in sizes], np.float32).reshape(-1, 2)
+        self._wheels = self._add("wheels", glb(vehicle.wheel(_first(sizes)), RUBBER), 4 * len(sizes))
+        self._shadows = self._add("shadows", glb(vehicle.shadow(_first(sizes)), SOFT_SHADOW), 2 * len(sizes))
+
+    def _add_bodies(self, number: int, group: tuple) -> tuple[np.ndarray, viser.BatchedGlbHandle]:
+        (color, size), members = group
+        data = glb(vehicle.body(size, color), PAINT)
+        return np.array(members), self._add(f"body_{number}", data, len(members))
+
+    def _add(self, name: str, data: bytes, count: int) -> viser.BatchedGlbHandle:
+        # lod="off": the simplified levels of detail show facets on the round body
+        places = np.tile(np.float32([0.0, 0.0, BELOW_GROUND]), (count, 1))
+        turns = np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (count, 1))
+        return self._server.scene.add_batched_glb(
+            f"/vehicles/{name}", data, turns, places, lod="off", cast_shadow=False, receive_shadow=False
+        )
+
+    def move(self, poses: np.ndarray) -> None:
+        """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py)."""
+        poses = np.asarray(poses, np.float32)
+        places = _places(poses)
+        turns = _turns(poses[pose.YAW], poses[pose.PITCH], poses[pose.ROLL])
+        with self._server.atomic():
+            for members, bodies in self._bodies:
+                _put(bodies, places[members], turns[members])
+            self._move_wheels(poses, places)
+            self._move_shadows(poses, places)
+
+    def _move_wheels(self, poses: np.ndarray, places: np.ndarray) -> None:
+        # wheels stand on the road: they follow the yaw, not the roll and pitch of the body
+        c, s = np.cos(poses[pose.YAW])[:, None], np.sin(poses[pose.YAW])[:, None]
+        x, y, z = np.moveaxis(self._offsets, -1, 0)
+        wheels = places[:, None, :] + np.stack([c * x - s * y, s * x + c * y, z], axis=-1)
+        yaw = poses[pose.YAW][:, None] + poses[pose.STEER][:, None] * np.float32([1, 1, 0, 0])
+        spin = np.repeat(poses[pose.WHEEL_ANGLE], 4)
+        _put(self._wheels, wheels.reshape(-1, 3), _turns(yaw.ravel(), spin, np.zeros_like(spin)))
+
+    def _move_shadows(self, poses: np.ndarray, places: np.ndarray) -> None:
+        lifted = places + np.float32([0.0, 0.0, SHADOW_HEIGHT])
+        thrown = lifted + np.column_stack([self._throw, np.full(len(places), 0.01, np.float32)])
+        yaw = np.tile(poses[pose.YAW], 2)
+        level = np.zeros_like(yaw)
+        _put(self._shadows, np.concatenate([lifted, thrown]), _turns(yaw, level, level))
+
+    def remove(self) -> None:
+        """Take the vehicles off the server."""
+        for node in [*(bodies for _, bodies in self._bodies), self._wheels, self._shadows]:
+            node.remove()
+
+
+def _groups(looks: Sequence[Look]) -> dict[tuple, list[int]]:
+    groups: dict[tuple, list[int]] = {}
+    for index, look in enumerate(looks):
+        groups.setdefault((look.color, look.dimensions), []).append(index)
+    return groups
+
+
+def _first(sizes: Sequence[vehicle.Dimensions]) -> vehicle.Dimensions:
+    return sizes[0] if sizes else vehicle.Dimensions()
+
+
+def _wheel_places(size: vehicle.Dimensions) -> list[tuple[float, float, float]]:
+    front, rear = size.axles
+    half = size.track / 2.0
+    return [(x, y, size.wheel_radius) for x in (front, rear) for y in (half, -half)]
+
+
+def _places(poses: np.ndarray) -> np.ndarray:
+    z = np.where(poses[pose.VISIBLE] > 0.5, poses[pose.Z], np.float32(BELOW_GROUND))
+    return np.stack([poses[pose.X], poses[pose.Y], z], axis=-1)
+
+
+def _turns(yaw: np.ndarray, pitch: np.ndarray, roll: np.ndarray) -> np.ndarray:
+    """Quaternions (w, x, y, z) of yaw about z, then pitch about y, then roll about x [rad]."""
+    cz, cy, cx = (np.cos(angle / 2.0) for angle in (yaw, pitch, roll))
+    sz, sy, sx = (np.sin(angle / 2.0) for angle in (yaw, pitch, roll))
+    return np.stack(
+        [
+            cz * cy * cx + sz * sy * sx,
+            cz * cy * sx - sz * sy * cx,
+            cz * sy * cx + sz * cy * sx,
+            sz * cy * cx - cz * sy * sx,
+        ],
+        axis=-1,
+    )
+
+
+def _put(node: viser.BatchedGlbHandle, places: np.ndarray, turns: np.ndarray) -> None:
+    node.batched_positions = places
+    node.batched_wxyzs = turns

@@ -1,0 +1,244 @@
+"""Procedural cars: a body lofted from cross-sections, wheels turned on a lathe, and the soft shadow below.
+
+Everything is made from Dimensions; there are no asset files. The origin lies on the road below the vehicle's
+reference point, x forward, y left, z up (ISO 8855).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from studio.scene.shape import Surface, ball, box, fan, grid, joined, lathe, surface
+
+
+@dataclass(frozen=True)
+class Dimensions:
+    """Outer dimensions of a car [m]; front_axle is the distance from the reference point to the front axle."""
+
+    length: float = 4.30
+    width: float = 1.80
+    height: float = 1.45
+    wheelbase: float = 2.63
+    track: float = 1.54
+    wheel_radius: float = 0.316
+    wheel_width: float = 0.215
+    front_axle: float = 1.315
+
+    @property
+    def centre(self) -> float:
+        """x of the middle of the body [m]; the overhang in front of the axle is a little shorter than behind it."""
+        overhang = self.length - self.wheelbase
+        return self.front_axle + 0.49 * overhang - self.length / 2.0
+
+    @property
+    def axles(self) -> tuple[float, float]:
+        """x of the front and of the rear axle [m]."""
+        return self.front_axle, self.front_axle - self.wheelbase
+
+
+# what a quad of the body is made of
+PAINT, TRIM, GLASS, HEADLIGHT, TAILLIGHT, GRILLE, PLATE = range(7)
+GLASS_COLOUR = "#141a21"
+PARTS = ["", "#15171a", GLASS_COLOUR, "#eef3f6", "#a80d12", "#0c0d0f", "#e8e8e2"]
+TYRE, RIM, GAP = range(3)
+WHEEL_COLOURS = ["#17181a", "#b9bec4", "#2a2c2f"]
+
+# The outline of the reference car (1.45 m high, 1.80 m wide) over the share of the length, 0 = rear, 1 = front.
+# Drawn by eye to look like a compact hatchback: height of the deck (boot, sill of the windows, bonnet) [m],
+# height of the underside [m], and half width as a share of half the width.
+DECK = PchipInterpolator(
+    [0.0, 0.008, 0.03, 0.08, 0.30, 0.70, 0.78, 0.90, 0.955, 0.985, 1.0],
+    [0.62, 0.80, 0.915, 0.955, 0.955, 0.950, 0.925, 0.835, 0.760, 0.660, 0.56],
+)
+UNDERSIDE = PchipInterpolator([0.0, 0.012, 0.04, 0.12, 0.88, 0.955, 0.985, 1.0], [0.42, 0.31, 0.25, 0.20, 0.20, 0.21, 0.24, 0.33])
+HALF_WIDTH = PchipInterpolator(
+    [0.0, 0.008, 0.03, 0.08, 0.20, 0.50, 0.80, 0.90, 0.955, 0.985, 1.0],
+    [0.74, 0.84, 0.91, 0.955, 0.99, 1.0, 0.985, 0.945, 0.865, 0.75, 0.62],
+)
+# The flank bulges: half width as a share of its largest over the height [m].
+FLANK = PchipInterpolator([0.19, 0.26, 0.36, 0.52, 0.62, 0.75, 0.88, 0.97], [0.935, 0.965, 0.985, 1.0, 0.998, 0.982, 0.955, 0.90])
+# Height of the roof line [m] from the foot of the rear window to that of the windscreen.
+ROOF = PchipInterpolator([0.055, 0.09, 0.16, 0.22, 0.33, 0.45, 0.53, 0.575, 0.66, 0.745], [0.95, 1.13, 1.33, 1.405, 1.44, 1.45, 1.43, 1.395, 1.18, 0.94])
+CABIN_WIDTH = PchipInterpolator([0.055, 0.16, 0.35, 0.6, 0.745], [0.80, 0.90, 0.935, 0.925, 0.82])
+TUMBLEHOME = 0.42
+
+LEVELS = np.array([0.0, 0.14, 0.34, 0.54, 0.70, 0.86, 1.0])
+REFERENCE_HEIGHT = 1.45
+
+
+def body(size: Dimensions, colour: str) -> Surface:
+    """The whole car without its wheels, painted `colour`."""
+    palette = [colour, *PARTS[1:]]
+    parts = [hull(size, palette), cabin(size, palette), *_fittings(size, palette)]
+    return joined(parts).moved(x=size.centre)
+
+
+def hull(size: Dimensions, palette: list[str]) -> Surface:
+    """The lower body up to the window line: a closed body with tunnels for the wheels."""
+    stations = _hull_stations(size)
+    rings = np.stack([_hull_ring(size, s) for s in stations])
+    kinds = _hull_kinds(stations, rings.shape[1])
+    return joined([grid(rings, kinds, palette), *_lids(rings, palette)])
+
+
+def _lids(rings: np.ndarray, palette: list[str]) -> list[Surface]:
+    # a ring closes by repeating its first point; seen from the front it runs counter-clockwise
+    return [fan(rings[0, :-1][::-1], palette[PAINT]), fan(rings[-1, :-1], palette[GRILLE])]
+
+
+def _share(size: Dimensions, x: float) -> float:
+    return (x - size.centre) / size.length + 0.5
+
+
+def _hull_stations(size: Dimensions) -> np.ndarray:
+    shape = [0.0, 0.003, 0.008, 0.016, 0.03, 0.05, 0.08, 0.12, 0.3, 0.4, 0.5, 0.6, 0.7, 0.745, 0.78, 0.9, 0.93]
+    nose = [0.945, 0.958, 0.97, 0.979, 0.987, 0.993, 0.997, 1.0]
+    arches = [
+        _share(size, axle) + reach * _arch(size) / size.length
+        for axle in size.axles
+        for reach in (-1.004, -1.0, -0.97, -0.9, -0.78, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.78, 0.9, 0.97, 1.0, 1.004)
+    ]
+    stations = np.unique(np.round([*shape, *nose, *arches], 5))
+    return stations[(stations >= 0.0) & (stations <= 1.0)]
+
+
+def _arch(size: Dimensions) -> float:
+    return size.wheel_radius * 1.16
+
+
+def _underside(size: Dimensions, s: float) -> float:
+    scale = size.height / REFERENCE_HEIGHT
+    low = float(UNDERSIDE(s)) * scale
+    x = (s - 0.5) * size.length + size.centre
+    for axle in size.axles:
+        reach = abs(x - axle) / _arch(size)
+        if reach <= 1.0005:
+            low = max(low, size.wheel_radius + _arch(size) * np.sqrt(max(0.0, 1.0 - reach**2)))
+    return low
+
+
+def _hull_ring(size: Dimensions, s: float) -> np.ndarray:
+    scale = size.height / REFERENCE_HEIGHT
+    low, deck = _underside(size, s), float(DECK(s)) * scale
+    half = float(HALF_WIDTH(s)) * size.width / 2.0
+    rounding = min(0.055, 0.3 * (deck - low))
+    z = low + LEVELS * (deck - rounding - low)
+    y = half * FLANK(z / scale)
+    edge = y[-1]
+    top = np.array([[0.985, 0.45], [0.95, 0.80], [0.88, 1.0], [0.60, 1.25], [0.0, 1.55]])
+    side = np.concatenate(
+        [[[0.0, low], [0.5 * y[0], low], [0.94 * y[0], low]], np.stack([y, z], 1)[:], np.stack([edge * top[:, 0], deck + rounding * (top[:, 1] - 1.0)], 1)]
+    )
+    return _mirrored_ring((s - 0.5) * size.length, side)
+
+
+def _mirrored_ring(x: float, side: np.ndarray) -> np.ndarray:
+    """A closed ring from the left half of a section (y, z), from the bottom up and down again on the right."""
+    right = side[-2:0:-1] * [-1.0, 1.0]
+    section = np.concatenate([side, right, side[:1]])
+    return np.column_stack([np.full(len(section), x), section])
+
+
+# segments of half a ring of the hull, from the bottom: 0..2 underside, 3..8 flank, 9..13 shoulder and deck
+FLANK_FROM, FLANK_TO = 3, 8
+
+
+def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
+    segments = columns - 1
+    half = segments // 2
+    middle = (stations[:-1] + stations[1:]) / 2.0
+    kinds = np.full((len(middle), half), PAINT)
+    kinds[:, :FLANK_FROM] = TRIM
+    kinds[:, FLANK_FROM] = TRIM
+    nose, tail = middle > 0.945, middle < 0.03
+    kinds[np.ix_((middle > 0.945) & (middle < 0.987), [FLANK_TO - 1, FLANK_TO])] = HEADLIGHT
+    kinds[np.ix_(tail, [FLANK_TO - 1, FLANK_TO])] = TAILLIGHT
+    kinds[np.ix_(nose & (middle > 0.987), [FLANK_FROM + 1, FLANK_FROM + 2])] = GRILLE
+    return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
+
+
+def cabin(size: Dimensions, palette: list[str]) -> Surface:
+    """The part above the window line: windscreen, side and rear windows in glass, pillars and roof in paint."""
+    stations = np.array([0.055, 0.07, 0.085, 0.12, 0.155, 0.175, 0.20, 0.235, 0.28, 0.34, 0.405, 0.42, 0.48, 0.53, 0.56, 0.58, 0.62, 0.66, 0.70, 0.725, 0.735, 0.745])
+    rings = np.stack([_cabin_ring(size, s) for s in stations])
+    return joined([grid(rings, _cabin_kinds(stations, rings.shape[1]), palette), *_lids(rings, palette)])
+
+
+def _cabin_ring(size: Dimensions, s: float) -> np.ndarray:
+    scale = size.height / REFERENCE_HEIGHT
+    sill, roof = 0.90 * scale, float(ROOF(s)) * scale
+    base = float(CABIN_WIDTH(s)) * size.width / 2.0
+    rise = roof - sill
+    bow = min(0.05, 0.35 * rise)
+    levels = sill + np.array([0.0, 0.14, 0.80]) * rise
+    edge = base - TUMBLEHOME * rise
+    wall = np.stack([base - TUMBLEHOME * (levels - sill), levels], 1)
+    top = np.array([[edge + 0.012, roof - 0.75 * bow], [edge - 0.03, roof - 0.30 * bow], [edge - 0.10, roof], [0.55 * edge, roof + 0.4 * bow], [0.0, roof + 0.6 * bow]])
+    return _mirrored_ring((s - 0.5) * size.length, np.concatenate([[[0.0, sill - 0.02]], wall, top]))
+
+
+def _cabin_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
+    middle = (stations[:-1] + stations[1:]) / 2.0
+    kinds = np.full((len(middle), (columns - 1) // 2), PAINT)
+    side = ((middle > 0.20) & (middle < 0.405)) | ((middle > 0.42) & (middle < 0.62))
+    kinds[side, 2] = GLASS
+    ends = ((middle > 0.07) & (middle < 0.155)) | ((middle > 0.58) & (middle < 0.735))
+    kinds[np.ix_(ends, [5, 6, 7][: kinds.shape[1] - 5])] = GLASS
+    return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
+
+
+def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
+    """Mirrors and number plates."""
+    x = 0.16 * size.length
+    mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(x=x, y=0.5 * size.width + 0.06, z=0.675 * size.height)
+    plate = box((0.02, 0.52, 0.11), palette[PLATE])
+    return [
+        mirror,
+        mirror.mirrored(),
+        plate.moved(x=0.5 * size.length + 0.004, z=0.285 * size.height),
+        plate.moved(x=-0.5 * size.length - 0.004, z=0.36 * size.height),
+    ]
+
+
+def wheel(size: Dimensions) -> Surface:
+    """A wheel about its own centre, axle along y: tyre with round shoulders and a five-spoked rim on both sides."""
+    r, b = size.wheel_radius, size.wheel_width / 2.0
+    half = [(0.0, 0.72 * b), (0.16 * r, 0.74 * b), (0.20 * r, 0.62 * b), (0.60 * r, 0.80 * b), (0.64 * r, 0.92 * b), (0.70 * r, 0.97 * b), (0.86 * r, b), (0.96 * r, 0.90 * b), (r, 0.66 * b)]
+    profile = np.array(half + [(radius, -y) for radius, y in half[::-1]])
+    rows = np.array([RIM, RIM, GAP, RIM, TYRE, TYRE, TYRE, TYRE])
+    kinds = np.tile(np.concatenate([rows, [TYRE], rows[::-1]]), (40, 1))
+    # five spokes, each three of eight segments wide
+    spokes = np.arange(40) % 8 < 3
+    kinds[np.ix_(spokes, [2, len(profile) - 4])] = RIM
+    return lathe(profile, kinds, WHEEL_COLOURS)
+
+
+def shadow(size: Dimensions, *, darkness: float = 0.55) -> Surface:
+    """A soft dark patch in the plane z = 0, dark below the car and fading out around it."""
+    rings = [(-0.28, darkness), (-0.10, 0.85 * darkness), (0.08, 0.35 * darkness), (0.28, 0.0)]
+    angle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+    outline = [_rounded(size, angle, grow) for grow, _ in rings]
+    vertices = np.concatenate([*outline, [[0.0, 0.0, 0.0]]])
+    opacity = np.repeat([*(dark for _, dark in rings), darkness], [*(len(angle) for _ in rings), 1])
+    colors = np.column_stack([np.zeros((len(vertices), 3)), opacity])
+    return surface(vertices, _rings_faces(len(rings), len(angle)), colors).moved(x=size.centre)
+
+
+def _rounded(size: Dimensions, angle: np.ndarray, grow: float) -> np.ndarray:
+    # a superellipse of order 5 is a rectangle with round corners
+    c, s = np.cos(angle), np.sin(angle)
+    x = np.sign(c) * np.abs(c) ** 0.4 * (size.length / 2.0 + grow)
+    y = np.sign(s) * np.abs(s) ** 0.4 * (size.width / 2.0 + grow)
+    return np.column_stack([x, y, np.zeros(len(angle))])
+
+
+def _rings_faces(rings: int, count: int) -> np.ndarray:
+    here = np.arange(count)
+    after = (here + 1) % count
+    faces = [np.stack([np.full(count, rings * count), here, after], 1)]
+    for ring in range(rings - 1):
+        inner, outer = ring * count, (ring + 1) * count
+        faces.append(np.stack([inner + here, outer + here, outer + after], 1))
+        faces.append(np.stack([inner + here, outer + after, inner + after], 1))
+    return np.concatenate(faces)
