@@ -1,0 +1,276 @@
+/* Bridge between the studio's page and the viser client in its frame (viser 1.1.1).
+ *
+ * The page posts     {studio: "follow", vehicle: index|null}
+ *                    {studio: "view", preset: "overview"|"top"|"driver"}
+ *                    {studio: "theme", dark: bool}
+ * The bridge posts   {studio: "ready", follow: bool}, {studio: "picked", vehicle: index},
+ *                    {studio: "key", key, code, ctrlKey, metaKey, shiftKey, altKey}
+ *
+ * viser has no public interface for any of this. Everything is looked up before it is used, so that a client
+ * without these internals still shows the scene, only without following, views and theme.
+ */
+(() => {
+  "use strict";
+
+  // The client retries a lost connection only while its own frame has the focus, and the focus is in the page.
+  document.hasFocus = () => true;
+
+  const VEHICLES = "/vehicles/shadows"; // instance i is vehicle i
+  const HIDDEN_BELOW = -100;
+  const CHASE = { distance: 13, polar: 1.28, height: 1.1 };
+  const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
+  const TOP = { distance: 70, polar: 0.02, height: 0 };
+  const YAW_LAG = 0.35; // [s]
+  const KEYS_OF_THE_CAMERA = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Tab"]);
+
+  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false };
+  let ready = false;
+  let shownCity = null;
+  let painted = null;
+
+  const client = () => window.__viserMutable;
+  const tree = () => (window.__viserSceneTree ? window.__viserSceneTree.getState() : {});
+  const tell = (message) => {
+    if (window.parent !== window) window.parent.postMessage(message, location.origin);
+  };
+
+  // ---- vehicles: read where they are drawn, not where the last message put them
+
+  function instances() {
+    const node = client()?.nodeRefFromName?.[VEHICLES];
+    let found = null;
+    node?.traverse((object) => {
+      if (object.matricesTexture) found = object;
+    });
+    return found;
+  }
+
+  function poseOf(index) {
+    const mesh = instances();
+    const data = mesh?.matricesTexture?._data ?? mesh?.matricesTexture?.image?.data;
+    if (!data || index === null || index >= mesh.instancesCount / 2) return null;
+    const m = data.subarray(16 * index, 16 * index + 16);
+    return m[14] < HIDDEN_BELOW ? null : { x: m[12], y: m[13], z: m[14], yaw: Math.atan2(m[1], m[0]) };
+  }
+
+  // ---- three's frame is y-up; the scene's root carries the turn between the two
+
+  function toThree([x, y, z]) {
+    const [w, a, b, c] = tree()[""]?.wxyz ?? [1, 0, 0, 0];
+    const tx = 2 * (b * z - c * y), ty = 2 * (c * x - a * z), tz = 2 * (a * y - b * x);
+    return [x + w * tx + b * tz - c * ty, y + w * ty + c * tx - a * tz, z + w * tz + a * ty - b * tx];
+  }
+
+  // azimuth of camera-controls that looks along a heading of the scene
+  function azimuthBehind(yaw) {
+    const [x, , z] = toThree([-Math.cos(yaw), -Math.sin(yaw), 0]);
+    return Math.atan2(x, z);
+  }
+
+  const turn = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
+
+  // ---- following
+
+  function lookedAt(pose) {
+    const { forward = 0, left = 0, height } = view.mode;
+    const c = Math.cos(pose.yaw), s = Math.sin(pose.yaw);
+    return toThree([pose.x + c * forward - s * left, pose.y + s * forward + c * left, pose.z + height]);
+  }
+
+  function follow(vehicle) {
+    view.vehicle = Number.isInteger(vehicle) ? vehicle : null;
+    view.fresh = true;
+    if (view.vehicle === null && view.mode === DRIVER) view.mode = CHASE;
+    client()?.requestRender?.();
+  }
+
+  // Called when a frame is about to be drawn: the camera goes exactly as far as the vehicle has gone.
+  function beforeDrawing() {
+    const controls = client()?.cameraControl, camera = client()?.camera;
+    if (!controls || !camera) return;
+    adaptNear(camera);
+    const pose = view.vehicle === null ? null : poseOf(view.vehicle);
+    if (!pose) return;
+    const now = performance.now() / 1000;
+    const target = lookedAt(pose);
+    if (view.fresh) return start(controls, pose, target, now);
+    const [dx, dy, dz] = target.map((value, i) => value - view.target[i]);
+    if (dx * dx + dy * dy + dz * dz > 100 * 100) return start(controls, pose, target, now);
+    camera.position.set(camera.position.x + dx, camera.position.y + dy, camera.position.z + dz);
+    camera.updateMatrixWorld();
+    controls.moveTo(...target, false);
+    swing(controls, pose, now);
+    view.target = target;
+  }
+
+  function start(controls, pose, target, now) {
+    const azimuth = view.mode === TOP ? controls.azimuthAngle : azimuthBehind(pose.yaw);
+    controls.moveTo(...target, false);
+    controls.rotateTo(controls.azimuthAngle + turn(azimuth - controls.azimuthAngle), view.mode.polar, false);
+    controls.dollyTo(view.mode.distance, false);
+    Object.assign(view, { fresh: false, target, yaw: pose.yaw, time: now });
+  }
+
+  // the camera comes round behind the vehicle a little later, and keeps what the user has turned it by
+  function swing(controls, pose, now) {
+    const share = view.mode === DRIVER ? 1 : 1 - Math.exp(-Math.min(now - view.time, 0.1) / YAW_LAG);
+    view.time = now;
+    if (view.mode === TOP) return;
+    const step = turn(pose.yaw - view.yaw) * share;
+    view.yaw += step;
+    if (Math.abs(step) > 1e-6) controls.rotate(step, 0, false);
+  }
+
+  // A far near plane keeps the thin layers of the street apart from high above, a close one shows the bonnet.
+  function adaptNear(camera) {
+    const near = Math.min(4, Math.max(0.15, camera.position.y * 0.04));
+    if (Math.abs(near - camera.near) < 0.1 * camera.near) return;
+    camera.near = near;
+    camera.updateProjectionMatrix();
+  }
+
+  function show(preset) {
+    if (preset === "overview") {
+      follow(null);
+      client()?.resetCameraPose?.(true);
+    } else if (preset === "driver" || preset === "chase") {
+      view.mode = preset === "driver" ? DRIVER : CHASE;
+      follow(view.vehicle ?? 0);
+    } else if (preset === "top") {
+      fromAbove();
+    }
+  }
+
+  function fromAbove() {
+    view.mode = TOP;
+    view.fresh = true;
+    const controls = client()?.cameraControl;
+    if (view.vehicle === null) controls?.rotateTo(controls.azimuthAngle, TOP.polar, true);
+    client()?.requestRender?.();
+  }
+
+  // ---- theme: dusk instead of day
+
+  function paint() {
+    const scene = client()?.scene;
+    if (!scene) return;
+    const sky = client().nodeRefFromName["/city/sky"];
+    sky?.traverse((object) => object.material && paintSky(object.material));
+    scene.traverse((object) => {
+      if (object.isLight) dim(object);
+    });
+    if (scene.fog) tint(scene.fog);
+    client().requestRender?.();
+  }
+
+  function paintSky(material) {
+    // the dome lies beyond the haze and must not vanish in it; its colours are meant as they are
+    if (material.fog || material.toneMapped) Object.assign(material, { fog: false, toneMapped: false, needsUpdate: true });
+    material.color.setRGB(...(view.dark ? [0.05, 0.075, 0.13] : [1, 1, 1]));
+  }
+
+  function dim(light) {
+    light.userData.day ??= light.intensity;
+    light.intensity = light.userData.day * (view.dark ? 0.34 : 1);
+  }
+
+  function tint(fog) {
+    fog.day ??= fog.color.clone();
+    fog.color.copy(fog.day);
+    if (view.dark) fog.color.setRGB(fog.day.r * 0.05, fog.day.g * 0.075, fog.day.b * 0.13);
+  }
+
+  // ---- picking: the vehicle whose middle is seen nearest to the pointer, measured by its size in the picture
+
+  function pick(event) {
+    const camera = client()?.camera, canvas = client()?.canvas;
+    const mesh = instances();
+    if (!camera || !canvas || !mesh) return;
+    const box = canvas.getBoundingClientRect();
+    let best = null, nearest = 1;
+    for (let i = 0; i < mesh.instancesCount / 2; i++) {
+      const pose = poseOf(i);
+      if (!pose) continue;
+      const middle = camera.position.clone().set(...toThree([pose.x, pose.y, pose.z + 0.7]));
+      const size = Math.max(14, (2.3 * box.height) / (2 * Math.tan((camera.fov * Math.PI) / 360) * camera.position.distanceTo(middle)));
+      const at = middle.project(camera);
+      if (at.z < -1 || at.z > 1) continue;
+      const away = Math.hypot(box.left + ((at.x + 1) / 2) * box.width - event.clientX, box.top + ((1 - at.y) / 2) * box.height - event.clientY);
+      if (away < size && away / size < nearest) [best, nearest] = [i, away / size];
+    }
+    if (best !== null) tell({ studio: "picked", vehicle: best });
+  }
+
+  function listenToPointer() {
+    let down = null;
+    window.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY, event.button]), true);
+    window.addEventListener("pointerup", (event) => {
+      const still = down && down[2] === 0 && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 5;
+      if (still && event.target instanceof HTMLCanvasElement) pick(event);
+      down = null;
+    }, true);
+  }
+
+  // ---- keys: the page's shortcuts work while the pointer is in the scene
+
+  window.addEventListener("keydown", (event) => {
+    if (KEYS_OF_THE_CAMERA.has(event.code) && !event.ctrlKey && !event.metaKey) return;
+    const { key, code, ctrlKey, metaKey, shiftKey, altKey } = event;
+    tell({ studio: "key", key, code, ctrlKey, metaKey, shiftKey, altKey });
+    event.stopImmediatePropagation();
+    if (key === " " || ((ctrlKey || metaKey) && key.toLowerCase() === "k")) event.preventDefault();
+  }, true);
+
+  window.addEventListener("message", (event) => {
+    if (event.origin !== location.origin || typeof event.data !== "object" || event.data === null) return;
+    const { studio, vehicle, preset, dark } = event.data;
+    if (studio === "follow") {
+      if (view.mode === TOP && vehicle !== null) view.mode = CHASE;
+      follow(vehicle);
+    }
+    if (studio === "view") show(preset);
+    if (studio === "theme") {
+      view.dark = dark === true;
+      paint();
+    }
+  });
+
+  // ---- the client comes up in its own time, and rebuilds its scene when it reconnects
+
+  function hook() {
+    const scene = client()?.scene;
+    if (scene && !scene.userData.studio) {
+      scene.userData.studio = true;
+      scene.onBeforeRender = beforeDrawing;
+    }
+  }
+
+  function watch() {
+    hook();
+    const city = tree()["/city/ground"]?.message ?? null;
+    const sky = client()?.nodeRefFromName?.["/city/sky"];
+    const material = sky && findMaterial(sky);
+    if (material && material !== painted) {
+      painted = material;
+      paint();
+    }
+    if (city !== shownCity && city !== null) {
+      if (shownCity !== null) show("overview");
+      shownCity = city;
+    }
+    if (!ready && client()?.cameraControl && client()?.scene) {
+      ready = true;
+      tell({ studio: "ready", follow: typeof client().cameraControl.moveTo === "function" });
+    }
+  }
+
+  function findMaterial(node) {
+    let found = null;
+    node.traverse((object) => (found ??= object.material));
+    return found;
+  }
+
+  listenToPointer();
+  setInterval(watch, 200);
+  window.__studioBridge = { view, poseOf, toThree, client };
+})();

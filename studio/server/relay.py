@@ -1,0 +1,91 @@
+"""The scene on our own origin: the client's page at /scene/, and its WebSocket relayed to the viser server.
+
+The viser server listens on 127.0.0.1 only and asks nobody who they are; the browser never talks to it directly.
+"""
+
+import asyncio
+from collections.abc import Callable
+
+import websockets
+from fastapi import APIRouter, WebSocket
+from fastapi.responses import HTMLResponse, RedirectResponse
+from starlette.websockets import WebSocketDisconnect, WebSocketState
+from websockets.asyncio.client import ClientConnection
+
+from studio.scene import client
+
+# opens a public tunnel to the viser server: nobody may ask for that
+FORBIDDEN = b"ShareUrlRequest"
+# close codes that mean "no close frame came" must not be sent themselves (RFC 6455, section 7.4.1)
+UNSENDABLE = {1005, 1006, 1015}
+GOING_AWAY, TRY_AGAIN_LATER = 1001, 1013
+
+
+def router(port: Callable[[], int]) -> APIRouter:
+    """Routes of the scene; `port` tells where the viser server listens on 127.0.0.1."""
+    routes = APIRouter(include_in_schema=False)
+
+    @routes.get("/scene")
+    def slash() -> RedirectResponse:
+        return RedirectResponse("/scene/")
+
+    @routes.get("/scene/")
+    def page() -> HTMLResponse:
+        return HTMLResponse(client.page(), headers={"Cache-Control": "no-cache"})
+
+    @routes.websocket("/scene")
+    @routes.websocket("/scene/")
+    async def socket(browser: WebSocket) -> None:
+        await relay(browser, f"ws://127.0.0.1:{port()}")
+
+    return routes
+
+
+async def relay(browser: WebSocket, url: str) -> None:
+    """Join a browser's WebSocket with the one at `url` until either side goes."""
+    try:
+        upstream = await websockets.connect(
+            url, subprotocols=browser.scope["subprotocols"] or None, max_size=None, compression=None, proxy=None
+        )
+    except (OSError, websockets.WebSocketException, TimeoutError):
+        await browser.close(TRY_AGAIN_LATER)
+        return
+    async with upstream:
+        await browser.accept(subprotocol=upstream.subprotocol)
+        await _until_one_ends(_down(upstream, browser), _up(browser, upstream))
+    await _close(browser, upstream.close_code)
+
+
+async def _until_one_ends(*ways) -> None:
+    tasks = [asyncio.ensure_future(way) for way in ways]
+    try:
+        await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _down(upstream: ClientConnection, browser: WebSocket) -> None:
+    async for message in upstream:
+        await (browser.send_bytes(message) if isinstance(message, bytes) else browser.send_text(message))
+
+
+async def _up(browser: WebSocket, upstream: ClientConnection) -> None:
+    while True:
+        message = await browser.receive()
+        if message["type"] == "websocket.disconnect":
+            return
+        data = message.get("bytes") or (message.get("text") or "").encode()
+        if FORBIDDEN not in data:
+            await upstream.send(data)
+
+
+async def _close(browser: WebSocket, code: int | None) -> None:
+    if browser.client_state is WebSocketState.DISCONNECTED:
+        return
+    try:
+        await browser.close(GOING_AWAY if code is None or code in UNSENDABLE else code)
+    except (RuntimeError, WebSocketDisconnect):
+        # the browser went away in the same moment
+        return
