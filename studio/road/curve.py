@@ -1,0 +1,74 @@
+"""Polylines in the plane, float64[2, n]: length, points along them, smoothing."""
+
+import numpy as np
+from scipy.linalg import solveh_banded
+
+
+def stations(points: np.ndarray) -> np.ndarray:
+    """Arc length at every point [m]."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points)))])
+
+
+def length(points: np.ndarray) -> float:
+    """Length of the polyline [m]."""
+    return float(np.hypot(*np.diff(points)).sum())
+
+
+def along(points: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Points at the arc lengths `s` [m]."""
+    own = stations(points)
+    return np.array([np.interp(s, own, points[0]), np.interp(s, own, points[1])])
+
+
+def resampled(points: np.ndarray, spacing: float) -> np.ndarray:
+    """The polyline with points at equal distances of about `spacing` [m], both ends kept."""
+    total = length(points)
+    count = max(2, round(total / spacing) + 1)
+    return along(points, np.linspace(0.0, total, count))
+
+
+def distances(points: np.ndarray, line: np.ndarray) -> np.ndarray:
+    """Distance of each point from the polyline [m]."""
+    start, step = line[:, :-1], np.diff(line)
+    squared = np.maximum((step**2).sum(axis=0), 1e-18)
+    apart = points[:, :, None] - start[:, None, :]
+    fraction = np.clip((apart * step[:, None, :]).sum(axis=0) / squared, 0.0, 1.0)
+    return np.hypot(*(apart - fraction * step[:, None, :])).min(axis=1)
+
+
+def smoothed(points: np.ndarray, *, spacing: float, wavelength: float, corridor: float) -> np.ndarray:
+    """The curve with least change of curvature near evenly spaced points (Whittaker 1923, third differences).
+
+    Waves shorter than `wavelength` [m] are flattened. Where the curve would leave the points by more than `corridor`
+    [m], it is drawn to them harder, until it stays.
+    """
+    stiffness = (wavelength / (2.0 * np.pi * spacing)) ** 6
+    weight = np.ones(points.shape[1])
+    weight[[0, -1]] = 1e6
+    for _ in range(60):
+        curve = whittaker(points, weight, stiffness)
+        excess = np.hypot(*(curve - points)) / corridor
+        if excess.max() <= 1.0:
+            break
+        weight *= np.where(widened(excess, round(wavelength / 4.0 / spacing)) > 0.95, 1.6, 1.0)
+    return curve
+
+
+def widened(values: np.ndarray, reach: int) -> np.ndarray:
+    """The largest of the values within `reach` places on either side."""
+    padded = np.pad(values, reach, mode="edge")
+    return np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
+
+
+def whittaker(points: np.ndarray, weight: np.ndarray, stiffness: float) -> np.ndarray:
+    """Minimises sum w |p - q|² + stiffness sum |third difference of p|²."""
+    n = points.shape[1]
+    if n < 5:
+        return points
+    band = np.zeros((4, n))  # upper form: band[3] is the diagonal
+    third = np.array([-1.0, 3.0, -3.0, 1.0])
+    for a in range(4):
+        for b in range(a, 4):
+            band[3 - (b - a), b : n - 3 + b] += stiffness * third[a] * third[b]
+    band[3] += weight
+    return solveh_banded(band, (weight * points).T).T

@@ -1,0 +1,340 @@
+"""Reads an OpenStreetMap file: checks it, chooses the part to keep, cuts the car ways there.
+
+The file is hostile until proven otherwise: it may be truncated, a bomb, or hold entities. Ways reach kilometres out of
+the box that was asked for, so everything is cut at the box around the mapped core plus `REACH`.
+"""
+
+import gzip
+import math
+import zlib
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+import osmium
+import pyproj
+
+from studio.errors import MapError
+
+FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf"}
+LARGEST = 512 * 2**20  # [B] more than any city district; a bomb ends here
+REACH = 600.0  # [m] how far arms are kept beyond the mapped core
+CAR_WAYS = {
+    *("motorway", "motorway_link", "trunk", "trunk_link", "primary", "primary_link", "secondary", "secondary_link"),
+    *("tertiary", "tertiary_link", "unclassified", "residential", "living_street"),
+}
+# [km/h] where no limit is mapped, the usual one in town for the kind of road; motorways keep netconvert's
+USUAL_LIMIT = {
+    **dict.fromkeys(("trunk", "primary", "secondary", "tertiary"), 50),
+    **dict.fromkeys(("trunk_link", "primary_link", "secondary_link", "tertiary_link", "unclassified"), 50),
+    "residential": 30,
+    "living_street": 10,
+}
+GREEN = {
+    "landuse": {"grass", "meadow", "forest", "village_green", "recreation_ground", "cemetery", "flowerbed"},
+    "leisure": {"park", "garden", "common", "pitch"},
+    "natural": {"wood", "scrub", "grassland", "heath"},
+}
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box in degrees, with the projection to local metres whose origin is its centre."""
+
+    south: float
+    west: float
+    north: float
+    east: float
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Latitude and longitude of the middle [deg]."""
+        return (self.south + self.north) / 2, (self.west + self.east) / 2
+
+    @property
+    def projection(self) -> str:
+        """Transverse Mercator at the centre, scale 1: metres on the ground are metres here, up is north."""
+        latitude, longitude = self.centre
+        return f"+proj=tmerc +lat_0={latitude:.9f} +lon_0={longitude:.9f} +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m"
+
+    def local(self, latitude, longitude) -> np.ndarray:
+        """Positions in local metres, float64[2, n]."""
+        return np.array(pyproj.Proj(self.projection)(longitude, latitude), dtype=float)
+
+    def bounds(self) -> tuple[float, float, float, float]:
+        """The box in local metres: x0, y0, x1, y1."""
+        (x0, x1), (y0, y1) = self.local([self.south, self.north], [self.west, self.east]).tolist()
+        return x0, y0, x1, y1
+
+    def grown(self, metres: float) -> "Box":
+        """The box with a margin on every side [m]."""
+        north = math.degrees(metres / 6_371_000.0)
+        east = north / math.cos(math.radians(self.centre[0]))
+        return Box(self.south - north, self.west - east, self.north + north, self.east + east)
+
+    def around(self, metres: float) -> "Box":
+        """The box about the same centre that reaches `metres` to every side."""
+        latitude, longitude = self.centre
+        return Box(latitude, longitude, latitude, longitude).grown(metres)
+
+
+@dataclass(frozen=True)
+class Way:
+    """A car way: node ids, their positions (longitude, latitude) [deg], tags."""
+
+    id: int
+    nodes: list[int]
+    points: list[tuple[float, float]]
+    tags: dict[str, str]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """An area or building as mapped: rings of (longitude, latitude) [deg], the outer one first, and its tags."""
+
+    rings: list[list[tuple[float, float]]]
+    tags: dict[str, str]
+
+
+@dataclass
+class Survey:
+    """Everything of a file that the studio uses."""
+
+    ways: list[Way] = field(default_factory=list)
+    nodes: dict[int, dict[str, str]] = field(default_factory=dict)
+    restrictions: list[tuple[int, list[tuple[str, int, str]], dict[str, str]]] = field(default_factory=list)
+    shapes: list[Shape] = field(default_factory=list)
+    trees: list[tuple[float, float]] = field(default_factory=list)
+    places: list[tuple[float, float]] = field(default_factory=list)
+    mapped: Box | None = None
+
+
+# -- the file -------------------------------------------------------------------------------------------------------
+
+
+def file_format(path: Path) -> str:
+    """The format that osmium is to read, from the file's ending."""
+    for ending, name in FORMATS.items():
+        if path.name.lower().endswith(ending):
+            return name
+    raise MapError(f"{path}: not a kind of map that can be read; allowed: {', '.join(FORMATS)}")
+
+
+def read(path: Path) -> bytes:
+    """The map as OSM XML or PBF, unpacked and checked.
+
+    Raises:
+        MapError: the file is missing, empty, truncated, too large, not XML, or holds entities.
+    """
+    form = file_format(path)
+    try:
+        data = unpack(path)
+    except FileNotFoundError:
+        raise MapError(f"{path}: there is no such map file") from None
+    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
+        raise MapError(f"{path}: the compressed file is damaged ({error}); fetch it again") from None
+    except OSError as error:
+        raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
+    if form == "osm":
+        check_xml(path, data)
+    return data
+
+
+def unpack(path: Path) -> bytes:
+    opener = gzip.open if path.name.lower().endswith(".gz") else open
+    with opener(path, "rb") as file:
+        data = file.read(LARGEST + 1)
+    if len(data) > LARGEST:
+        raise MapError(f"{path}: the map is larger than {LARGEST // 2**20} MiB; cut out a smaller place")
+    return data
+
+
+def check_xml(path: Path, data: bytes) -> None:
+    if not data.strip():
+        raise MapError(f"{path}: the map file is empty")
+    if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
+        raise MapError(f"{path}: this is not an OpenStreetMap XML file")
+    if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
+        raise MapError(f"{path}: XML with a document type or entities is refused; export the map again without them")
+
+
+# -- the survey -----------------------------------------------------------------------------------------------------
+
+
+def survey(path: Path, data: bytes) -> Survey:
+    """Goes once through the map and notes what is used of it."""
+    found = Survey()
+    try:
+        file = osmium.FileProcessor(osmium.io.FileBuffer(data, file_format(path)))
+        found.mapped = mapped_box(file.header.box())
+        tagged = osmium.filter.EmptyTagFilter()
+        for thing in file.with_locations().with_areas().with_filter(tagged):
+            note(found, thing)
+    except RuntimeError as error:
+        raise MapError(f"{path}: the map cannot be read: {error}") from None
+    if not found.ways:
+        raise MapError(f"{path}: there are no roads for cars in this map")
+    return found
+
+
+def mapped_box(box) -> Box | None:
+    if not box.valid():
+        return None
+    return Box(box.bottom_left.lat, box.bottom_left.lon, box.top_right.lat, box.top_right.lon)
+
+
+def note(found: Survey, thing) -> None:
+    if thing.is_node():
+        note_node(found, thing)
+    elif thing.is_way():
+        note_way(found, thing)
+    elif thing.is_area():
+        note_area(found, thing)
+    elif thing.is_relation() and thing.tags.get("type") == "restriction":
+        members = [(member.type, member.ref, member.role) for member in thing.members]
+        found.restrictions.append((thing.id, members, dict(thing.tags)))
+
+
+def note_node(found: Survey, node) -> None:
+    place = (node.lon, node.lat)
+    found.places.append(place)
+    found.nodes[node.id] = dict(node.tags)
+    if node.tags.get("natural") == "tree":
+        found.trees.append(place)
+
+
+def note_way(found: Survey, way) -> None:
+    known = [node for node in way.nodes if node.location.valid()]
+    if not known:
+        return
+    found.places.append((known[0].lon, known[0].lat))
+    if is_car_way(way.tags) and len(known) > 1:
+        points = [(node.lon, node.lat) for node in known]
+        found.ways.append(Way(way.id, [node.ref for node in known], points, dict(way.tags)))
+
+
+def is_car_way(tags) -> bool:
+    return (
+        tags.get("highway") in CAR_WAYS
+        and tags.get("area") != "yes"
+        and tags.get("access") not in ("no", "private")
+        and tags.get("motor_vehicle") not in ("no", "private")
+    )
+
+
+def note_area(found: Survey, area) -> None:
+    if area_kind(area.tags):
+        for ring in area.outer_rings():
+            rings = [ring, *area.inner_rings(ring)]
+            found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags)))
+
+
+def area_kind(tags) -> str:
+    """What a mapped area is here: "building", "part", "green", "water" or "" for what is not drawn."""
+    if tags.get("building:part", "no") != "no":
+        return "part"
+    if tags.get("building", "no") != "no":
+        return "building"
+    if tags.get("natural") == "water" or tags.get("waterway") == "riverbank":
+        return "water"
+    return "green" if any(tags.get(key) in kinds for key, kinds in GREEN.items()) else ""
+
+
+# -- the part to keep -----------------------------------------------------------------------------------------------
+
+
+def clip_box(found: Survey, *, radius: float | None) -> Box:
+    """The box to keep: the mapped core and `REACH`, or `radius` [m] about its centre.
+
+    Without `<bounds>` the core is where 96 % of everything that has a tag lies: a few long ways do not move it.
+    """
+    core = found.mapped or core_box(found.places)
+    return core.grown(REACH) if radius is None else core.around(radius)
+
+
+def core_box(places: list[tuple[float, float]]) -> Box:
+    (west, south), (east, north) = np.percentile(np.array(places), [2, 98], axis=0)
+    return Box(float(south), float(west), float(north), float(east))
+
+
+def cut(way: Way, box: Box, new_id: Iterable[int]) -> list[Way]:
+    """The pieces of a way inside the box; where it crosses the border, a new node ends it."""
+    pieces, nodes, points = [], [], []
+    for i in range(len(way.nodes) - 1):
+        inside = visible(way.points[i], way.points[i + 1], box)
+        if inside is None:
+            continue
+        first, last = inside
+        if not nodes:
+            nodes, points = [way.nodes[i] if first == 0.0 else next(new_id)], [between(way, i, first)]
+        nodes.append(way.nodes[i + 1] if last == 1.0 else next(new_id))
+        points.append(between(way, i, last))
+        if last < 1.0:
+            pieces.append((nodes, points))
+            nodes, points = [], []
+    if nodes:
+        pieces.append((nodes, points))
+    ids = [way.id, *(next(new_id) for _ in pieces[1:])]
+    return [Way(name, nodes, points, way.tags) for name, (nodes, points) in zip(ids, pieces, strict=False)]
+
+
+def visible(a: tuple[float, float], b: tuple[float, float], box: Box) -> tuple[float, float] | None:
+    """The share of the segment a to b that lies in the box, as two fractions (Liang and Barsky 1984)."""
+    first, last = 0.0, 1.0
+    limits = ((box.west, box.east), (box.south, box.north))
+    for start, end, (low, high) in zip(a, b, limits, strict=True):
+        for distance, room in ((start - end, start - low), (end - start, high - start)):
+            if distance == 0.0:
+                if room < 0.0:
+                    return None
+            elif distance < 0.0:
+                first = max(first, room / distance)
+            else:
+                last = min(last, room / distance)
+    return (first, last) if first < last else None
+
+
+def between(way: Way, i: int, fraction: float) -> tuple[float, float]:
+    (lon_a, lat_a), (lon_b, lat_b) = way.points[i], way.points[i + 1]
+    return lon_a + fraction * (lon_b - lon_a), lat_a + fraction * (lat_b - lat_a)
+
+
+# -- the clean file for netconvert ----------------------------------------------------------------------------------
+
+
+def clean_xml(found: Survey, ways: list[Way]) -> str:
+    """OSM XML with nothing but these car ways, their nodes and the turn restrictions among them."""
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', '<osm version="0.6">']
+    places = {node: point for way in ways for node, point in zip(way.nodes, way.points, strict=True)}
+    for node, (longitude, latitude) in places.items():
+        lines += element("node", {"id": node, "lat": f"{latitude:.9f}", "lon": f"{longitude:.9f}", "version": 1},
+                         tags(found.nodes.get(node, {})))  # fmt: skip
+    for way in ways:
+        content = [f'<nd ref="{node}"/>' for node in way.nodes] + tags(way_tags(way))
+        lines += element("way", {"id": way.id, "version": 1}, content)
+    kept = {"w": {way.id for way in ways}, "n": set(places), "r": set()}
+    for name, members, text in found.restrictions:
+        if all(ref in kept[kind] for kind, ref, _ in members):
+            lines += element("relation", {"id": name, "version": 1}, [*map(member, members), *tags(text)])
+    return "\n".join([*lines, "</osm>"])
+
+
+def element(name: str, attributes: dict, content: list[str]) -> list[str]:
+    text = " ".join(f'{key}="{value}"' for key, value in attributes.items())
+    return [f"<{name} {text}>", *content, f"</{name}>"]
+
+
+def tags(of: dict[str, str]) -> list[str]:
+    return [f"<tag k={quoteattr(key)} v={quoteattr(value)}/>" for key, value in of.items()]
+
+
+def member(of: tuple[str, int, str]) -> str:
+    kind, ref, role = of
+    return f'<member type="{ {"n": "node", "w": "way"}[kind] }" ref="{ref}" role={quoteattr(role)}/>'
+
+
+def way_tags(way: Way) -> dict[str, str]:
+    usual = USUAL_LIMIT.get(way.tags["highway"])
+    return way.tags if usual is None or "maxspeed" in way.tags else {**way.tags, "maxspeed": str(usual)}

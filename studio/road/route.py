@@ -1,0 +1,160 @@
+"""Ways through the network: from road to road over its lanes."""
+
+import heapq
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.errors import Problem, RouteError, nearest
+from studio.road.network import Connection, Lane, Network
+
+CHANGE_COST = 25.0  # [m] a lane change is taken only if it saves a detour of this length
+CHANGE_ROOM = 12.0  # [m] of road that one lane change needs at the very least
+CHANGE_EASE = 50.0  # [m] of road on which a lane change is comfortable
+
+
+@dataclass(frozen=True)
+class LanePath:
+    """Lane ids in the order they are driven, with the ways through junctions.
+
+    Two neighbours of the same road in sequence are a lane change within that road.
+    """
+
+    lanes: tuple[int, ...]
+
+    def roads(self, network: Network) -> tuple[str, ...]:
+        """The roads that are passed, without junctions."""
+        passed = [network.lanes[lane] for lane in self.lanes]
+        names = [lane.road for lane in passed if not lane.internal]
+        return tuple(name for i, name in enumerate(names) if i == 0 or names[i - 1] != name)
+
+
+class Arms(NamedTuple):
+    """Roads that lead into the map and out of it, counter-clockwise from east."""
+
+    entries: tuple[str, ...]
+    exits: tuple[str, ...]
+
+
+def arms(network: Network) -> Arms:
+    """The roads at the map's border: entries that nothing leads to, exits that lead to nothing."""
+    ahead = [c for c in network.connections if c.direction != "turn"]
+    fed = {network.lanes[c.to_lane].road for c in ahead}
+    feeding = {network.lanes[c.from_lane].road for c in ahead}
+    roads = [road for road in network.roads.values() if not road.internal]
+    entries = [road.id for road in roads if road.id not in fed]
+    exits = [road.id for road in roads if road.id not in feeding]
+    return Arms(
+        tuple(sorted(entries, key=lambda road: bearing(network, road, 0))),
+        tuple(sorted(exits, key=lambda road: bearing(network, road, -1))),
+    )
+
+
+def bearing(network: Network, road: str, end: int) -> float:
+    x, y = network.lanes_of(road)[0].centre[:, end]
+    return float(np.arctan2(y, x) % (2.0 * np.pi))
+
+
+def all_routes(network: Network) -> tuple[LanePath, ...]:
+    """The cheapest way from every entry to every exit, where there is one."""
+    entries, exits = arms(network)
+    found = []
+    for entry in entries:
+        for end in exits:
+            try:
+                found.append(connect(network, [entry, end]))
+            except RouteError:
+                continue
+    return tuple(found)
+
+
+def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = None) -> LanePath:
+    """The cheapest lanes through `roads` in this order; between two of them any road may be used.
+
+    Args:
+        network: the map.
+        roads: road ids, at least one.
+        start_lane: lane of the first road to start in, 0 at the kerb; left out, the cheapest.
+
+    Raises:
+        RouteError: a road is not on the map, or there is no way from one to the next.
+    """
+    check(network, roads, start_lane)
+    exits = onward(network)
+    lanes = network.roads[roads[0]].lanes
+    starts = lanes if start_lane is None else (lanes[start_lane],)
+    return LanePath(search(network, exits, tuple(roads), starts))
+
+
+def check(network: Network, roads: Sequence[str], start_lane: int | None) -> None:
+    known = [road.id for road in network.roads.values() if not road.internal]
+    if not roads:
+        raise RouteError("a route needs at least one road")
+    unknown = [(i, road) for i, road in enumerate(roads) if road not in known]
+    if unknown:
+        raise RouteError(
+            f"{network.name}: the route names a road that is not on the map",
+            [Problem(f"roads[{i}]", "no such road", repr(road), remedy=nearest(road, known)) for i, road in unknown],
+        )
+    count = len(network.roads[roads[0]].lanes)
+    if start_lane is not None and start_lane not in range(count):
+        raise RouteError(
+            f"{network.name}: the route cannot start there",
+            [Problem("start_lane", f"no such lane of road {roads[0]!r}", repr(start_lane), f"0 to {count - 1}")],
+        )
+
+
+def onward(network: Network) -> dict[int, list[Connection]]:
+    """The connections that leave each lane."""
+    exits = defaultdict(list)
+    for connection in network.connections:
+        exits[connection.from_lane].append(connection)
+    return exits
+
+
+def search(network: Network, exits, roads: tuple[str, ...], starts: Sequence[int]) -> tuple[int, ...]:
+    """Dijkstra over (lane entered, number of `roads` reached); a road is left by one of its lanes at a price."""
+    waiting = [(0.0, lane, 1, (lane,)) for lane in starts]
+    done, farthest = set(), 1
+    while waiting:
+        cost, lane, reached, lanes = heapq.heappop(waiting)
+        farthest = max(farthest, reached)
+        if reached == len(roads):
+            return lanes
+        if (lane, reached) in done:
+            continue
+        done.add((lane, reached))
+        for price, changed in changes(network, network.lanes[lane]):
+            for connection in exits[changed[-1]]:
+                through = sum(network.lanes[via].length for via in connection.via)
+                further = reached + (network.lanes[connection.to_lane].road == roads[reached])
+                path = (*lanes, *changed[1:], *connection.via, connection.to_lane)
+                heapq.heappush(waiting, (cost + price + through, connection.to_lane, further, path))
+    raise no_way(network, roads, farthest)
+
+
+def changes(network: Network, lane: Lane) -> list[tuple[float, tuple[int, ...]]]:
+    """How the road may be left that was entered on `lane`: the price [m] and the lanes used, from this one on."""
+    lanes = network.roads[lane.road].lanes
+    ways = [(lane.length, (lane.id,))]
+    for side in (-1, 1):
+        used, index = (lane.id,), lane.index + side
+        while 0 <= index < len(lanes) and len(used) * CHANGE_ROOM <= lane.length:
+            hurry = 1.0 + (len(used) * CHANGE_EASE / lane.length) ** 2
+            ways.append((lane.length + CHANGE_COST * len(used) * hurry, used := (*used, lanes[index])))
+            index += side
+    return ways
+
+
+def no_way(network: Network, roads: tuple[str, ...], reached: int) -> RouteError:
+    start, end = roads[reached - 1], roads[reached]
+    exits = onward(network)
+    following = {network.lanes[c.to_lane].road for lane in network.roads[start].lanes for c in exits[lane]}
+    remedy = f"after {start!r} come: {', '.join(sorted(following))}" if following else f"{start!r} leads out of the map"
+    return RouteError(
+        f"{network.name}: there is no way from road {start!r} to road {end!r}",
+        [Problem(f"roads[{reached}]", "cannot be reached from the road before it", repr(end), remedy=remedy)],
+    )
