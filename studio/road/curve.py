@@ -3,6 +3,8 @@
 import numpy as np
 from scipy.linalg import solveh_banded
 
+BESIDE = 0.5  # [m]
+
 
 def stations(points: np.ndarray) -> np.ndarray:
     """Arc length at every point [m]."""
@@ -36,14 +38,30 @@ def distances(points: np.ndarray, line: np.ndarray) -> np.ndarray:
     return np.hypot(*(apart - fraction * step[:, None, :])).min(axis=1)
 
 
-def smoothed(points: np.ndarray, *, spacing: float, wavelength: float, corridor: float) -> np.ndarray:
+def forward(points: np.ndarray) -> list[int]:
+    """Indices of the points that are left when the polyline no longer doubles back on itself."""
+    kept: list[int] = []
+    for i, point in enumerate(points.T):
+        while len(kept) > 1 and doubles_back(points[:, kept[-2]], points[:, kept[-1]], point):
+            kept.pop()
+        kept.append(i)
+    return kept
+
+
+def doubles_back(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> bool:
+    """Whether c lies back beside the line from a to b; a turning loop, which leads away from it, does not count."""
+    (t_x, t_y), (d_x, d_y) = b - a, c - b
+    return t_x * d_x + t_y * d_y < 0.0 and abs(t_x * d_y - t_y * d_x) < BESIDE * np.hypot(t_x, t_y)
+
+
+def smoothed(points: np.ndarray, *, spacing: float, wavelength: float, corridor: np.ndarray) -> np.ndarray:
     """The curve with least change of curvature near evenly spaced points (Whittaker 1923, third differences).
 
-    Waves shorter than `wavelength` [m] are flattened. Where the curve would leave the points by more than `corridor`
-    [m], it is drawn to them harder, until it stays.
+    Waves shorter than `wavelength` [m] are flattened. Where the curve would leave a point by more than its `corridor`
+    [m], it is drawn to it harder, until it stays.
     """
     stiffness = (wavelength / (2.0 * np.pi * spacing)) ** 6
-    weight = np.ones(points.shape[1])
+    weight = (corridor.min() / corridor) ** 2
     weight[[0, -1]] = 1e6
     for _ in range(60):
         curve = whittaker(points, weight, stiffness)

@@ -4,7 +4,7 @@ Lane centre lines have corners where netconvert joins its pieces. A path follows
 changes over the length the road gives, and smooths the whole so that curvature changes steadily.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -18,9 +18,12 @@ PATH_X, PATH_Y, PATH_HEADING, PATH_CURVATURE, PATH_SPEED = range(5)
 PATH_ROWS = 5
 
 GRAIN = 0.25  # [m] spacing of the curve while it is made
-CORRIDOR = 0.27  # [m] how far smoothing may leave the centre line
+CORRIDOR = 0.27  # [m] how far smoothing may leave the centre line on a road
+JUNCTION_CORRIDOR = 0.8  # [m] in a junction, where the centre line is a guess
+CHANGE_CORRIDOR = 0.8  # [m] in a lane change
 WAVELENGTH = 24.0  # [m] shorter waves are corners of the map, not bends of the road
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
+MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
 
@@ -48,20 +51,32 @@ class Path:
         return (self.points.shape[1] - 1) * PATH_SPACING
 
 
+@dataclass(frozen=True, eq=False)
+class Mark:
+    """A place on the rough line, and its arc length there [m]."""
+
+    place: np.ndarray
+    s: float
+
+
 @dataclass
 class Draft:
-    """The rough line while it is put together: pieces, and what happens at which arc length [m]."""
+    """The rough line while it is put together: pieces, where each starts, how far it may be left [m], its limit [m/s]."""
 
-    pieces: list[np.ndarray]
-    limits: list[tuple[float, float]]
-    stop_lines: list[tuple[float, int]]
-    stations: list[Station]
+    pieces: list[np.ndarray] = field(default_factory=list)
+    starts: list[Mark] = field(default_factory=list)
+    corridors: list[float] = field(default_factory=list)
+    limits: list[float] = field(default_factory=list)
+    stop_lines: list[tuple[Mark, int]] = field(default_factory=list)
+    stations: list[tuple[Mark, Lane]] = field(default_factory=list)
     s: float = 0.0
 
-    def add(self, piece: np.ndarray, speed: float) -> None:
-        """Goes on along `piece`, where `speed` [m/s] is allowed."""
+    def add(self, piece: np.ndarray, corridor: float, limit: float) -> None:
+        """Goes on along `piece`."""
+        self.starts.append(Mark(piece[:, 0], self.s))
         self.pieces.append(piece)
-        self.limits.append((self.s, speed))
+        self.corridors.append(corridor)
+        self.limits.append(limit)
         self.s += curve.length(piece)
 
 
@@ -75,15 +90,18 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
         deceleration: what PATH_SPEED needs before slower places [m/s²].
     """
     draft = drafted(network, lane_path)
-    rough = joined(draft.pieces)
-    fine = curve.resampled(rough, GRAIN)
-    spacing = curve.length(fine) / (fine.shape[1] - 1)
-    fine = curve.smoothed(fine, spacing=spacing, wavelength=WAVELENGTH, corridor=CORRIDOR)
-    points = sampled(fine)
-    limit = limits(draft, points.shape[1])
+    points = sampled(smooth(draft))
+    limit = limits(draft, points)
     points[PATH_SPEED] = speeds(points[PATH_CURVATURE], limit, lateral_acceleration, deceleration)
-    stations = tuple(station for station in draft.stations if station.s <= points.shape[1] - 1)
-    return Path(points, tuple(draft.stop_lines), stations)
+    stops = located(points, [mark for mark, _ in draft.stop_lines])
+    starts = located(points, [mark for mark, _ in draft.stations])
+    return Path(
+        points=points,
+        stop_lines=tuple((s, link) for s, (_, link) in zip(stops, draft.stop_lines, strict=True)),
+        stations=tuple(
+            Station(lane.road, lane.index, s) for s, (_, lane) in zip(starts, draft.stations, strict=True)
+        ),
+    )
 
 
 # -- the rough line -------------------------------------------------------------------------------------------------
@@ -91,19 +109,20 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
 
 def drafted(network: Network, lane_path: LanePath) -> Draft:
     """Lane by lane the centre lines, with lane changes blended in."""
-    draft = Draft([], [], [], [])
+    draft = Draft()
     link = {c.from_lane: c.link for c in network.connections}
     for used in stretches(network, lane_path):
-        if used[0].internal:
-            draft.add(used[0].centre, used[0].speed)
+        last = used[-1]
+        if last.internal:
+            draft.add(last.centre, JUNCTION_CORRIDOR, last.speed)
             continue
-        start, line = draft.s, blended(used)
-        draft.stations += [
-            Station(used[0].road, lane.index, start + curve.length(line) * i / len(used)) for i, lane in enumerate(used)
-        ]
-        draft.add(line, min(lane.speed for lane in used))
-        if link.get(used[-1].id, -1) >= 0:
-            draft.stop_lines.append((draft.s, link[used[-1].id]))
+        line = blended(used)
+        for i, lane in enumerate(used):
+            at = i * line.shape[1] // len(used)
+            draft.stations.append((Mark(line[:, at], draft.s + curve.length(line[:, : at + 1])), lane))
+        draft.add(line, CORRIDOR if len(used) == 1 else CHANGE_CORRIDOR, min(lane.speed for lane in used))
+        if link.get(last.id, -1) >= 0:
+            draft.stop_lines.append((Mark(line[:, -1], draft.s), link[last.id]))
     return draft
 
 
@@ -139,15 +158,28 @@ def ease(u: np.ndarray) -> np.ndarray:
     return u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
 
 
-def joined(pieces: list[np.ndarray]) -> np.ndarray:
-    """One polyline; where a piece starts on the end of the one before, the point is kept once."""
-    points = np.concatenate(pieces, axis=1)
-    keep = np.ones(points.shape[1], dtype=bool)
-    keep[1:] = np.hypot(*np.diff(points)) > 1e-3
-    return points[:, keep]
+def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
+    """One polyline of all pieces that never turns back, and how far it may be left at each point [m].
+
+    netconvert lets short ways through a junction run backwards where a signal stands close before it.
+    """
+    points = np.concatenate(draft.pieces, axis=1)
+    corridor = np.repeat(draft.corridors, [piece.shape[1] for piece in draft.pieces])
+    fresh = np.flatnonzero(np.append(1.0, np.hypot(*np.diff(points))) > 1e-3)
+    kept = fresh[curve.forward(points[:, fresh])]
+    return points[:, kept], corridor[kept]
 
 
 # -- the smooth line ------------------------------------------------------------------------------------------------
+
+
+def smooth(draft: Draft) -> np.ndarray:
+    """The fine curve of a draft, a point every `GRAIN` metres."""
+    rough, corridor = joined(draft)
+    own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
+    s = np.linspace(0.0, own[-1], fine.shape[1])
+    corridor = np.interp(s, own, corridor)
+    return curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
 
 
 def sampled(fine: np.ndarray) -> np.ndarray:
@@ -162,11 +194,24 @@ def sampled(fine: np.ndarray) -> np.ndarray:
     return points
 
 
-def limits(draft: Draft, count: int) -> np.ndarray:
+def located(points: np.ndarray, marks: list[Mark]) -> list[float]:
+    """Arc lengths of marks on the finished path [m], in order: each is looked for where the one before leads."""
+    found, shift = [], 0.0
+    for mark in marks:
+        guess = mark.s + shift
+        low, high = np.clip([guess - MARK_REACH, guess + MARK_REACH], 0, points.shape[1] - 1).astype(int)
+        near = low + np.hypot(*(points[:2, low : high + 1] - mark.place[:, None])).argmin()
+        s, _ = project(points, 0, points.shape[1], mark.place[0], mark.place[1], float(near))
+        found.append(max(float(s), found[-1] if found else 0.0))
+        shift = found[-1] - mark.s
+    return found
+
+
+def limits(draft: Draft, points: np.ndarray) -> np.ndarray:
     """What is allowed at every point [m/s]."""
-    starts, speed = np.array(draft.limits).T
-    at = np.arange(count) * PATH_SPACING
-    return speed[np.clip(np.searchsorted(starts, at, side="right") - 1, 0, None)]
+    starts = np.array(located(points, draft.starts))
+    at = np.arange(points.shape[1]) * PATH_SPACING
+    return np.array(draft.limits)[np.clip(np.searchsorted(starts, at, side="right") - 1, 0, None)]
 
 
 def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float) -> np.ndarray:
