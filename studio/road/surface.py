@@ -1,0 +1,228 @@
+"""The place as triangles: road, markings, buildings, their shadows, ground.
+
+Flat things lie in layers that are far enough apart not to flicker when seen from afar.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import mapbox_earcut
+import numpy as np
+import shapely
+
+from studio.road import curve
+from studio.road.network import Building, Lane, Network
+from studio.road.scenery import polygons
+
+GROUND, GREEN, WATER, ROAD, MARKING, SHADOW = -0.18, -0.12, -0.06, 0.0, 0.06, 0.12  # [m] heights of the layers
+SUN = (-0.45, -0.35, -0.82)  # the direction its light goes: from the north-east, 55° high, so that fronts are lit
+GROUND_MARGIN = 400.0  # [m] of ground around the map
+LINE_WIDTH = 0.12  # [m] of lane markings in town (RMS: 0.12)
+DASH, DASH_PERIOD = 3.0, 9.0  # [m] a lead line in town: 3 m line, 6 m gap (RMS)
+STOP_LINE_WIDTH = 0.5  # [m] (RMS: 0.50)
+EDGE_INSET = 0.1  # [m] of the edge line from the lane's edge
+SEAM = 0.15  # [m] gaps narrower than twice this between lanes and junctions are closed
+LONGEST_SHADOW = 120.0  # [m]
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles: vertices float32[n, 3] [m], faces uint32[m, 3], counter-clockwise seen from outside."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+
+
+def empty() -> Mesh:
+    """No triangles."""
+    return Mesh(np.empty((0, 3), np.float32), np.empty((0, 3), np.uint32))
+
+
+def merged(meshes: list[Mesh]) -> Mesh:
+    """All triangles in one mesh."""
+    if not meshes:
+        return empty()
+    start = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
+    faces = [mesh.faces + np.uint32(first) for mesh, first in zip(meshes, start, strict=True)]
+    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
+
+
+def flat(form: shapely.Geometry, z: float, *, up: bool = True) -> Mesh:
+    """A plane shape as triangles at height z [m], facing up or down."""
+    meshes = [triangulated(polygon, z) for polygon in polygons(form)]
+    mesh = merged(meshes)
+    return mesh if up else Mesh(mesh.vertices, mesh.faces[:, ::-1].copy())
+
+
+def triangulated(polygon: shapely.Polygon, z: float) -> Mesh:
+    rings = [np.array(ring.coords)[:-1, :2] for ring in (polygon.exterior, *polygon.interiors)]
+    points = np.concatenate(rings)
+    ends = np.cumsum([len(ring) for ring in rings]).astype(np.uint32)
+    faces = mapbox_earcut.triangulate_float64(points, ends).reshape(-1, 3)
+    vertices = np.column_stack([points, np.full(len(points), z)]).astype(np.float32)
+    return Mesh(vertices, facing_up(points, faces.astype(np.uint32)))
+
+
+def facing_up(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    a, b, c = points[faces[:, 0]], points[faces[:, 1]], points[faces[:, 2]]
+    ab, ac = b - a, c - a
+    clockwise = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] < 0.0
+    faces[clockwise] = faces[clockwise][:, ::-1]
+    return faces
+
+
+# -- road -----------------------------------------------------------------------------------------------------------
+
+
+def road_form(network: Network) -> shapely.Geometry:
+    """The carriageway as one plane shape: lanes and junctions, with the seams between them closed."""
+    lanes = [strip(lane.centre, lane.width) for lane in network.lanes]
+    junctions = [shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions]
+    joined = shapely.union_all([*lanes, *junctions])
+    return joined.buffer(SEAM, join_style="mitre").buffer(-SEAM, join_style="mitre").simplify(0.01)
+
+
+def strip(centre: np.ndarray, width: float) -> shapely.Geometry:
+    return shapely.LineString(centre.T).buffer(width / 2.0, cap_style="flat", join_style="mitre", mitre_limit=2.0)
+
+
+def road_mesh(network: Network) -> Mesh:
+    """The carriageway."""
+    return flat(road_form(network), ROAD)
+
+
+def marking_mesh(network: Network) -> Mesh:
+    """Lines between lanes (dashed), along edges (solid) and stop lines where signals stand."""
+    lines = [line for road in network.roads.values() if not road.internal for line in road_lines(network, road.id)]
+    edges = [edge for road in network.roads.values() if not road.internal for edge in edge_lines(network, road.id)]
+    # where carriageways overlap, or a junction lies over a road's end, an edge line would run across the asphalt
+    edge = shapely.union_all(edges).difference(crossed_ground(network)) if edges else shapely.Polygon()
+    stops = [stop_line(network, link) for link in range(len(network.signals))]
+    return flat(shapely.union_all([*lines, *stops, edge]), MARKING)
+
+
+def crossed_ground(network: Network) -> shapely.Geometry:
+    return shapely.union_all([shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions])
+
+
+def beside(lane: Lane, offset: float) -> shapely.LineString:
+    """The line along a lane, `offset` [m] to the left of its centre."""
+    return shapely.LineString(lane.centre.T).offset_curve(offset, join_style="mitre")
+
+
+def road_lines(network: Network, road: str) -> Iterator[shapely.Geometry]:
+    for lane in network.lanes_of(road)[:-1]:
+        yield from dashes(beside(lane, lane.width / 2.0))
+
+
+def dashes(line: shapely.LineString) -> Iterator[shapely.Geometry]:
+    """Dashes along a line; a line too short for one stays empty."""
+    if line.geom_type != "LineString" or line.is_empty:
+        return
+    points = np.array(line.coords).T
+    for start in np.arange(DASH, line.length - DASH, DASH_PERIOD):
+        own = curve.stations(points)
+        inside = points[:, (start < own) & (own < start + DASH)]
+        ends = curve.along(points, np.array([start, start + DASH]))
+        yield strip(np.column_stack([ends[:, :1], inside, ends[:, 1:]]), LINE_WIDTH)
+
+
+def edge_lines(network: Network, road: str) -> Iterator[shapely.Geometry]:
+    lanes = network.lanes_of(road)
+    for lane, side in ((lanes[0], -1.0), (lanes[-1], 1.0)):
+        line = beside(lane, side * (lane.width / 2.0 - EDGE_INSET))
+        if not line.is_empty:
+            yield line.buffer(LINE_WIDTH / 2.0, cap_style="flat", join_style="mitre")
+
+
+def stop_line(network: Network, link: int) -> shapely.Geometry:
+    """The bar before a signal, across its lane."""
+    signals = network.signals
+    heading, half = signals.link_heading[link], signals.link_width[link] / 2.0
+    forward = np.array([np.cos(heading), np.sin(heading)])
+    middle = np.array([signals.link_x[link], signals.link_y[link]]) - forward * STOP_LINE_WIDTH / 2.0
+    left = np.array([-forward[1], forward[0]]) * half
+    return strip(np.column_stack([middle - left, middle + left]), STOP_LINE_WIDTH)
+
+
+# -- buildings ------------------------------------------------------------------------------------------------------
+
+
+def building_mesh(network: Network) -> Mesh:
+    """Walls and roofs; every face has its own vertices, so that edges stay sharp."""
+    return merged([solid(building) for building in network.scenery.buildings])
+
+
+def building_meshes(network: Network) -> dict[str, Mesh]:
+    """The same by mapped colour ("#rrggbb"); "" holds those without one."""
+    colours = sorted({building.colour for building in network.scenery.buildings})
+    return {
+        colour: merged([solid(b) for b in network.scenery.buildings if b.colour == colour]) for colour in colours
+    }
+
+
+def footprint(building: Building) -> shapely.Polygon:
+    return shapely.Polygon(building.outline.T, [hole.T for hole in building.holes])
+
+
+def solid(building: Building) -> Mesh:
+    roof = flat(footprint(building), building.height)
+    floor = [flat(footprint(building), building.base, up=False)] if building.base > 0.0 else []
+    sides = [walls(ring, building.base, building.height) for ring in (building.outline, *building.holes)]
+    return merged([roof, *floor, *sides])
+
+
+def walls(ring: np.ndarray, base: float, top: float) -> Mesh:
+    """A quad for every edge of a ring; the ring runs counter-clockwise around what is solid."""
+    a, b = ring, np.roll(ring, -1, axis=1)
+    low, high = np.full(ring.shape[1], base), np.full(ring.shape[1], top)
+    corners = [np.vstack([a, low]), np.vstack([b, low]), np.vstack([b, high]), np.vstack([a, high])]
+    vertices = np.stack(corners, axis=2).transpose(1, 2, 0).reshape(-1, 3).astype(np.float32)
+    first = 4 * np.arange(ring.shape[1], dtype=np.uint32)[:, None]
+    return Mesh(vertices, np.concatenate([first + [0, 1, 2], first + [0, 2, 3]]).astype(np.uint32))
+
+
+def shadow_mesh(network: Network, sun: tuple[float, float, float] = SUN) -> Mesh:
+    """The shadows of all buildings on flat ground as one shape, so that none is drawn twice.
+
+    Args:
+        network: the map.
+        sun: the direction that light travels, a unit vector that points down.
+    """
+    footprints = [footprint(building) for building in network.scenery.buildings]
+    casts = [cast(form, building, sun) for form, building in zip(footprints, network.scenery.buildings, strict=True)]
+    standing = [form for form, b in zip(footprints, network.scenery.buildings, strict=True) if b.base == 0.0]
+    return flat(shapely.union_all(casts).difference(shapely.union_all(standing)), SHADOW)
+
+
+def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> shapely.Geometry:
+    """The shadow of a prism: its footprint swept from the underside's shadow to the roof's, edge by edge."""
+    length = np.array([sun[0], sun[1]]) / -sun[2]
+    length *= min(1.0, LONGEST_SHADOW / max(1e-9, building.height * np.hypot(*length)))
+    near, far = building.base * length, building.height * length
+    corners = np.array(form.exterior.coords)
+    swept = [
+        shapely.MultiPoint([a + near, b + near, a + far, b + far]).convex_hull
+        for a, b in zip(corners[:-1], corners[1:], strict=True)
+    ]
+    ends = [shapely.affinity.translate(form, *near), shapely.affinity.translate(form, *far)]
+    return shapely.union_all([*ends, *(quad for quad in swept if quad.area > 0.0)])
+
+
+# -- ground ---------------------------------------------------------------------------------------------------------
+
+
+def ground_mesh(network: Network) -> Mesh:
+    """The plain that the map lies on."""
+    x0, y0, x1, y1 = network.bounds
+    return flat(shapely.box(x0 - GROUND_MARGIN, y0 - GROUND_MARGIN, x1 + GROUND_MARGIN, y1 + GROUND_MARGIN), GROUND)
+
+
+def area_meshes(network: Network) -> dict[str, Mesh]:
+    """Green and water, each as one mesh by its kind; water lies on the green."""
+    return {kind: flat(area_form(network, kind), z) for kind, z in (("green", GREEN), ("water", WATER))}
+
+
+def area_form(network: Network, kind: str) -> shapely.Geometry:
+    areas = [area for area in network.scenery.areas if area.kind == kind]
+    return shapely.union_all([shapely.Polygon(area.outline.T, [hole.T for hole in area.holes]) for area in areas])
