@@ -123,7 +123,7 @@
 
   // A far near plane keeps the thin layers of the street apart from high above, a close one shows the bonnet.
   function adaptNear(camera) {
-    const near = Math.min(4, Math.max(0.15, camera.position.y * 0.04));
+    const near = Math.min(6, Math.max(0.3, camera.position.y * 0.25));
     if (Math.abs(near - camera.near) < 0.1 * camera.near) return;
     camera.near = near;
     camera.updateProjectionMatrix();

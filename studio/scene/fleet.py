@@ -8,7 +8,7 @@ import viser
 
 from studio.scene import pose, vehicle
 from studio.scene.glb import Material, glb
-from studio.scene.layer import SUN
+from studio.scene.light import SUN
 
 BELOW_GROUND = -500.0
 # shadows lie above road, markings and the city's shadow [m]

@@ -7,38 +7,72 @@ from collections.abc import Sequence
 import numpy as np
 import viser
 
-from studio.scene import layer
+from studio.road.network import Network
+from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
+from studio.scene.light import SKY_RADIUS, light
+from studio.scene.signal import Lamps
+
+FIELD_OF_VIEW = np.radians(42.0)
 
 
 class Scene:
-    """Owns a viser server on 127.0.0.1 and what it shows. Every method may be called from any thread."""
+    """Owns a viser server on 127.0.0.1 and what it shows. Every method may be called from any thread.
+
+    Browsers that come later, or come back, get everything that is shown from the server.
+    """
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
-        self._server = viser.ViserServer(host="127.0.0.1", port=_free_port(), verbose=False)
-        # any client may ask for a public tunnel, with or without the button
-        self._server.request_share_url = lambda *args, **options: None
-        self._server.gui.configure_theme(show_logo=False, show_share_button=False)
-        self._server.scene.world_axes.visible = False
+        self._server = _server()
+        self._city: list[viser.SceneNodeHandle] = []
+        self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
-        layer.light(self._server)
-        self._look_from((120.0, -150.0, 110.0), (0.0, 0.0, 0.0))
+        light(self._server)
+        self._look_at(reach=150.0)
 
     @property
     def port(self) -> int:
         """The port of the viser server, for the relay."""
         return self._server.get_port()
 
-    def _look_from(self, position: Sequence[float], target: Sequence[float]) -> None:
-        camera = self._server.initial_camera
-        camera.position, camera.look_at = np.array(position), np.array(target)
-        camera.fov, camera.near, camera.far = np.radians(42.0), 0.5, 7000.0
-
-    def show_layers(self, layers):
+    def show_city(self, network: Network) -> None:
+        """Show this map instead of the one before."""
+        layers = city.layers(network)
         with self._lock, self._server.atomic():
-            for each in layers:
-                layer.show(self._server, each)
+            self._clear_city()
+            self._city = [self._add(layer) for layer in layers]
+            self._city += self._add_trees(network)
+            self._lamps = Lamps(self._server, network) if len(network.signals) else None
+            self._look_at(reach=_reach(network))
+
+    def _clear_city(self) -> None:
+        for node in self._city:
+            node.remove()
+        if self._lamps is not None:
+            self._lamps.remove()
+
+    def _add(self, layer: city.Layer) -> viser.SceneNodeHandle:
+        place = (0.0, 0.0, layer.height)
+        return self._server.scene.add_glb(
+            f"/city/{layer.name}", layer.data, position=place, cast_shadow=False, receive_shadow=False
+        )
+
+    def _add_trees(self, network: Network) -> list[viser.SceneNodeHandle]:
+        spots = tree.places(network)
+        if spots.shape[1] == 0:
+            return []
+        scales, turns = tree.sizes(spots.shape[1])
+        places = np.column_stack([spots.T, np.full(spots.shape[1], city.GREEN)])
+        options = {"batched_scales": scales, "lod": "off", "cast_shadow": False, "receive_shadow": False}
+        trees = self._server.scene.add_batched_glb("/city/trees", city.tree_mesh(), turns, places, **options)
+        return [trees]
+
+    def _look_at(self, *, reach: float) -> None:
+        """The overview: from the south, high enough to see the whole."""
+        camera = self._server.initial_camera
+        camera.position, camera.look_at = np.array([0.28, -0.95, 0.62]) * reach, np.array([0.0, -0.06 * reach, 0.0])
+        camera.fov, camera.near, camera.far = FIELD_OF_VIEW, 0.5, 2.5 * SKY_RADIUS
 
     def show_vehicles(self, looks: Sequence[Look]) -> None:
         """Show these vehicles instead of those before; they stay hidden until the first `update`."""
@@ -51,12 +85,33 @@ class Scene:
         with self._lock:
             self._fleet.move(poses)
 
+    def show_signals(self, states: np.ndarray) -> None:
+        """Light the signals: one of RED, RED_AMBER, GREEN, AMBER per link; quick when nothing has changed."""
+        with self._lock, self._server.atomic():
+            if self._lamps is not None:
+                self._lamps.show(states)
+
     def stop(self) -> None:
-        """Close the viser server."""
+        """Close the viser server; may take some seconds."""
         self._server.stop()
+
+
+def _server() -> viser.ViserServer:
+    server = viser.ViserServer(host="127.0.0.1", port=_free_port(), verbose=False)
+    # any client may ask for a public tunnel, with or without the button
+    server.request_share_url = lambda *args, **options: None
+    server.gui.configure_theme(show_logo=False, show_share_button=False)
+    server.scene.world_axes.visible = False
+    return server
 
 
 def _free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
+
+
+def _reach(network: Network) -> float:
+    """About half the extent of the streets [m], but never so little that one sees nothing."""
+    points = np.concatenate([lane.centre for lane in network.lanes], axis=1)
+    return max(60.0, 0.8 * float(np.percentile(np.hypot(*points), 90)))

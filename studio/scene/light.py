@@ -1,0 +1,44 @@
+"""Light and sky: one sun, an even sky light and haze; no environment map, so that the shading is plain and quick."""
+
+import numpy as np
+import viser
+
+from studio.scene.colour import linear, linear8, rgb8
+from studio.scene.glb import Material, glb
+from studio.scene.shape import Surface, surface
+
+# A morning in summer: direction towards the sun, unit vector in the local east-north-up frame.
+SUN = np.array([0.50, -0.52, 0.69])
+SUN = SUN / np.linalg.norm(SUN)
+
+HAZE = "#c3d4e2"
+HAZE_NEAR, HAZE_FAR = 350.0, 2600.0
+SKY_RADIUS = 3000.0
+# elevation above the horizon [deg] and colour
+SKY = [(-12, HAZE), (0, HAZE), (3, "#bdd1e3"), (8, "#b0cae2"), (16, "#9cbfe0"), (30, "#7fabd8"), (50, "#6496cd"), (90, "#5187c4")]
+
+
+def light(server: viser.ViserServer) -> None:
+    """Light a scene, and put the sky around it."""
+    scene = server.scene
+    scene.configure_environment_map(None)
+    scene.configure_default_lights(False)
+    # a hemisphere light shines from its position: at the origin it would have no direction
+    up = {"position": (0.0, 0.0, 100.0)}
+    scene.add_light_hemisphere("/light/sky", sky_color=rgb8("#dbe8f7"), ground_color=rgb8("#77705f"), intensity=2.1, **up)
+    scene.add_light_directional("/light/sun", color=rgb8("#fff0d8"), intensity=3.0, position=tuple(SUN * 500.0))
+    scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
+    scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
+
+
+def sky(*, radius: float = SKY_RADIUS) -> Surface:
+    """A dome seen from inside, haze at the horizon and blue above."""
+    azimuth = np.linspace(0.0, 2.0 * np.pi, 33)
+    elevation = np.radians([degrees for degrees, _ in SKY])
+    x, y = (np.outer(np.cos(elevation), turn) for turn in (np.cos(azimuth), np.sin(azimuth)))
+    vertices = radius * np.stack([x, y, np.broadcast_to(np.sin(elevation)[:, None], x.shape)], axis=-1)
+    corner = np.arange(x.size).reshape(x.shape)
+    quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], -1).reshape(-1, 4)
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    shades = np.repeat([linear(colour) for _, colour in SKY], len(azimuth), axis=0)
+    return surface(vertices, faces, shades)
