@@ -1,0 +1,137 @@
+/** The socket of a live run, kept open as long as somebody looks at it. */
+
+import { useEffect, useState, useSyncExternalStore } from "react";
+import { isLive, type Status } from "../model/run";
+import { append, noSamples, type Samples } from "../model/samples";
+import type { Pace } from "./types";
+
+export interface LiveEvent {
+  time: number;
+  text: string;
+  vehicle: string | null;
+}
+
+export interface LiveState {
+  run: number;
+  status: Status;
+  time: number;
+  duration_s: number;
+  pace: Pace;
+  real_time_factor: number;
+  tick: number;
+  error: string | null;
+  /** False while the socket is being opened again. */
+  connected: boolean;
+  events: LiveEvent[];
+  /** Grows in place; `version` tells when. */
+  samples: Samples;
+  version: number;
+}
+
+type Message =
+  | ({ type: "state" } & Omit<LiveState, "error" | "connected" | "events" | "samples" | "version">)
+  | ({ type: "samples" } & Samples)
+  | ({ type: "event" } & LiveEvent)
+  | { type: "end"; run: number; status: Status; error: string | null };
+
+const RETRY_MS = 1500;
+
+const fresh = (run: number): LiveState => ({
+  run,
+  status: "starting",
+  time: 0,
+  duration_s: 0,
+  pace: 1,
+  real_time_factor: 0,
+  tick: 0,
+  error: null,
+  connected: true,
+  events: [],
+  samples: noSamples(),
+  version: 0,
+});
+
+/** What one message makes of the state. */
+export function reduce(state: LiveState, message: Message): LiveState {
+  switch (message.type) {
+    case "state": {
+      const { type: _type, ...values } = message;
+      return { ...state, ...values };
+    }
+    case "samples":
+      append(state.samples, message);
+      return { ...state, version: state.version + 1 };
+    case "event": {
+      const { type: _type, ...event } = message;
+      return { ...state, events: [...state.events, event] };
+    }
+    case "end":
+      return { ...state, status: message.status, error: message.error, real_time_factor: 0 };
+    default:
+      return state;
+  }
+}
+
+/** A live run as an external store: one socket, many readers. */
+export class Feed {
+  private state: LiveState;
+  private listeners = new Set<() => void>();
+  private socket: WebSocket | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private closed = false;
+
+  constructor(private readonly run: number) {
+    this.state = fresh(run);
+  }
+
+  read = (): LiveState => this.state;
+
+  subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  open(): void {
+    this.closed = false;
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    const socket = new WebSocket(`${scheme}://${location.host}/api/live/${this.run}/socket`);
+    this.socket = socket;
+    // A new socket gets all samples so far, so the old ones must go.
+    socket.onopen = () => this.set({ ...fresh(this.run), status: this.state.status, version: this.state.version + 1 });
+    socket.onmessage = ({ data }) => this.set(reduce(this.state, JSON.parse(data) as Message));
+    socket.onclose = () => this.lost();
+  }
+
+  close(): void {
+    this.closed = true;
+    clearTimeout(this.timer);
+    this.socket?.close();
+  }
+
+  private lost(): void {
+    if (this.closed || !isLive(this.state.status)) return;
+    this.set({ ...this.state, connected: false });
+    this.timer = setTimeout(() => this.open(), RETRY_MS);
+  }
+
+  private set(state: LiveState): void {
+    this.state = state;
+    for (const listener of this.listeners) listener();
+  }
+}
+
+const nothing = () => () => {};
+
+/** The live state of a run, or undefined when there is none to follow. */
+export function useLive(run: number | undefined): LiveState | undefined {
+  const [feed, setFeed] = useState<Feed>();
+  useEffect(() => {
+    if (run === undefined) return setFeed(undefined);
+    const opened = new Feed(run);
+    opened.open();
+    setFeed(opened);
+    return () => opened.close();
+  }, [run]);
+  const state = useSyncExternalStore(feed?.subscribe ?? nothing, () => feed?.read());
+  return state?.run === run ? state : undefined;
+}

@@ -1,0 +1,174 @@
+/** The frame around every place: head, navigation, theme, keyboard, and notices. */
+
+import { ActionIcon, Alert, Kbd, Modal, Table, Tooltip, useComputedColorScheme, useMantineColorScheme } from "@mantine/core";
+import { Notifications } from "@mantine/notifications";
+import { useQuery } from "@tanstack/react-query";
+import { Link, Outlet, useLocation, useMatch, useNavigate } from "@tanstack/react-router";
+import { useEffect, useState } from "react";
+import { Unreachable } from "../api/client";
+import { heartbeat } from "../api/queries";
+import { StudioPage } from "../features/studio/StudioPage";
+import { Icon, type IconName } from "../ui/Icon";
+import { useShortcuts } from "../ui/shortcut";
+import { rememberScenario } from "./places";
+import classes from "./Shell.module.css";
+
+export function Shell() {
+  const [help, setHelp] = useState(false);
+  const navigate = useNavigate();
+  useShortcuts({
+    "?": () => setHelp(true),
+    "g s": () => navigate({ to: "/" }),
+    "g r": () => navigate({ to: "/runs", search: {} }),
+    "g c": () => navigate({ to: "/compare", search: {} }),
+  });
+  return (
+    <div className={classes.shell}>
+      <Head onHelp={() => setHelp(true)} />
+      <Connection />
+      <main className={classes.main}>
+        <Places />
+      </main>
+      <Keys opened={help} onClose={() => setHelp(false)} />
+      <Notifications position="bottom-right" limit={4} />
+    </div>
+  );
+}
+
+interface StudioPlace {
+  scenario: string;
+  run: number | undefined;
+  from: number | undefined;
+}
+
+/** The studio stays under the other places, so that its scene need not be loaded again. */
+function Places() {
+  const match = useMatch({ from: "/studio/$scenario", shouldThrow: false });
+  const [last, setLast] = useState<StudioPlace>();
+  const scenario = match?.params.scenario;
+  const { run, from } = match?.search ?? {};
+  useEffect(() => {
+    if (scenario === undefined) return;
+    setLast({ scenario, run, from });
+    rememberScenario(scenario);
+  }, [scenario, run, from]);
+  const shown = scenario === undefined ? last : { scenario, run, from };
+  return (
+    <>
+      {shown ? <StudioPage {...shown} active={scenario !== undefined} /> : null}
+      {scenario === undefined ? (
+        <div className={classes.place}>
+          <Outlet />
+        </div>
+      ) : null}
+    </>
+  );
+}
+
+function Head({ onHelp }: { onHelp: () => void }) {
+  return (
+    <header className={classes.head}>
+      <Link to="/" className={classes.brand}>
+        <img src="/favicon.svg" width="22" height="22" alt="" />
+        Cooperative ADAS Studio
+      </Link>
+      <Navigation />
+      <div className={classes.tools}>
+        <ThemeToggle />
+        <Tooltip label="Keyboard (?)">
+          <ActionIcon variant="subtle" color="gray" aria-label="Show the keyboard shortcuts" onClick={onHelp}>
+            <Icon name="help" size={18} />
+          </ActionIcon>
+        </Tooltip>
+      </div>
+    </header>
+  );
+}
+
+function Navigation() {
+  const { pathname } = useLocation();
+  const place = (to: "/" | "/runs" | "/compare", testId: string, label: string) => {
+    const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
+    return (
+      <Link to={to} search={{}} className={classes.nav} data-testid={testId} data-here={here || undefined} aria-current={here ? "page" : undefined}>
+        {label}
+      </Link>
+    );
+  };
+  return (
+    <nav className={classes.navigation} aria-label="Places">
+      {place("/", "nav-studio", "Studio")}
+      {place("/runs", "nav-runs", "Runs")}
+      {place("/compare", "nav-compare", "Compare")}
+    </nav>
+  );
+}
+
+const SCHEMES: Record<string, { icon: IconName; label: string }> = {
+  auto: { icon: "system", label: "Theme: as the system" },
+  light: { icon: "sun", label: "Theme: light" },
+  dark: { icon: "moon", label: "Theme: dark" },
+};
+
+/** First to the other theme than the one seen, then back, then to the system's. */
+function ThemeToggle() {
+  const { colorScheme, setColorScheme } = useMantineColorScheme();
+  const seen = useComputedColorScheme("light");
+  const system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  const next = colorScheme === "auto" ? (seen === "dark" ? "light" : "dark") : seen === system ? "auto" : system;
+  const { icon, label } = SCHEMES[colorScheme] ?? { icon: "system" as const, label: "Theme" };
+  return (
+    <Tooltip label={label}>
+      <ActionIcon variant="subtle" color="gray" data-testid="theme-toggle" data-scheme={colorScheme} aria-label={`${label}. Change to ${next === "auto" ? "the system's" : next}`} onClick={() => setColorScheme(next)}>
+        <Icon name={icon} size={18} />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+/** Says that the server is gone, until it is back. */
+function Connection() {
+  const { error } = useQuery(heartbeat);
+  if (!(error instanceof Unreachable)) return null;
+  return (
+    <Alert color="red" radius={0} py={6} icon={<Icon name="unlinked" />} role="alert" data-testid="connection-lost">
+      The studio server does not answer. Trying again … If it was stopped, start it with <code>studio serve</code>.
+    </Alert>
+  );
+}
+
+const KEYS: [string[], string][] = [
+  [["space"], "Run, pause or resume"],
+  [["."], "Step one tick (20 ms)"],
+  [["/"], "Search parameters, or filter the runs"],
+  [["g", "s"], "Go to the studio"],
+  [["g", "r"], "Go to the runs"],
+  [["g", "c"], "Go to the comparison"],
+  [["↑", "↓"], "Move between rows of the runs"],
+  [["x"], "Select a row to compare"],
+  [["enter"], "Open the run of a row"],
+  [["?"], "Show this"],
+];
+
+function Keys({ opened, onClose }: { opened: boolean; onClose: () => void }) {
+  return (
+    <Modal opened={opened} onClose={onClose} title="Keyboard" size="sm">
+      <Table verticalSpacing={5}>
+        <Table.Tbody>
+          {KEYS.map(([keys, what]) => (
+            <Table.Tr key={what}>
+              <Table.Td w={110}>
+                {keys.map((key) => (
+                  <Kbd key={key} mr={4}>
+                    {key}
+                  </Kbd>
+                ))}
+              </Table.Td>
+              <Table.Td>{what}</Table.Td>
+            </Table.Tr>
+          ))}
+        </Table.Tbody>
+      </Table>
+    </Modal>
+  );
+}

@@ -1,0 +1,163 @@
+/** One quantity over time: a uPlot chart with our own compact legend. */
+
+import { useComputedColorScheme } from "@mantine/core";
+import { useEffect, useRef, useState } from "react";
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { formatNumber, formatTime, withUnit } from "../model/units";
+import classes from "./TimeChart.module.css";
+
+export interface Line {
+  key: string;
+  label: string;
+  color: string;
+  dashed?: boolean;
+  hidden?: boolean;
+}
+
+export type Columns = [number[], ...(number | null | undefined)[][]];
+
+interface Props {
+  title: string;
+  unit: string;
+  lines: readonly Line[];
+  data: Columns;
+  /** Changes whenever `data` has grown in place. */
+  version?: number;
+  /** Charts with the same key share their cursor and zoom. */
+  sync?: string;
+  /** The time axis reaches at least this far [s]. */
+  duration?: number;
+  height?: number;
+}
+
+const INK = {
+  dark: { text: "#a6a7ab", grid: "rgba(255,255,255,0.07)", line: "#5c5f66" },
+  light: { text: "#5c6370", grid: "rgba(0,0,0,0.07)", line: "#adb5bd" },
+};
+const FONT = '11px system-ui, -apple-system, "Segoe UI", sans-serif';
+/** Equal left margins keep stacked charts aligned. */
+const AXIS_WIDTH = 52;
+
+function series({ label, color, dashed, hidden }: Line): uPlot.Series {
+  return {
+    label,
+    stroke: color,
+    width: dashed ? 1.5 : 1.75,
+    show: !hidden,
+    ...(dashed ? { dash: [6, 4] } : {}),
+    points: { show: false },
+    spanGaps: false,
+  };
+}
+
+/** What the chart tells and remembers outside of React's rendering. */
+interface Memory {
+  zoomed: boolean;
+  onCursor: (index: number | null) => void;
+}
+
+function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolean, memory: Memory): Omit<uPlot.Options, "width" | "height"> {
+  const ink = dark ? INK.dark : INK.light;
+  const axis = { stroke: ink.text, font: FONT, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false }, labelFont: FONT, labelSize: 16, labelGap: 0 };
+  return {
+    padding: [8, 12, 0, 0],
+    legend: { show: false },
+    cursor: { ...(sync ? { sync: { key: sync, setSeries: false } } : {}), drag: { x: true, y: false }, points: { size: 6 } },
+    scales: {
+      x: { time: false, range: (_u, low, high) => (memory.zoomed ? [low, high] : [0, Math.max(duration, high ?? 0, 1)]) },
+      y: { range: (_u, low, high) => padded(low, high) },
+    },
+    axes: [
+      { ...axis, size: 24, label: "Time [s]", space: 60 },
+      { ...axis, size: AXIS_WIDTH - 16, label: withUnit(title, unit), space: 28 },
+    ],
+    series: [{ label: "Time" }, ...lines.map(series)],
+    hooks: {
+      setCursor: [(chart) => memory.onCursor(chart.cursor.idx ?? null)],
+      setSelect: [() => { memory.zoomed = true; }],
+      ready: [(chart) => chart.over.addEventListener("dblclick", () => { memory.zoomed = false; }, { capture: true })],
+    },
+  };
+}
+
+/** A little air above and below, and never a range without height. */
+function padded(low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null) return [0, 1];
+  const air = Math.max((high - low) * 0.08, Math.abs(high) * 0.02, 0.05);
+  return [low >= 0 ? Math.max(0, low - air) : low - air, high + air];
+}
+
+/** The newest sample that any line has. */
+function newest(data: Columns): number | null {
+  return data[0].length > 0 ? data[0].length - 1 : null;
+}
+
+/** The value of a column at an index, looking back over places where only the other run has samples. */
+function valueAt(column: Columns[number] | undefined, index: number | null): number | null {
+  if (!column || index === null) return null;
+  for (let i = index; i >= 0 && i > index - 8; i -= 1) if (column[i] !== undefined) return column[i] ?? null;
+  return null;
+}
+
+export function TimeChart(props: Props) {
+  const { lines, data, version, title, unit, height = 180 } = props;
+  const dark = useComputedColorScheme("light") === "dark";
+  const host = useRef<HTMLDivElement>(null);
+  const chart = useRef<uPlot>(undefined);
+  const [cursor, setCursor] = useState<number | null>(null);
+  const memory = useRef<Memory>({ zoomed: false, onCursor: setCursor });
+  const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark]);
+
+  // A chart is rebuilt only when its lines, axes or theme change; samples are set below.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: `shape` stands for all of them
+  useEffect(() => {
+    const element = host.current;
+    if (!element) return;
+    const size = () => ({ width: Math.max(element.clientWidth, 50), height: Math.max(element.clientHeight, 60) });
+    const made = new uPlot({ ...options(props, dark, memory.current), ...size() }, data as uPlot.AlignedData, element);
+    chart.current = made;
+    const observer = new ResizeObserver(() => made.setSize(size()));
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      made.destroy();
+    };
+  }, [shape]);
+
+  useEffect(() => {
+    // New samples must not throw away a zoom made by hand.
+    chart.current?.setData(data as uPlot.AlignedData, !memory.current.zoomed);
+    if (memory.current.zoomed) chart.current?.redraw(true);
+  }, [data, version]);
+
+  const index = cursor ?? newest(data);
+  const time = index === null ? undefined : data[0][index];
+  return (
+    <figure className={classes.figure} aria-label={`${withUnit(title, unit)} over time`}>
+      <figcaption className={classes.legend}>
+        <span className={classes.time}>{time === undefined ? "" : `t = ${formatTime(time)} s`}</span>
+        {lines.map((line, place) =>
+          line.hidden ? null : (
+            <span key={line.key} className={classes.item}>
+              <Stroke color={line.color} dashed={line.dashed === true} />
+              {line.label}
+              <b className={classes.value}>{shown(valueAt(data[place + 1], index))}</b>
+            </span>
+          ),
+        )}
+      </figcaption>
+      <div ref={host} className={classes.plot} style={{ minHeight: height }} />
+    </figure>
+  );
+}
+
+const shown = (value: number | null): string => (value === null ? "–" : formatNumber(Number(value.toFixed(2))));
+
+function Stroke({ color, dashed }: { color: string; dashed: boolean }) {
+  return (
+    <svg width="16" height="8" aria-hidden="true">
+      <line x1="0" y1="4" x2="16" y2="4" stroke={color} strokeWidth="2.5" strokeDasharray={dashed ? "5 3" : undefined} />
+    </svg>
+  );
+}

@@ -1,0 +1,117 @@
+/** The charts of both runs in one: A solid, B dashed, one colour per vehicle, linked cursors. */
+
+import { Checkbox, Group, NativeSelect } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { useMemo, useState } from "react";
+import { run as runQuery, trace } from "../../api/queries";
+import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
+import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { merge } from "../../model/compare";
+import { lineColor } from "../../model/palette";
+import type { Run } from "../../model/run";
+import { words } from "../../model/units";
+import { useDark } from "../../ui/dark";
+import { Empty, Failure, Loading } from "../../ui/State";
+import classes from "./Compare.module.css";
+
+/** Both runs are cut into the same number of points, so that equal durations share their times. */
+const POINTS = 1000;
+
+export function Overlay({ a, b }: { a: Run; b: Run }) {
+  const one = useQuery(runQuery(a.run));
+  const other = useQuery(runQuery(b.run));
+  const [chosen, setChosen] = useState(["speed", "gap"]);
+  const [hidden, setHidden] = useState<string[]>([]);
+  const all = useMemo(
+    () => [...new Set([...(one.data?.channels ?? []), ...(other.data?.channels ?? [])].map(({ name }) => name))],
+    [one.data, other.data],
+  );
+  if (!one.data || !other.data) return <Loading what="the traces" />;
+  if (all.length === 0) return <Empty icon="chart" title="No traces">Neither run recorded anything.</Empty>;
+  return (
+    <section className={classes.card} aria-label="Charts of both runs" data-testid="compare-charts">
+      <Group gap="md" mb={4}>
+        <h2>Over time</h2>
+        <Vehicles all={all} hidden={hidden} onHidden={setHidden} />
+      </Group>
+      <div className={classes.charts}>
+        {chosen.map((name, place) => (
+          // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
+          <div key={place}>
+            <NativeSelect
+              size="xs"
+              w={180}
+              ml={52}
+              aria-label="Quantity of this chart"
+              value={name}
+              onChange={(event) => setChosen(chosen.map((old, index) => (index === place ? event.currentTarget.value : old)))}
+              data={quantitiesOf(all).map((known) => ({ value: known.name, label: `${known.label} [${known.unit}]` }))}
+            />
+            <Both a={a.run} b={b.run} name={name} all={all} hidden={hidden} />
+          </div>
+        ))}
+      </div>
+    </section>
+  );
+}
+
+interface VehiclesProps {
+  all: readonly string[];
+  hidden: readonly string[];
+  onHidden: (hidden: string[]) => void;
+}
+
+/** Which vehicles are drawn. */
+function Vehicles({ all, hidden, onHidden }: VehiclesProps) {
+  const dark = useDark();
+  return vehiclesOf(all).map((vehicle, index) => (
+    <Checkbox
+      key={vehicle}
+      size="xs"
+      color={lineColor(index, dark)}
+      autoContrast
+      label={words(vehicle)}
+      checked={!hidden.includes(vehicle)}
+      onChange={() => onHidden(hidden.includes(vehicle) ? hidden.filter((other) => other !== vehicle) : [...hidden, vehicle])}
+    />
+  ));
+}
+
+interface BothProps {
+  a: number;
+  b: number;
+  name: string;
+  all: readonly string[];
+  hidden: readonly string[];
+}
+
+function Both({ a, b, name, all, hidden }: BothProps) {
+  const dark = useDark();
+  const channels = useMemo(() => channelsOf(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)), [name, all, hidden]);
+  const one = useQuery(trace(a, channels, POINTS));
+  const other = useQuery(trace(b, channels, POINTS));
+  const lines = useMemo<Line[]>(() => linesOf(channels, all, dark), [channels, all, dark]);
+  const data = useMemo<Columns>(() => (one.data && other.data ? merge(one.data, other.data, channels) : [[]]), [one.data, other.data, channels]);
+  const error = one.error ?? other.error;
+  if (error) return <Failure error={error} />;
+  if (channels.length === 0) return <Empty icon="chart" title="Nothing to draw">No shown vehicle has this quantity.</Empty>;
+  if (data.length !== lines.length + 1) return <Loading what="the traces" />;
+  const { label, unit } = quantity(name);
+  return (
+    <div className={classes.chart}>
+      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" />
+    </div>
+  );
+}
+
+/** First all lines of A, then all of B, as `merge` puts them. */
+function linesOf(channels: readonly string[], all: readonly string[], dark: boolean): Line[] {
+  const vehicles = vehiclesOf(all);
+  return (["A", "B"] as const).flatMap((side) =>
+    channels.map((channel) => {
+      const { vehicle } = parts(channel);
+      const color = lineColor(vehicles.indexOf(vehicle), dark);
+      return { key: `${side} ${channel}`, label: `${side} ${words(vehicle)}`, color, dashed: side === "B" };
+    }),
+  );
+}

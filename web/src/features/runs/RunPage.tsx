@@ -1,0 +1,219 @@
+/** Everything about one run, and the way on from it. */
+
+import { Anchor, Button, Code, Group, NativeSelect, Table, Text, Title } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { Link, useNavigate } from "@tanstack/react-router";
+import { type ReactNode, useMemo, useState } from "react";
+import { run as runQuery, runs as runsQuery, trace } from "../../api/queries";
+import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
+import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { lineColor } from "../../model/palette";
+import type { Metric, RunDetail } from "../../model/run";
+import { formatDuration, formatMoment, formatNumber, formatValue, words } from "../../model/units";
+import { useDark } from "../../ui/dark";
+import { Icon } from "../../ui/Icon";
+import { Empty, Failure, Loading } from "../../ui/State";
+import { StatusBadge } from "../../ui/StatusBadge";
+import classes from "./Runs.module.css";
+
+export function RunPage({ run }: { run: number }) {
+  const { data, error, refetch } = useQuery(runQuery(run));
+  if (error && !data) return <Failure error={error} onRetry={() => void refetch()} />;
+  if (!data) return <Loading what={`run #${run}`} />;
+  return <Detail run={data} />;
+}
+
+function Detail({ run }: { run: RunDetail }) {
+  return (
+    <article className={classes.detail} data-testid="run-detail">
+      <header className={classes.detailHead}>
+        <Title order={1} fz="lg">
+          Run #{run.run}
+        </Title>
+        <StatusBadge status={run.status} error={run.error} />
+        <Text c="dimmed" size="sm">
+          {run.scenario}
+        </Text>
+        <Ways run={run} />
+      </header>
+      <div className={classes.column}>
+        {run.error ? (
+          <Card title="Why it failed">
+            <pre className={classes.trace}>{run.error}</pre>
+          </Card>
+        ) : null}
+        <Card title="Metrics">
+          <Metrics metrics={run.metrics} />
+        </Card>
+        <Card title="Parameters that were set">
+          <Parameters run={run} />
+        </Card>
+        <Card title="About this run">
+          <Facts run={run} />
+        </Card>
+      </div>
+      <div className={classes.column}>
+        <Charts run={run} />
+      </div>
+    </article>
+  );
+}
+
+/** What can be done with this run. */
+function Ways({ run }: { run: RunDetail }) {
+  const navigate = useNavigate();
+  return (
+    <Group gap="xs" ml="auto">
+      {run.parent === null ? null : (
+        <Button size="xs" variant="default" leftSection={<Icon name="compare" size={14} />} onClick={() => navigate({ to: "/compare", search: { a: run.parent ?? undefined, b: run.run } })}>
+          Compare with its parent #{run.parent}
+        </Button>
+      )}
+      <Button size="xs" variant="default" leftSection={<Icon name="eye" size={14} />} onClick={() => navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { run: run.run } })}>
+        Open in the studio
+      </Button>
+      <Button size="xs" data-testid="tune" leftSection={<Icon name="branch" size={14} />} onClick={() => navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { from: run.run } })}>
+        Tune from here
+      </Button>
+    </Group>
+  );
+}
+
+function Card({ title, children }: { title: string; children: ReactNode }) {
+  return (
+    <section className={classes.card}>
+      <h2>{title}</h2>
+      {children}
+    </section>
+  );
+}
+
+const GOALS = { higher: "higher is better", lower: "lower is better" };
+
+function Metrics({ metrics }: { metrics: Record<string, Metric> }) {
+  const rows = Object.entries(metrics);
+  if (rows.length === 0) return <Text size="sm" c="dimmed">No metrics: they are computed when a run ends.</Text>;
+  return (
+    <Table verticalSpacing={3} horizontalSpacing={6} fz="sm" data-testid="metrics">
+      <Table.Tbody>
+        {rows.map(([name, { value, unit, goal }]) => (
+          <Table.Tr key={name}>
+            <Table.Td>
+              {words(name)}
+              {goal ? (
+                <Text size="xs" c="dimmed">
+                  {GOALS[goal]}
+                </Text>
+              ) : null}
+            </Table.Td>
+            <Table.Td ta="right" style={{ fontVariantNumeric: "tabular-nums", whiteSpace: "nowrap" }}>
+              <b>{value === null ? "–" : formatNumber(value)}</b>
+            </Table.Td>
+            <Table.Td c="dimmed" style={{ whiteSpace: "nowrap" }}>{unit}</Table.Td>
+          </Table.Tr>
+        ))}
+      </Table.Tbody>
+    </Table>
+  );
+}
+
+function Parameters({ run: { parameters } }: { run: RunDetail }) {
+  const rows = Object.entries(parameters);
+  if (rows.length === 0) return <Text size="sm" c="dimmed">None: the scenario ran as it stands in its file.</Text>;
+  return (
+    <dl className={classes.facts}>
+      {rows.map(([path, value]) => (
+        <Fact key={path} name={path}>
+          <b>{formatValue(value)}</b>
+        </Fact>
+      ))}
+    </dl>
+  );
+}
+
+function Fact({ name, children }: { name: string; children: ReactNode }) {
+  return (
+    <>
+      <dt>{name}</dt>
+      <dd>{children}</dd>
+    </>
+  );
+}
+
+function Facts({ run }: { run: RunDetail }) {
+  const { data: all = [] } = useQuery(runsQuery({ scenario: run.scenario }));
+  const children = all.filter(({ parent }) => parent === run.run).map((child) => child.run);
+  return (
+    <dl className={classes.facts}>
+      <Fact name="Scenario">{run.scenario}</Fact>
+      <Fact name="Parent">{run.parent === null ? "none" : <RunLink run={run.parent} />}</Fact>
+      <Fact name="Children">{children.length === 0 ? "none" : children.map((child) => <RunLink key={child} run={child} />)}</Fact>
+      <Fact name="Seed">{run.seed}</Fact>
+      <Fact name="Created">{formatMoment(run.created)}</Fact>
+      <Fact name="Simulated">{run.sim_time_s === null ? "–" : formatDuration(run.sim_time_s)}</Fact>
+      <Fact name="Took">{run.wall_time_s === null ? "–" : formatDuration(run.wall_time_s)}</Fact>
+      <Fact name="Final state">
+        <Hash text={run.state_hash} />
+      </Fact>
+      <Fact name="Scenario hash">
+        <Hash text={run.scenario_hash} />
+      </Fact>
+      <Fact name="Code version">
+        <Hash text={run.code_version} />
+      </Fact>
+    </dl>
+  );
+}
+
+function RunLink({ run }: { run: number }) {
+  return (
+    <Anchor component={Link} to="/runs/$run" params={{ run: String(run) } as never} size="sm" mr={8}>
+      #{run}
+    </Anchor>
+  );
+}
+
+const Hash = ({ text }: { text: string | null }) => (text ? <Code style={{ overflowWrap: "anywhere" }}>{text}</Code> : "–");
+
+function Charts({ run }: { run: RunDetail }) {
+  const names = useMemo(() => run.channels.map(({ name }) => name), [run.channels]);
+  const quantities = quantitiesOf(names);
+  const [chosen, setChosen] = useState(["speed", "gap"]);
+  if (names.length === 0) return <Empty icon="chart" title="No traces">This run recorded nothing.</Empty>;
+  return chosen.map((name, place) => (
+    // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
+    <section key={place} className={classes.card}>
+      <NativeSelect
+        size="xs"
+        w={180}
+        aria-label="Quantity of this chart"
+        value={name}
+        onChange={(event) => setChosen(chosen.map((old, index) => (index === place ? event.currentTarget.value : old)))}
+        data={quantities.map((known) => ({ value: known.name, label: `${known.label} [${known.unit}]` }))}
+      />
+      <QuantityChart run={run.run} name={name} all={names} />
+    </section>
+  ));
+}
+
+function QuantityChart({ run, name, all }: { run: number; name: string; all: readonly string[] }) {
+  const dark = useDark();
+  const channels = useMemo(() => channelsOf(name, all), [name, all]);
+  const { data, error } = useQuery(trace(run, channels));
+  const lines = useMemo<Line[]>(() => {
+    const vehicles = vehiclesOf(all);
+    return channels.map((channel) => {
+      const { vehicle } = parts(channel);
+      return { key: channel, label: words(vehicle), color: lineColor(vehicles.indexOf(vehicle), dark) };
+    });
+  }, [channels, all, dark]);
+  const columns = useMemo<Columns>(() => (data ? [data.time, ...channels.map((channel) => data.channels[channel]?.values ?? [])] : [[]]), [data, channels]);
+  if (error) return <Failure error={error} />;
+  if (!data) return <Loading what="the trace" />;
+  const { label, unit } = quantity(name);
+  return (
+    <div className={classes.chart}>
+      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" />
+    </div>
+  );
+}

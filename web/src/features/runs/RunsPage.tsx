@@ -1,0 +1,126 @@
+/** All runs in one table: what was set, what came out, and which two to compare. */
+
+import { Badge, Button, Group, Switch, Text, TextInput, Title } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { useNavigate } from "@tanstack/react-router";
+import { useMemo, useRef, useState } from "react";
+import { runs } from "../../api/queries";
+import { countByStatus, type Run } from "../../model/run";
+import { filtered } from "../../model/table";
+import { Icon } from "../../ui/Icon";
+import { useShortcuts } from "../../ui/shortcut";
+import { Empty, Failure, Loading } from "../../ui/State";
+import classes from "./Runs.module.css";
+import { RunsTable } from "./RunsTable";
+
+/** What the address says about the table. */
+export interface RunsView {
+  scenario?: string | undefined;
+  q?: string | undefined;
+  sort?: string | undefined;
+  varying?: boolean | undefined;
+}
+
+interface Props {
+  view: RunsView;
+  onView: (view: RunsView) => void;
+}
+
+export function RunsPage({ view, onView }: Props) {
+  const { data, error, refetch } = useQuery(runs(view.scenario ? { scenario: view.scenario } : {}));
+  if (error && !data) return <Failure error={error} onRetry={() => void refetch()} />;
+  if (!data) return <Loading what="runs" />;
+  if (data.length === 0) return <NoRuns />;
+  return <Listed runs={data} view={view} onView={onView} />;
+}
+
+function NoRuns() {
+  const navigate = useNavigate();
+  return (
+    <Empty icon="table" title="No runs yet" action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}>
+      Every run of a scenario is kept here with its parameters, metrics and traces. Start the first one in the studio.
+    </Empty>
+  );
+}
+
+function Listed({ runs: all, view, onView }: Props & { runs: readonly Run[] }) {
+  const { q = "", scenario } = view;
+  const [selected, setSelected] = useState<number[]>([]);
+  const search = useRef<HTMLInputElement>(null);
+  useShortcuts({ "/": () => search.current?.focus() });
+  // A run chosen for comparison stays in the table whatever the filter says.
+  const shown = useMemo(() => {
+    const hits = new Set(filtered(all, q));
+    return all.filter((run) => hits.has(run) || selected.includes(run.run));
+  }, [all, q, selected]);
+  const toggle = (run: number) =>
+    setSelected(selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-2));
+
+  return (
+    <div className={classes.page}>
+      <Group className={classes.top} gap="sm">
+        <Title order={1} fz="lg">
+          Runs
+        </Title>
+        <Text size="sm" c="dimmed">
+          {shown.length === all.length ? all.length : `${shown.length} of ${all.length}`}
+        </Text>
+        <Counts runs={all} />
+        {scenario ? (
+          <Button size="compact-xs" variant="light" rightSection={<Icon name="close" size={12} />} aria-label={`Show the runs of all scenarios, not only ${scenario}`} onClick={() => onView({ ...view, scenario: undefined })}>
+            {scenario}
+          </Button>
+        ) : null}
+        <Group gap="sm" ml="auto">
+          <Switch size="xs" label="Only columns that vary" checked={view.varying !== false} onChange={(event) => onView({ ...view, varying: event.currentTarget.checked ? undefined : false })} />
+          <TextInput
+            ref={search}
+            size="xs"
+            w={230}
+            placeholder="Filter, e.g. failed or headway=0.9 (/)"
+            aria-label="Filter the runs"
+            leftSection={<Icon name="search" size={14} />}
+            value={q}
+            onChange={(event) => onView({ ...view, q: event.currentTarget.value || undefined })}
+          />
+          <CompareButton selected={selected} />
+        </Group>
+      </Group>
+      {shown.length === 0 ? (
+        <Empty icon="search" title={`No run matches “${q}”`} action={<Button size="xs" variant="default" onClick={() => onView({ ...view, q: undefined })}>Clear the filter</Button>}>
+          The filter looks at the number, scenario, status, error, seed, parent and what was set.
+        </Empty>
+      ) : (
+        <RunsTable runs={shown} all={all} view={view} onView={onView} selected={selected} onToggle={toggle} />
+      )}
+    </div>
+  );
+}
+
+function CompareButton({ selected }: { selected: readonly number[] }) {
+  const navigate = useNavigate();
+  const [a, b] = [...selected].sort((one, other) => one - other);
+  return (
+    <Button
+      size="xs"
+      data-testid="compare-button"
+      leftSection={<Icon name="compare" size={14} />}
+      disabled={selected.length !== 2}
+      onClick={() => navigate({ to: "/compare", search: { a, b } })}
+    >
+      {selected.length === 2 ? `Compare #${a} and #${b}` : "Select two to compare"}
+    </Button>
+  );
+}
+
+function Counts({ runs: all }: { runs: readonly Run[] }) {
+  return (
+    <Group gap={6} data-testid="status-counts">
+      {countByStatus(all).map(([status, count]) => (
+        <Badge key={status} variant="default" size="sm" tt="none">
+          {count} {status}
+        </Badge>
+      ))}
+    </Group>
+  );
+}

@@ -1,0 +1,214 @@
+/** The table itself: grouped headers with units, sorting, and rows drawn only where they are seen. */
+
+import { Checkbox } from "@mantine/core";
+import { columnVisibilityFeature, rowSortingFeature, tableFeatures, useTable, type ColumnDef, type SortingState } from "@tanstack/react-table";
+import { useNavigate } from "@tanstack/react-router";
+import { useVirtualizer } from "@tanstack/react-virtual";
+import { type KeyboardEvent, useMemo, useRef } from "react";
+import type { Json, Run } from "../../model/run";
+import { type Column, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
+import { formatMoment, formatNumber, formatValue, withUnit } from "../../model/units";
+import { Icon } from "../../ui/Icon";
+import { StatusBadge } from "../../ui/StatusBadge";
+import classes from "./Runs.module.css";
+import type { RunsView } from "./RunsPage";
+
+const ROW_HEIGHT = 33;
+
+/** What every run has, whatever was set or measured. */
+const FIXED: Column[] = [
+  { id: "run", group: "run", title: "Run", unit: "", name: "Number of the run", value: ({ run }) => run },
+  { id: "scenario", group: "run", title: "Scenario", unit: "", name: "Scenario", value: ({ scenario }) => scenario },
+  { id: "status", group: "run", title: "Status", unit: "", name: "Status", value: ({ status }) => status },
+  { id: "parent", group: "run", title: "Parent", unit: "", name: "The run it descends from", value: ({ parent }) => parent },
+  { id: "created", group: "run", title: "Created", unit: "", name: "When it was started", value: ({ created }) => created },
+  { id: "seed", group: "run", title: "Seed", unit: "", name: "Seed of the random numbers", value: ({ seed }) => seed },
+  { id: "sim_time", group: "run", title: "Simulated", unit: "s", name: "Simulated time", value: ({ sim_time_s }) => sim_time_s },
+];
+
+/** These say what a row is, so they stay even when all rows agree. */
+const ALWAYS = new Set(["run", "status", "created"]);
+
+const GROUP_TITLES = { run: "Run", parameters: "Parameters that were set", metrics: "Metrics" };
+
+const features = tableFeatures({ rowSortingFeature, columnVisibilityFeature });
+
+interface Props {
+  runs: readonly Run[];
+  /** The runs without the text filter, from which the columns are made. */
+  all: readonly Run[];
+  view: RunsView;
+  onView: (view: RunsView) => void;
+  selected: readonly number[];
+  onToggle: (run: number) => void;
+}
+
+export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props) {
+  const columns = useMemo(() => [...FIXED, ...parameterColumns(all), ...metricColumns(all)], [all]);
+  const sorting = readSort(view.sort);
+  const data = useMemo(() => ordered(runs, columns, sorting[0]), [runs, columns, view.sort]); // biome-ignore lint/correctness/useExhaustiveDependencies: `sorting` is read from `view.sort`
+  const table = useTable({
+    features,
+    data,
+    columns: useMemo(() => grouped(columns), [columns]),
+    getRowId: (run: Run) => String(run.run),
+    manualSorting: true,
+    enableMultiSort: false,
+    state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false) },
+    onSortingChange: (next) => onView({ ...view, sort: writeSort(typeof next === "function" ? next(sorting) : next) }),
+  });
+  const scroller = useRef<HTMLDivElement>(null);
+  const rows = table.getRowModel().rows;
+  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => scroller.current, estimateSize: () => ROW_HEIGHT, overscan: 12 });
+  const items = virtual.getVirtualItems();
+  const above = items[0]?.start ?? 0;
+  const below = virtual.getTotalSize() - (items.at(-1)?.end ?? 0);
+  const width = table.getVisibleLeafColumns().length + 1;
+
+  return (
+    <div ref={scroller} className={classes.scroller}>
+      <table className={classes.table} data-testid="runs-table" aria-rowcount={rows.length + 2}>
+        <thead>
+          {table.getHeaderGroups().map((group, level) => (
+            <tr key={group.id}>
+              <th className={classes.pick} aria-label={level === 0 ? undefined : "Compare"} />
+              {group.headers.map((header) =>
+                level === 0 ? (
+                  <th key={header.id} colSpan={header.colSpan} scope="colgroup" className={classes.group} data-group={header.column.id}>
+                    {String(header.column.columnDef.header ?? "")}
+                  </th>
+                ) : (
+                  <SortHeader key={header.id} column={byId(columns, header.column.id)} sorted={header.column.getIsSorted()} onSort={() => header.column.toggleSorting(undefined)} />
+                ),
+              )}
+            </tr>
+          ))}
+        </thead>
+        <tbody>
+          <Gap height={above} width={width} />
+          {items.map(({ index }) => {
+            const row = rows[index];
+            return row ? (
+              <RunRow
+                key={row.id}
+                run={row.original}
+                columns={row.getVisibleCells().map((cell) => byId(columns, cell.column.id))}
+                selected={selected.includes(row.original.run)}
+                onToggle={() => onToggle(row.original.run)}
+              />
+            ) : null;
+          })}
+          <Gap height={below} width={width} />
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+const byId = (columns: readonly Column[], id: string): Column => columns.find((column) => column.id === id) as Column;
+
+/** Room for the rows that are not drawn. */
+function Gap({ height, width }: { height: number; width: number }) {
+  return height > 0 ? (
+    <tr aria-hidden="true">
+      <td colSpan={width} style={{ height, padding: 0, border: 0 }} />
+    </tr>
+  ) : null;
+}
+
+function grouped(columns: readonly Column[]): ColumnDef<typeof features, Run>[] {
+  const groups = (["run", "parameters", "metrics"] as const).map((group) => ({
+    id: group,
+    header: GROUP_TITLES[group],
+    columns: columns.filter((column) => column.group === group).map(({ id, title, value }) => ({ id, header: title, accessorFn: (run: Run) => value(run) ?? undefined })),
+  }));
+  return groups.filter(({ columns: own }) => own.length > 0);
+}
+
+function visibility(columns: readonly Column[], runs: readonly Run[], varyingOnly: boolean): Record<string, boolean> {
+  return Object.fromEntries(columns.map((column) => [column.id, ALWAYS.has(column.id) || !varyingOnly || runs.length < 2 || varies(column, runs)]));
+}
+
+/** `-metric:minimum_gap` in the address is that column, falling. */
+function readSort(sort: string | undefined): SortingState {
+  if (!sort) return [];
+  return sort.startsWith("-") ? [{ id: sort.slice(1), desc: true }] : [{ id: sort, desc: false }];
+}
+
+const writeSort = ([first]: SortingState): string | undefined => (first ? `${first.desc ? "-" : ""}${first.id}` : undefined);
+
+function ordered(runs: readonly Run[], columns: readonly Column[], sort: SortingState[number] | undefined): Run[] {
+  const column = columns.find(({ id }) => id === sort?.id);
+  return column && sort ? sorted(runs, column.value, sort.desc) : [...runs];
+}
+
+interface HeaderProps {
+  column: Column;
+  sorted: false | "asc" | "desc";
+  onSort: () => void;
+}
+
+const ARIA_SORT = { asc: "ascending", desc: "descending" } as const;
+
+function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
+  return (
+    <th scope="col" title={column.name} data-numeric={isNumeric(column) || undefined} aria-sort={direction ? ARIA_SORT[direction] : "none"}>
+      <button type="button" className={classes.sort} onClick={onSort}>
+        {withUnit(column.title, column.unit)}
+        {direction ? <Icon name={direction === "asc" ? "up" : "down"} size={12} /> : null}
+      </button>
+    </th>
+  );
+}
+
+const isNumeric = ({ id, group }: Column): boolean => group === "metrics" || id === "seed" || id === "sim_time";
+
+interface RowProps {
+  run: Run;
+  columns: readonly Column[];
+  selected: boolean;
+  onToggle: () => void;
+}
+
+function RunRow({ run, columns, selected, onToggle }: RowProps) {
+  const navigate = useNavigate();
+  const open = () => navigate({ to: "/runs/$run", params: { run: String(run.run) } });
+  const onKey = (event: KeyboardEvent) => {
+    if (event.key === "Enter" && event.target === event.currentTarget) open();
+    if (event.key === "x" && event.target === event.currentTarget) onToggle();
+    if (event.key === "ArrowDown") (event.currentTarget.nextElementSibling as HTMLElement | null)?.focus();
+    if (event.key === "ArrowUp") (event.currentTarget.previousElementSibling as HTMLElement | null)?.focus();
+  };
+  return (
+    <tr tabIndex={0} data-run={run.run} data-selected={selected || undefined} onClick={open} onKeyDown={onKey}>
+      {/* Picking a run is not opening it. */}
+      <td className={classes.pick} onClick={(event) => event.stopPropagation()}>
+        <Checkbox size="xs" checked={selected} onChange={onToggle} aria-label={`Select run ${run.run} to compare`} data-testid={`select-${run.run}`} />
+      </td>
+      {columns.map((column) => (
+        <td key={column.id} data-numeric={isNumeric(column) || undefined}>
+          <Cell column={column} run={run} />
+        </td>
+      ))}
+    </tr>
+  );
+}
+
+function Cell({ column, run }: { column: Column; run: Run }) {
+  const value: Json | undefined = column.value(run);
+  switch (column.id) {
+    case "run":
+      return <b>#{run.run}</b>;
+    case "status":
+      return <StatusBadge status={run.status} error={run.error} />;
+    case "created":
+      return formatMoment(run.created);
+    case "parent":
+      return run.parent === null ? <span className={classes.none}>–</span> : `#${run.parent}`;
+    case "sim_time":
+      return run.sim_time_s === null ? "–" : formatNumber(Number(run.sim_time_s.toFixed(2)));
+    default:
+      return value === null || value === undefined ? <span className={classes.none}>–</span> : formatValue(value);
+  }
+}
+

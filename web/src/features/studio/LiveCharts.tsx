@@ -1,0 +1,96 @@
+/** Two charts of the platoon, by default speed and gap, that grow while the run goes. */
+
+import { NativeSelect } from "@mantine/core";
+import { useMemo, useState } from "react";
+import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
+import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { lineColor } from "../../model/palette";
+import type { Samples } from "../../model/samples";
+import { words } from "../../model/units";
+import { useDark } from "../../ui/dark";
+import { Empty } from "../../ui/State";
+import classes from "./Studio.module.css";
+
+interface Props {
+  samples: Samples | undefined;
+  version: number;
+  duration: number;
+}
+
+export function LiveCharts({ samples, version, duration }: Props) {
+  const [chosen, setChosen] = useState(["speed", "gap"]);
+  if (!samples || Object.keys(samples.channels).length === 0) {
+    return (
+      <div className={classes.charts} data-empty>
+        <Empty icon="chart" title="No samples yet">
+          Press Run, or space: the platoon's speeds and gaps are drawn here while the run goes.
+        </Empty>
+      </div>
+    );
+  }
+  const choose = (place: number, name: string) => setChosen(chosen.map((old, index) => (index === place ? name : old)));
+  return (
+    <div className={classes.charts}>
+      {chosen.map((name, place) => (
+        <LiveChart
+          // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
+          key={place}
+          name={name}
+          samples={samples}
+          version={version}
+          duration={duration}
+          onChoose={(next) => choose(place, next)}
+        />
+      ))}
+    </div>
+  );
+}
+
+interface ChartProps {
+  name: string;
+  samples: Samples;
+  version: number;
+  duration: number;
+  onChoose: (name: string) => void;
+}
+
+function LiveChart({ name, samples, version, duration, onChoose }: ChartProps) {
+  const dark = useDark();
+  const names = Object.keys(samples.channels).join(" ");
+  const shown = useMemo(() => drawn(name, names.split(" ")), [name, names]);
+  const lines = useMemo(() => linesOf(shown, names.split(" "), dark), [shown, names, dark]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the columns grow in place, `version` tells when
+  const data = useMemo<Columns>(() => [samples.time, ...shown.map((channel) => samples.channels[channel] ?? [])], [samples, shown, version]);
+  const { label, unit } = quantity(name);
+  return (
+    <div className={classes.chart}>
+      <NativeSelect
+        className={classes.quantity}
+        size="xs"
+        variant="unstyled"
+        aria-label="Quantity of this chart"
+        value={name}
+        onChange={(event) => onChoose(event.currentTarget.value)}
+        data={quantitiesOf(names.split(" ")).map((known) => ({ value: known.name, label: `${known.label} [${known.unit}]` }))}
+      />
+      <TimeChart title={label} unit={unit} lines={lines} data={data} version={version} sync="live" duration={duration} height={90} />
+    </div>
+  );
+}
+
+/** The channels of a quantity; nobody drives ahead of the leader, so its gap is not drawn. */
+function drawn(name: string, all: readonly string[]): string[] {
+  const found = channelsOf(name, all);
+  const first = vehiclesOf(all)[0];
+  const relative = name === "gap" || name === "time_gap";
+  return relative && found.length > 1 ? found.filter((channel) => parts(channel).vehicle !== first) : found;
+}
+
+/** One line per vehicle; a vehicle has the same colour in every chart. */
+function linesOf(channels: readonly string[], all: readonly string[], dark: boolean): Line[] {
+  const vehicles = vehiclesOf(all);
+  return channels.map((channel) => {
+    const { vehicle } = parts(channel);
+    return { key: channel, label: words(vehicle), color: lineColor(vehicles.indexOf(vehicle), dark) };
+  });
+}

@@ -1,0 +1,132 @@
+/** Run, pause, step and stop; how fast, and how far the run is. */
+
+import { ActionIcon, Button, NativeSelect, NumberInput, Progress, Text, Tooltip } from "@mantine/core";
+import type { Pace } from "../../api/types";
+import type { Status } from "../../model/run";
+import { isLive } from "../../model/run";
+import { formatNumber, formatTime } from "../../model/units";
+import { Icon, type IconName } from "../../ui/Icon";
+import { StatusBadge } from "../../ui/StatusBadge";
+import classes from "./Studio.module.css";
+
+export interface Progressing {
+  run: number;
+  status: Status;
+  time: number;
+  duration: number;
+  factor: number;
+  error: string | null;
+}
+
+export interface Controls {
+  onRun: () => void;
+  onPause: () => void;
+  onResume: () => void;
+  onStep: () => void;
+  onStop: () => void;
+  onPace: (pace: Pace) => void;
+  onSeed: (seed: number) => void;
+}
+
+interface Props extends Controls {
+  progress: Progressing | undefined;
+  duration: number;
+  pace: Pace;
+  seed: number;
+  starting: boolean;
+}
+
+const PACES = [
+  ...[0.1, 0.25, 0.5, 1, 2, 4, 8].map((pace) => ({ value: String(pace), label: `${pace} × real time` })),
+  { value: "fast", label: "As fast as possible" },
+];
+
+export function RunBar(props: Props) {
+  const { progress, pace, seed, starting, onRun, onSeed, onPace } = props;
+  const live = isLive(progress?.status);
+  return (
+    <div className={classes.bar} role="toolbar" aria-label="Run control">
+      <Button size="xs" data-testid="run" leftSection={<Icon name="run" size={14} />} onClick={onRun} disabled={live} loading={starting}>
+        {progress && !live ? "Run again" : "Run"}
+      </Button>
+      <Motion {...props} />
+      <NativeSelect
+        size="xs"
+        w={148}
+        aria-label="Pace"
+        data-testid="pace"
+        data={PACES}
+        value={String(pace)}
+        onChange={({ currentTarget: { value } }) => onPace(value === "fast" ? value : Number(value))}
+      />
+      <label className={classes.seed}>
+        Seed
+        <NumberInput size="xs" w={72} data-testid="seed" min={0} allowDecimal={false} allowNegative={false} disabled={live} value={seed} onChange={(value) => value !== "" && onSeed(Number(value))} />
+      </label>
+      <TimeShown progress={progress} duration={progress?.duration || props.duration} />
+    </div>
+  );
+}
+
+/** Pause or resume, whichever is possible; one tick; stop. */
+function Motion({ progress, onPause, onResume, onStep, onStop }: Props) {
+  const status = progress?.status;
+  return (
+    <ActionIcon.Group>
+      {status === "paused" ? (
+        <Press id="resume" icon="run" label="Resume (space)" onClick={onResume} />
+      ) : (
+        <Press id="pause" icon="pause" label="Pause (space)" onClick={onPause} disabled={status !== "running"} />
+      )}
+      <Press id="step" icon="step" label="Step one tick, 20 ms (.)" onClick={onStep} disabled={status === "running" || status === "starting"} />
+      <Press id="stop" icon="stop" label="Stop" onClick={onStop} disabled={!isLive(status)} />
+    </ActionIcon.Group>
+  );
+}
+
+interface PressProps {
+  id: string;
+  icon: IconName;
+  label: string;
+  onClick: () => void;
+  disabled?: boolean;
+}
+
+function Press({ id, icon, label, onClick, disabled = false }: PressProps) {
+  return (
+    <Tooltip label={label}>
+      <ActionIcon size={30} variant="default" data-testid={id} aria-label={label} onClick={onClick} disabled={disabled}>
+        <Icon name={icon} />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+function TimeShown({ progress, duration }: { progress: Progressing | undefined; duration: number }) {
+  const time = progress?.time ?? 0;
+  return (
+    <div className={classes.clock}>
+      <div className={classes.clockText}>
+        <span>
+          <b data-testid="sim-time">{formatTime(time)}</b>
+          <Text span size="xs" c="dimmed">
+            {" "}
+            / {formatNumber(duration)} s
+          </Text>
+        </span>
+        {progress ? (
+          <span className={classes.runState}>
+            <Text span size="xs" c="dimmed" title="Simulated seconds per second of real time">
+              {isLive(progress.status) ? `${formatNumber(Number(progress.factor.toFixed(2)))} × real time` : ""}
+            </Text>
+            <Text span size="xs" fw={600} data-testid="current-run">
+              #{progress.run}
+            </Text>
+            <StatusBadge status={progress.status} error={progress.error} />
+          </span>
+        ) : null}
+      </div>
+      <Progress size="sm" value={duration > 0 ? Math.min(100, (100 * time) / duration) : 0} aria-label="Simulated part of the run" />
+    </div>
+  );
+}

@@ -1,0 +1,73 @@
+/** The 3D scene in its frame, with the controls that belong to looking. */
+
+import { NativeSelect, SegmentedControl } from "@mantine/core";
+import { memo, useCallback, useEffect, useRef, useState } from "react";
+import type { SceneVehicle } from "../../api/types";
+import { isTraffic } from "../../model/channel";
+import { words } from "../../model/units";
+import { useDark } from "../../ui/dark";
+import { useBridge, type View } from "./bridge";
+import classes from "./Studio.module.css";
+
+const VIEWS = [
+  { value: "overview", label: "Overview" },
+  { value: "top", label: "Top" },
+  { value: "driver", label: "Driver" },
+];
+
+interface Props {
+  vehicles: readonly SceneVehicle[];
+  attribution: string;
+  /** False while another page covers the scene: the frame stays, its controls go. */
+  active: boolean;
+}
+
+export const SceneView = memo(function SceneView({ vehicles, attribution, active }: Props) {
+  const frame = useRef<HTMLIFrameElement>(null);
+  const dark = useDark();
+  const [followed, setFollowed] = useState<number | null>(null);
+  const [view, setView] = useState<View>("overview");
+  const picked = useCallback((vehicle: number) => setFollowed(vehicle), []);
+  const { ready, send } = useBridge(frame, picked);
+
+  useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
+  useEffect(() => send({ studio: "follow", vehicle: followed }), [followed, ready, send]);
+  const choose = (preset: View) => {
+    setView(preset);
+    send({ studio: "view", preset });
+  };
+
+  return (
+    <div className={classes.scene}>
+      <iframe ref={frame} title="3D scene" src="/scene/" data-testid="scene-frame" className={classes.frame} />
+      {active ? (
+        <div className={classes.look}>
+          <NativeSelect
+            size="xs"
+            aria-label="Follow a car"
+            data-testid="follow"
+            value={followed ?? ""}
+            onChange={({ currentTarget: { value } }) => setFollowed(value === "" ? null : Number(value))}
+            data={followChoices(vehicles)}
+          />
+          <SegmentedControl size="xs" aria-label="View" data={VIEWS} value={view} onChange={(value) => choose(value as View)} />
+        </div>
+      ) : null}
+      <span className={classes.attribution} data-testid="attribution">
+        {attribution || "© OpenStreetMap contributors"}
+      </span>
+    </div>
+  );
+});
+
+/** The platoon first, the surrounding traffic in a group of its own. */
+function followChoices(vehicles: readonly SceneVehicle[]) {
+  const items = (some: readonly SceneVehicle[]) => some.map(({ name, index }) => ({ value: String(index), label: words(name) }));
+  const platoon = vehicles.filter(({ name }) => !isTraffic(name));
+  const traffic = vehicles.filter(({ name }) => isTraffic(name));
+  return [
+    { value: "", label: "Follow no car" },
+    ...items(platoon),
+    ...(traffic.length ? [{ group: "Traffic", items: items(traffic) }] : []),
+  ];
+}

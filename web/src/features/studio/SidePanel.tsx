@@ -1,0 +1,153 @@
+/** The latest runs of this scenario, and what happened in the one that is shown. */
+
+import { Badge, Button, Checkbox, ScrollArea, Tabs, Text, Tooltip } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { Link, useNavigate } from "@tanstack/react-router";
+import { useState } from "react";
+import type { LiveEvent } from "../../api/live";
+import { runs } from "../../api/queries";
+import { leaf, type Run } from "../../model/run";
+import { formatMoment, formatTime, formatValue, words } from "../../model/units";
+import { Icon } from "../../ui/Icon";
+import { Empty, Loading } from "../../ui/State";
+import { StatusBadge } from "../../ui/StatusBadge";
+import classes from "./Studio.module.css";
+
+interface Props {
+  scenario: string;
+  run: number | undefined;
+  events: readonly LiveEvent[];
+}
+
+export function SidePanel({ scenario, run, events }: Props) {
+  return (
+    <Tabs defaultValue="runs" className={classes.side} keepMounted={false}>
+      <Tabs.List>
+        <Tabs.Tab value="runs">Runs</Tabs.Tab>
+        <Tabs.Tab value="events" rightSection={events.length ? <Badge size="xs" variant="light">{events.length}</Badge> : null}>
+          Events
+        </Tabs.Tab>
+      </Tabs.List>
+      <Tabs.Panel value="runs" className={classes.sideBody}>
+        <History scenario={scenario} shown={run} />
+      </Tabs.Panel>
+      <Tabs.Panel value="events" className={classes.sideBody}>
+        <Events events={events} />
+      </Tabs.Panel>
+    </Tabs>
+  );
+}
+
+function History({ scenario, shown }: { scenario: string; shown: number | undefined }) {
+  const { data } = useQuery(runs({ scenario, limit: 30 }));
+  const [selected, setSelected] = useState<number[]>([]);
+  const navigate = useNavigate();
+  if (!data) return <Loading what="runs" />;
+  if (data.length === 0) {
+    return (
+      <Empty icon="table" title="No runs of this scenario">
+        Each run is kept here with what was changed for it.
+      </Empty>
+    );
+  }
+  // The third choice replaces the older of the first two: a comparison has two sides.
+  const toggle = (number: number) =>
+    setSelected(selected.includes(number) ? selected.filter((other) => other !== number) : [...selected, number].slice(-2));
+  const [a, b] = [...selected].sort((one, other) => one - other);
+  return (
+    <>
+      <ScrollArea className={classes.history} type="auto">
+        {data.map((run) => (
+          <HistoryRow key={run.run} run={run} shown={run.run === shown} selected={selected.includes(run.run)} onToggle={() => toggle(run.run)} />
+        ))}
+      </ScrollArea>
+      <div className={classes.sideFoot}>
+        <Button
+          size="compact-xs"
+          variant="light"
+          data-testid="compare-button"
+          leftSection={<Icon name="compare" size={13} />}
+          disabled={selected.length !== 2}
+          onClick={() => navigate({ to: "/compare", search: { a, b } })}
+        >
+          {selected.length === 2 ? `Compare #${a} and #${b}` : "Select two to compare"}
+        </Button>
+        <Link to="/runs" search={{ scenario }} className={classes.all}>
+          All runs
+        </Link>
+      </div>
+    </>
+  );
+}
+
+interface RowProps {
+  run: Run;
+  shown: boolean;
+  selected: boolean;
+  onToggle: () => void;
+}
+
+function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
+  return (
+    <div className={classes.historyRow} data-testid="history-row" data-run={run.run} data-shown={shown || undefined}>
+      <Checkbox size="xs" checked={selected} onChange={onToggle} aria-label={`Select run ${run.run} to compare`} />
+      <Link to="/runs/$run" params={{ run: String(run.run) }} className={classes.historyRun}>
+        #{run.run}
+      </Link>
+      <Tooltip label={<Setting run={run} />} multiline maw={360} openDelay={300}>
+        <Text size="xs" truncate span tabIndex={0}>
+          {settingText(run)}
+        </Text>
+      </Tooltip>
+      <StatusBadge status={run.status} error={run.error} />
+    </div>
+  );
+}
+
+/** What was set for the run, in one line. */
+function settingText({ parameters, parent }: Run): string {
+  const set = Object.entries(parameters).map(([path, value]) => `${words(leaf(path))} ${formatValue(value)}`);
+  return set.length ? set.join(", ") : parent === null ? "As in the file" : "Nothing changed";
+}
+
+function Setting({ run }: { run: Run }) {
+  return (
+    <>
+      <Text size="xs">
+        {formatMoment(run.created)}, seed {run.seed}
+        {run.parent === null ? "" : `, child of #${run.parent}`}
+      </Text>
+      {Object.entries(run.parameters).map(([path, value]) => (
+        <Text size="xs" key={path}>
+          {path} = {formatValue(value)}
+        </Text>
+      ))}
+    </>
+  );
+}
+
+function Events({ events }: { events: readonly LiveEvent[] }) {
+  if (events.length === 0) {
+    return (
+      <Empty icon="warning" title="No events yet">
+        Warnings, lost messages and collisions of the run that is shown.
+      </Empty>
+    );
+  }
+  return (
+    <ScrollArea className={classes.history} type="auto">
+      <ol className={classes.events} data-testid="events">
+        {events.map(({ time, text, vehicle }, index) => (
+          // biome-ignore lint/suspicious/noArrayIndexKey: events are only ever appended
+          <li key={index}>
+            <span className={classes.eventTime}>{formatTime(time)} s</span>
+            <span>
+              {vehicle ? <b>{words(vehicle)}: </b> : null}
+              {text}
+            </span>
+          </li>
+        ))}
+      </ol>
+    </ScrollArea>
+  );
+}

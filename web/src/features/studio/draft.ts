@@ -1,0 +1,25 @@
+/** What the next run will be started with; it survives a reload of the page. */
+
+import { useSessionStorage } from "@mantine/hooks";
+import type { Pace } from "../../api/types";
+import type { Changes } from "../../model/run";
+
+export interface Draft {
+  changes: Changes;
+  seed: number;
+  pace: Pace;
+  parent: number | null;
+}
+
+const FRESH: Draft = { changes: {}, seed: 1, pace: 1, parent: null };
+
+/** The draft of a scenario, and how to change parts of it. */
+export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => void] {
+  const [stored, store] = useSessionStorage<Partial<Draft>>({
+    key: `draft ${scenario}`,
+    defaultValue: FRESH,
+    getInitialValueInEffect: false,
+  });
+  const update = (part: Partial<Draft>) => store((before) => ({ ...FRESH, ...before, ...part }));
+  return [{ ...FRESH, ...stored }, update];
+}

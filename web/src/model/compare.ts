@@ -1,0 +1,53 @@
+/** Two runs side by side: verdicts in words, and traces on one time axis. */
+
+import type { Goal, Json, Trace } from "./run";
+
+export interface ParameterDifference {
+  path: string;
+  a: Json;
+  b: Json;
+  unit: string;
+}
+
+export interface MetricDifference {
+  name: string;
+  unit: string;
+  goal: Goal;
+  a: number | null;
+  b: number | null;
+  difference: number | null;
+  relative: number | null;
+  better: "a" | "b" | "same" | null;
+}
+
+export type Verdict = "better" | "worse" | "same" | "no goal" | "missing";
+
+/** How B stands against A in this metric. */
+export function verdict({ a, b, better, goal }: MetricDifference): Verdict {
+  if (a === null || b === null) return "missing";
+  if (goal === null || better === null) return "no goal";
+  return better === "same" ? "same" : better === "b" ? "better" : "worse";
+}
+
+/** How often each verdict was given. */
+export function tally(metrics: readonly MetricDifference[]): Record<Verdict, number> {
+  const counts: Record<Verdict, number> = { better: 0, worse: 0, same: 0, "no goal": 0, missing: 0 };
+  for (const metric of metrics) counts[verdict(metric)] += 1;
+  return counts;
+}
+
+/** Values on a merged time axis: `undefined` where the run has no sample there, `null` where it has a gap. */
+export type Merged = [number[], ...(number | null | undefined)[][]];
+
+/** Both traces' channels over the union of their times. */
+export function merge(a: Trace, b: Trace, channels: readonly string[]): Merged {
+  const time = [...new Set([...a.time, ...b.time])].sort((one, other) => one - other);
+  const columns = [a, b].flatMap((trace) => {
+    const at = new Map(trace.time.map((t, index) => [t, index]));
+    return channels.map((name) => {
+      const values = trace.channels[name]?.values;
+      return time.map((t) => (at.has(t) && values ? values[at.get(t) as number] : undefined));
+    });
+  });
+  return [time, ...columns];
+}

@@ -1,0 +1,274 @@
+/**
+ * The parameter form, computed from three things: the scenario's document, its JSON schema and the user's
+ * changes. A section mirrors an object of the document, a field one of its values.
+ */
+
+import type { Changes, Json, Problem, Tree } from "./run";
+import { leaf } from "./run";
+import { isTree, resolve, type Schema } from "./schema";
+import { words } from "./units";
+
+export type Kind = "number" | "integer" | "boolean" | "choice" | "text" | "list";
+
+export interface Field {
+  path: string;
+  label: string;
+  description: string;
+  unit: string;
+  kind: Kind;
+  choices: string[];
+  minimum?: number;
+  maximum?: number;
+  /** The value without the user's changes. */
+  initial: Json;
+  value: Json;
+  changed: boolean;
+}
+
+export interface Exchange {
+  /** Path of the application's name, e.g. `applications.platoon.application`. */
+  path: string;
+  group: string;
+  initial: string;
+  value: string;
+  description: string;
+}
+
+export interface Section {
+  path: string;
+  title: string;
+  description: string;
+  exchange?: Exchange;
+  fields: Field[];
+  sections: Section[];
+}
+
+export interface Application {
+  name: string;
+  title: string;
+  description: string;
+  parameters: Schema;
+}
+
+/** What every part of the form is computed from. */
+export interface Source {
+  document: Tree;
+  schema: Schema;
+  applications: readonly Application[];
+  changes: Changes;
+}
+
+/** What a developer turns most comes first; keys that are not named here follow in the schema's order. */
+const ORDER = ["applications", "radio", "sensors", "drivers", "traffic", "triggers", "clock"];
+
+/** Told in the page's head or in the run bar, so not in the form. */
+const ELSEWHERE = new Set(["title", "description", "seed", "version", "format"]);
+
+/** The whole form, one section per top-level key. */
+export function sections(source: Source): Section[] {
+  const { document, schema } = source;
+  const root = resolve(schema, schema, document);
+  const all = objectSection(source, "", root, document);
+  const general: Section[] = all.fields.length
+    ? [{ path: "", title: "General", description: "", fields: all.fields, sections: [] }]
+    : [];
+  const place = (path: string) => (ORDER.includes(path) ? ORDER.indexOf(path) : ORDER.length);
+  return [...[...all.sections].sort((a, b) => place(a.path) - place(b.path)), ...general];
+}
+
+function objectSection(source: Source, path: string, schema: Schema, value: Tree): Section {
+  const exchange = exchangeOf(source, path, value);
+  const section = emptySection(path, schema);
+  if (exchange) section.exchange = exchange;
+  for (const key of keysOf(schema, value)) {
+    const below = path ? `${path}.${key}` : key;
+    if (below === exchange?.path || (path === "" && ELSEWHERE.has(key))) continue;
+    if (exchange && key === "parameters") {
+      section.fields.push(...applicationFields(source, below, exchange, value[key] as Tree));
+    } else {
+      add(section, source, below, childSchema(schema, key), value[key] ?? null);
+    }
+  }
+  return section;
+}
+
+function emptySection(path: string, schema: Schema): Section {
+  const title = /^\d+$/.test(leaf(path)) ? `${Number(leaf(path)) + 1}` : words(leaf(path));
+  return { path, title, description: schema.description ?? "", fields: [], sections: [] };
+}
+
+/** Put one child where it belongs: an object becomes a section, a value a field. */
+function add(section: Section, source: Source, path: string, child: Schema, value: Json): void {
+  const schema = resolve(child, source.schema, value);
+  if (isTree(value)) section.sections.push(objectSection(source, path, schema, value));
+  else if (Array.isArray(value) && value.some(isTree)) section.sections.push(listSection(source, path, schema, value));
+  else if (schema.const === undefined) section.fields.push(field(path, schema, value, source.changes));
+}
+
+function listSection(source: Source, path: string, schema: Schema, values: Json[]): Section {
+  const section = emptySection(path, schema);
+  const items = typeof schema.items === "object" ? schema.items : {};
+  values.forEach((value, index) => {
+    if (!isTree(value)) return;
+    const below = `${path}.${index}`;
+    const item = objectSection(source, below, resolve(items, source.schema, value), value);
+    const name = value.name ?? value.id;
+    if (typeof name === "string") item.title = words(name);
+    section.sections.push(item);
+  });
+  return section;
+}
+
+/** The schema's keys in its order, then those that only the document has. */
+function keysOf(schema: Schema, value: Tree): string[] {
+  const named = Object.keys(schema.properties ?? {}).filter((key) => key in value);
+  return [...named, ...Object.keys(value).filter((key) => !named.includes(key))];
+}
+
+function childSchema(schema: Schema, key: string): Schema {
+  const { properties, additionalProperties } = schema;
+  return properties?.[key] ?? (typeof additionalProperties === "object" ? additionalProperties : {});
+}
+
+/** One value of the document as a field of the form. */
+function field(path: string, schema: Schema, initial: Json, changes: Changes): Field {
+  const value = path in changes ? (changes[path] as Json) : initial;
+  const result: Field = {
+    path,
+    label: schema.title ? words(schema.title) : words(leaf(path)),
+    description: schema.description ?? "",
+    unit: schema.unit ?? "",
+    kind: kindOf(schema, initial),
+    choices: (schema.enum ?? []).map(String),
+    initial,
+    value,
+    changed: !same(value, initial),
+  };
+  const minimum = schema.minimum ?? schema.exclusiveMinimum;
+  const maximum = schema.maximum ?? schema.exclusiveMaximum;
+  if (minimum !== undefined) result.minimum = minimum;
+  if (maximum !== undefined) result.maximum = maximum;
+  return result;
+}
+
+function kindOf(schema: Schema, value: Json): Kind {
+  const type = [schema.type ?? typeof value].flat().find((name) => name !== "null");
+  if (schema.enum) return "choice";
+  if (type === "number" || type === "integer" || type === "boolean") return type;
+  return type === "array" || Array.isArray(value) ? "list" : "text";
+}
+
+/** Equality of JSON values. */
+export const same = (a: Json, b: Json): boolean => a === b || JSON.stringify(a) === JSON.stringify(b);
+
+// ---------------------------------------------------------------------------------- applications
+
+/** The key under which an entry names its registered application, if it is such an entry. */
+function exchangeOf({ applications, changes }: Source, path: string, value: Tree): Exchange | undefined {
+  if (!path.startsWith("applications.") || !("parameters" in value)) return undefined;
+  const names = new Set(applications.map(({ name }) => name));
+  const key = ["application", "name", "kind", "type"].find((k) => names.has(value[k] as string));
+  if (!key) return undefined;
+  const place = `${path}.${key}`;
+  const initial = value[key] as string;
+  const current = (changes[place] as string | undefined) ?? initial;
+  const description = applications.find(({ name }) => name === current)?.description ?? "";
+  return { path: place, group: path.slice("applications.".length), initial, value: current, description };
+}
+
+/** The parameters of the application in place, by that application's own schema. */
+function applicationFields(source: Source, path: string, exchange: Exchange, parameters: Tree): Field[] {
+  const application = source.applications.find(({ name }) => name === exchange.value);
+  const schema = application?.parameters ?? {};
+  return Object.entries(schema.properties ?? {}).map(([key, property]) => {
+    const initial = parameters[key] ?? property.default ?? null;
+    const plain = resolve(property, schema, initial);
+    return field(`${path}.${key}`, plain, initial, source.changes);
+  });
+}
+
+/** Exchange an application: changes of parameters that the new one does not have are dropped. */
+export function exchanged(changes: Changes, exchange: Exchange, next: Application): Changes {
+  const base = `applications.${exchange.group}.parameters.`;
+  const kept = Object.entries(changes).filter(
+    ([path]) => !path.startsWith(base) || leaf(path) in (next.parameters.properties ?? {}),
+  );
+  const result = Object.fromEntries(kept.filter(([path]) => path !== exchange.path));
+  return next.name === exchange.initial ? result : { ...result, [exchange.path]: next.name };
+}
+
+// --------------------------------------------------------------------------------------- changes
+
+/** Set one value; setting what the document says anyway is no change. */
+export function withChange(changes: Changes, field: Pick<Field, "path" | "initial">, value: Json): Changes {
+  const { [field.path]: _old, ...others } = changes;
+  return same(value, field.initial) ? others : { ...others, [field.path]: value };
+}
+
+/** All fields of the form, in the order in which they stand. */
+export function fieldsOf(all: readonly Section[]): Field[] {
+  return all.flatMap((section) => [...section.fields, ...fieldsOf(section.sections)]);
+}
+
+/** All application selects of the form. */
+export function exchangesOf(all: readonly Section[]): Exchange[] {
+  return all.flatMap((section) => [...(section.exchange ? [section.exchange] : []), ...exchangesOf(section.sections)]);
+}
+
+/** How many values below this section differ from the document. */
+export function changedIn(section: Section): number {
+  const exchanges = exchangesOf([section]).filter(({ initial, value }) => initial !== value);
+  return fieldsOf([section]).filter(({ changed }) => changed).length + exchanges.length;
+}
+
+/**
+ * What is sent to the server. Exchanging an application also sends its complete parameters, because
+ * those of the old one must not remain.
+ */
+export function toSet(changes: Changes, all: readonly Section[]): Changes {
+  const swapped = exchangesOf(all).filter(({ initial, value }) => initial !== value);
+  const fields = fieldsOf(all);
+  const result = { ...changes };
+  for (const { group } of swapped) {
+    const base = `applications.${group}.parameters`;
+    const own = fields.filter(({ path }) => path.startsWith(`${base}.`));
+    for (const { path } of own) delete result[path];
+    result[base] = Object.fromEntries(own.filter(({ value }) => value !== null).map(({ path, value }) => [leaf(path), value]));
+  }
+  return result;
+}
+
+/** The reverse of `toSet`: what a run was started with, as single changes of the form. */
+export function fromSet(set: Changes): Changes {
+  const entries = Object.entries(set).flatMap(([path, value]): [string, Json][] =>
+    isTree(value) ? Object.entries(value).map(([key, inner]) => [`${path}.${key}`, inner]) : [[path, value]],
+  );
+  return Object.fromEntries(entries);
+}
+
+// ---------------------------------------------------------------------------- search and problems
+
+/** The sections with only the fields that match all words of the query. */
+export function matching(all: readonly Section[], query: string): Section[] {
+  const needles = query.toLowerCase().split(/\s+/).filter(Boolean);
+  if (needles.length === 0) return [...all];
+  const hit = (text: string) => needles.every((needle) => text.toLowerCase().includes(needle));
+  const kept = (section: Section): Section => ({
+    ...section,
+    fields: section.fields.filter(({ path, label, description }) => hit(`${path} ${label} ${description}`)),
+    sections: section.sections.map(kept).filter(notEmpty),
+  });
+  return all.map(kept).filter(notEmpty);
+}
+
+const notEmpty = ({ fields, sections: inner }: Section): boolean => fields.length > 0 || inner.length > 0;
+
+/** Problems by the path of the field where they stand; the rest under the empty path. */
+export function placed(problems: readonly Problem[], paths: readonly string[]): Map<string, Problem[]> {
+  const result = new Map<string, Problem[]>();
+  for (const problem of problems) {
+    const path = paths.find((known) => problem.where === known || problem.where.endsWith(`.${known}`)) ?? "";
+    result.set(path, [...(result.get(path) ?? []), problem]);
+  }
+  return result;
+}

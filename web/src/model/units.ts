@@ -1,0 +1,59 @@
+/** Numbers, times and names as a person reads them. */
+
+const MINUS = "\u2212";
+
+/** A number with at most four significant digits; whole numbers stay whole. */
+export function formatNumber(value: number): string {
+  if (!Number.isFinite(value)) return "–";
+  if (Number.isInteger(value)) return signed(String(value));
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return signed(value.toExponential(2));
+  return signed(String(Number(value.toPrecision(4))));
+}
+
+const signed = (text: string) => text.replace(/^-/, MINUS);
+
+/** Any value of a document: numbers shortened, nothing as a dash. */
+export function formatValue(value: unknown): string {
+  if (value === null || value === undefined || value === "") return "–";
+  if (typeof value === "number") return formatNumber(value);
+  if (typeof value === "boolean") return value ? "on" : "off";
+  return typeof value === "string" ? value : JSON.stringify(value);
+}
+
+/** A difference, with its sign always shown. */
+export function formatDifference(value: number): string {
+  return value > 0 ? `+${formatNumber(value)}` : formatNumber(value);
+}
+
+/** A ratio as signed per cent: 0.123 → "+12.3 %". */
+export function formatRelative(ratio: number): string {
+  return `${formatDifference(Number((ratio * 100).toPrecision(3)))} %`;
+}
+
+/** Simulation time with hundredths, so that one 20 ms tick is seen. */
+export const formatTime = (seconds: number): string => seconds.toFixed(2);
+
+/** Duration for people: "3.4 s", "2 min 05 s". */
+export function formatDuration(seconds: number): string {
+  if (seconds < 60) return `${Number(seconds.toFixed(1))} s`;
+  const whole = Math.round(seconds);
+  return `${Math.floor(whole / 60)} min ${String(whole % 60).padStart(2, "0")} s`;
+}
+
+/** `mean_time_gap` → `Mean time gap`. */
+export function words(name: string): string {
+  const text = name.replace(/[_.]+/g, " ").trim();
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** A heading with its unit: `Speed [m/s]`; without one, the name alone. */
+export const withUnit = (name: string, unit: string): string => (unit ? `${name} [${unit}]` : name);
+
+/** When something was made, short, in the reader's own time zone: `22 Nov 05:09`. */
+export function formatMoment(iso: string): string {
+  const date = new Date(iso);
+  if (Number.isNaN(date.getTime())) return iso;
+  const day = date.toLocaleDateString("en-GB", { day: "2-digit", month: "short" });
+  return `${day} ${date.toLocaleTimeString("en-GB", { hour: "2-digit", minute: "2-digit", second: "2-digit" })}`;
+}

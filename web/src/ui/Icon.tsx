@@ -1,0 +1,53 @@
+/** The few icons of the page, drawn on a grid of 24. */
+
+const PATHS = {
+  run: "M7 5l12 7-12 7z",
+  pause: "M8 5v14M16 5v14",
+  step: "M6 5l8 7-8 7zM18 5v14",
+  stop: "M6 6h12v12H6z",
+  sun: "M12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8zM12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M19 5l-2 2M7 17l-2 2",
+  moon: "M20 14A8 8 0 0 1 10 4a8 8 0 1 0 10 10z",
+  system: "M3 5h18v11H3zM9 20h6M12 16v4",
+  search: "M11 4a7 7 0 1 0 0 14 7 7 0 0 0 0-14zM16 16l5 5",
+  reset: "M4 5v5h5M4.5 10A8 8 0 1 1 4 14",
+  swap: "M4 8h15l-4-4M20 16H5l4 4",
+  help: "M9 9a3 3 0 1 1 4 3c-1 .5-1 1-1 2M12 18v.5",
+  warning: "M12 4l9 16H3zM12 10v5M12 17.5v.5",
+  chart: "M4 4v16h16M7 15l4-5 3 3 5-7",
+  table: "M4 5h16v14H4zM4 10h16M4 14.5h16M10 5v14",
+  compare: "M4 20V9h4v11zM16 20V4h4v16zM10 20v-7h4v7z",
+  car: "M4 16v-4l2-5h12l2 5v4zM4 12h16M7 16v2M17 16v2",
+  up: "M6 14l6-6 6 6",
+  down: "M6 10l6 6 6-6",
+  left: "M14 6l-6 6 6 6",
+  right: "M10 6l6 6-6 6",
+  close: "M6 6l12 12M18 6L6 18",
+  check: "M5 13l4 4L19 7",
+  branch: "M6 4v16M6 14c8 0 12-2 12-9M15 7l3-3 3 3",
+  columns: "M4 5h16v14H4zM9.5 5v14M14.5 5v14",
+  unlinked: "M9 15l-3 3a3 3 0 0 1-4-4l3-3M15 9l3-3a3 3 0 0 1 4 4l-3 3M4 4l16 16",
+  eye: "M2 12c5-8 15-8 20 0-5 8-15 8-20 0zM12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
+} as const;
+
+export type IconName = keyof typeof PATHS;
+
+const FILLED: ReadonlySet<IconName> = new Set<IconName>(["run", "stop"]);
+
+/** A decorative icon in the colour of the text around it; the control that holds it has the label. */
+export function Icon({ name, size = 16 }: { name: IconName; size?: number }) {
+  return (
+    <svg
+      width={size}
+      height={size}
+      viewBox="0 0 24 24"
+      fill={FILLED.has(name) ? "currentColor" : "none"}
+      stroke="currentColor"
+      strokeWidth="2"
+      strokeLinecap="round"
+      strokeLinejoin="round"
+      aria-hidden="true"
+    >
+      <path d={PATHS[name]} />
+    </svg>
+  );
+}

@@ -1,0 +1,263 @@
+/** The parameter form: sections with one row per value, its unit, and what is wrong with it. */
+
+import { Accordion, ActionIcon, Badge, NativeSelect, NumberInput, Switch, Text, TextInput, Tooltip } from "@mantine/core";
+import { useId } from "react";
+import { type Application, changedIn, type Exchange, type Field, type Section } from "../model/form";
+import type { Json, Problem } from "../model/run";
+import { formatNumber, formatValue } from "../model/units";
+import { Icon } from "./Icon";
+import { ProblemText } from "./Problems";
+import classes from "./SchemaForm.module.css";
+
+export interface Actions {
+  onChange: (field: Field, value: Json) => void;
+  onExchange: (exchange: Exchange, name: string) => void;
+}
+
+interface Props extends Actions {
+  sections: readonly Section[];
+  applications: readonly Application[];
+  problems: ReadonlyMap<string, readonly Problem[]>;
+  /** Paths of the sections that stand open. */
+  open: string[];
+  onOpen: (open: string[]) => void;
+}
+
+type Shared = Pick<Props, "applications" | "problems" | "onChange" | "onExchange">;
+
+export function SchemaForm({ sections, open, onOpen, ...shared }: Props) {
+  return (
+    <Accordion multiple value={open} onChange={onOpen} chevronPosition="left" variant="default" styles={ACCORDION}>
+      {sections.map((section) => (
+        <Accordion.Item key={section.path} value={section.path}>
+          <Accordion.Control>
+            {section.title} <Marks section={section} problems={shared.problems} />
+          </Accordion.Control>
+          <Accordion.Panel>
+            <SectionBody section={section} {...shared} />
+          </Accordion.Panel>
+        </Accordion.Item>
+      ))}
+    </Accordion>
+  );
+}
+
+const ACCORDION = {
+  control: { paddingLeft: 10, paddingRight: 8, minHeight: 34 },
+  label: { paddingTop: 6, paddingBottom: 6, fontWeight: 600, fontSize: 13 },
+  content: { padding: "0 4px 8px 4px" },
+};
+
+/** How much below this section was changed, and whether something is wrong there. */
+function Marks({ section, problems }: { section: Section; problems: Props["problems"] }) {
+  const changed = changedIn(section);
+  const wrong = [...problems.keys()].filter((path) => path !== "" && path.startsWith(section.path)).length;
+  return (
+    <>
+      {changed > 0 ? (
+        <Badge size="xs" variant="light" tt="none">
+          {changed} changed
+        </Badge>
+      ) : null}
+      {wrong > 0 ? (
+        <Badge size="xs" color="red" variant="light" tt="none" ml={4}>
+          {wrong} wrong
+        </Badge>
+      ) : null}
+    </>
+  );
+}
+
+function SectionBody({ section, ...shared }: { section: Section } & Shared) {
+  const { exchange, fields, sections } = section;
+  return (
+    <>
+      {exchange ? <ExchangeRow exchange={exchange} {...shared} /> : null}
+      {fields.map((field) => (
+        <FieldRow key={field.path} field={field} problems={shared.problems.get(field.path) ?? []} onChange={shared.onChange} />
+      ))}
+      {sections.map((inner) => (
+        <section key={inner.path} className={classes.inner} aria-label={inner.title}>
+          <div className={classes.heading}>{inner.title}</div>
+          <div className={classes.nested}>
+            <SectionBody section={inner} {...shared} />
+          </div>
+        </section>
+      ))}
+    </>
+  );
+}
+
+function ExchangeRow({ exchange, applications, onExchange, problems }: { exchange: Exchange } & Shared) {
+  const id = useId();
+  const wrong = problems.get(exchange.path) ?? [];
+  return (
+    <div className={classes.row} data-wide data-changed={exchange.value !== exchange.initial || undefined}>
+      <Label id={id} text="Application" description={exchange.description} path={exchange.path} />
+      <NativeSelect
+        id={id}
+        size="xs"
+        data-testid={`application-${exchange.group}`}
+        value={exchange.value}
+        onChange={(event) => onExchange(exchange, event.currentTarget.value)}
+        data={applications.map(({ name, title }) => ({ value: name, label: title || name }))}
+      />
+      {exchange.value !== exchange.initial ? (
+        <Reset label="Application" initial={exchange.initial} onReset={() => onExchange(exchange, exchange.initial)} />
+      ) : null}
+      <Wrong problems={wrong} />
+    </div>
+  );
+}
+
+interface RowProps {
+  field: Field;
+  problems: readonly Problem[];
+  onChange: Actions["onChange"];
+}
+
+function FieldRow({ field, problems, onChange }: RowProps) {
+  const id = useId();
+  const wide = field.kind === "text" || field.kind === "list" || (field.kind === "choice" && !field.unit);
+  return (
+    <div className={classes.row} data-wide={wide || undefined} data-changed={field.changed || undefined}>
+      <Label id={id} text={field.label} description={field.description} path={field.path} limits={limits(field)} />
+      <Control id={id} field={field} invalid={problems.length > 0} onChange={(value) => onChange(field, value)} />
+      {wide ? null : <span className={classes.unit}>{field.unit}</span>}
+      {field.changed ? <Reset label={field.label} initial={field.initial} onReset={() => onChange(field, field.initial)} /> : <span />}
+      <Wrong problems={problems} />
+    </div>
+  );
+}
+
+function Wrong({ problems }: { problems: readonly Problem[] }) {
+  if (problems.length === 0) return null;
+  return (
+    <div className={classes.problem} role="alert">
+      {problems.map((problem) => (
+        <ProblemText key={problem.what} problem={problem} withPlace={false} />
+      ))}
+    </div>
+  );
+}
+
+/** What is allowed, in words. */
+function limits({ minimum, maximum, unit }: Field): string {
+  const end = unit ? ` ${unit}` : "";
+  if (minimum !== undefined && maximum !== undefined) return `${formatNumber(minimum)} to ${formatNumber(maximum)}${end}`;
+  if (minimum !== undefined) return `at least ${formatNumber(minimum)}${end}`;
+  return maximum !== undefined ? `at most ${formatNumber(maximum)}${end}` : "";
+}
+
+interface LabelProps {
+  id: string;
+  text: string;
+  description: string;
+  path: string;
+  limits?: string;
+}
+
+function Label({ id, text, description, path, limits: allowed = "" }: LabelProps) {
+  const help = (
+    <>
+      {description ? <Text size="xs">{description}</Text> : null}
+      {allowed ? <Text size="xs">Allowed: {allowed}</Text> : null}
+      <Text size="xs" opacity={0.7}>
+        {path}
+      </Text>
+    </>
+  );
+  return (
+    <Tooltip label={help} multiline maw={300} position="right" openDelay={250}>
+      <label htmlFor={id} className={classes.label} data-described={description !== "" || undefined}>
+        {text}
+      </label>
+    </Tooltip>
+  );
+}
+
+function Reset({ label, initial, onReset }: { label: string; initial: Json; onReset: () => void }) {
+  return (
+    <Tooltip label={`Back to ${formatValue(initial)}`}>
+      <ActionIcon size="sm" variant="subtle" aria-label={`Reset ${label} to ${formatValue(initial)}`} onClick={onReset}>
+        <Icon name="reset" size={14} />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+interface ControlProps {
+  id: string;
+  field: Field;
+  invalid: boolean;
+  onChange: (value: Json) => void;
+}
+
+function Control({ id, field, invalid, onChange }: ControlProps) {
+  const shared = { id, size: "xs" as const, error: invalid, "data-testid": `param-${field.path}` };
+  switch (field.kind) {
+    case "boolean":
+      return <Switch {...shared} error={undefined} checked={field.value === true} onChange={(event) => onChange(event.currentTarget.checked)} />;
+    case "choice":
+      return <NativeSelect {...shared} value={String(field.value ?? "")} data={field.choices} onChange={(event) => onChange(event.currentTarget.value)} />;
+    case "number":
+    case "integer":
+      return <NumberControl shared={shared} field={field} onChange={onChange} />;
+    case "list":
+      return <ListControl shared={shared} field={field} onChange={onChange} />;
+    default:
+      return <TextInput {...shared} value={String(field.value ?? "")} onChange={(event) => onChange(event.currentTarget.value)} />;
+  }
+}
+
+interface TypedControl {
+  shared: { id: string; size: "xs"; error: boolean; "data-testid": string };
+  field: Field;
+  onChange: (value: Json) => void;
+}
+
+/** A number may leave its range while it is typed: the server says what is wrong, nothing is silently clamped. */
+function NumberControl({ shared, field, onChange }: TypedControl) {
+  const { minimum, maximum, value, kind, initial } = field;
+  const outside = typeof value === "number" && ((minimum !== undefined && value < minimum) || (maximum !== undefined && value > maximum));
+  return (
+    <NumberInput
+      {...shared}
+      error={shared.error || outside}
+      value={typeof value === "number" ? value : ""}
+      allowDecimal={kind === "number"}
+      clampBehavior="none"
+      step={stepFor(field)}
+      onChange={(next) => onChange(next === "" ? initial : Number(next))}
+      {...(minimum === undefined ? {} : { min: minimum })}
+      {...(maximum === undefined ? {} : { max: maximum })}
+    />
+  );
+}
+
+/** About a twentieth of the value, as 1, 2 or 5 times a power of ten. */
+function stepFor({ kind, initial }: Field): number {
+  const size = Math.abs(Number(initial)) / 20;
+  if (!(size > 0)) return kind === "integer" ? 1 : 0.1;
+  const power = 10 ** Math.floor(Math.log10(size));
+  const step = [5, 2, 1].map((digit) => digit * power).find((candidate) => candidate <= size * 1.01) ?? power;
+  return kind === "integer" ? Math.max(1, Math.round(step)) : Number(step.toPrecision(1));
+}
+
+function ListControl({ shared, field, onChange }: TypedControl) {
+  const items = Array.isArray(field.value) ? field.value : [];
+  const numeric = items.length > 0 && items.every((item) => typeof item === "number");
+  const read = (text: string): Json => {
+    const words = text.split(",").map((word) => word.trim()).filter(Boolean);
+    return numeric && words.every((word) => Number.isFinite(Number(word))) ? words.map(Number) : words;
+  };
+  return (
+    <TextInput
+      {...shared}
+      key={JSON.stringify(items)}
+      title={items.map(String).join(", ")}
+      defaultValue={items.map((item) => (typeof item === "object" ? JSON.stringify(item) : String(item))).join(", ")}
+      onBlur={(event) => onChange(read(event.currentTarget.value))}
+    />
+  );
+}
