@@ -63,6 +63,11 @@ class Box:
         """Positions in local metres, float64[2, n]."""
         return np.array(pyproj.Proj(self.projection)(longitude, latitude), dtype=float)
 
+    def degrees(self, points: np.ndarray) -> list[tuple[float, float]]:
+        """Longitude and latitude of local points [deg]."""
+        longitude, latitude = pyproj.Proj(self.projection)(*points, inverse=True)
+        return list(zip(np.atleast_1d(longitude).tolist(), np.atleast_1d(latitude).tolist(), strict=True))
+
     def bounds(self) -> tuple[float, float, float, float]:
         """The box in local metres: x0, y0, x1, y1."""
         (x0, x1), (y0, y1) = self.local([self.south, self.north], [self.west, self.east]).tolist()

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from studio.compiled import cache_root
 from studio.errors import MapError
-from studio.road import netconvert, osm
+from studio.road import bend, netconvert, osm
 from studio.road.network import ATTRIBUTION, Connection, Network
 from studio.road.scenery import scenery
 from studio.road.signals import Signals, signals
 
-IMPORTER = ("curve.py", "netconvert.py", "network.py", "osm.py", "place.py", "scenery.py", "signals.py")
+IMPORTER = ("bend.py", "curve.py", "netconvert.py", "network.py", "osm.py", "place.py", "scenery.py", "signals.py")
 SHORTEST_RADIUS = 50.0  # [m]
 
 
@@ -69,7 +69,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, prog
     if not ways:
         raise MapError(f"{path}: there are no roads for cars within the part that is kept; try a larger radius")
     progress("building lanes and junctions")
-    net = netconvert.convert(osm.clean_xml(found, ways), box.projection)
+    net = netconvert.convert(osm.clean_xml(found, bend.rounded(ways, box, ids)), box.projection)
     progress("placing signals and scenery")
     lights = signals(net.lanes, net.roads, net.connections, net.signalled)
     return Network(

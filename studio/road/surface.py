@@ -15,7 +15,7 @@ from studio.road.network import Building, Lane, Network
 from studio.road.scenery import polygons
 
 GROUND, GREEN, WATER, ROAD, MARKING, SHADOW = -0.18, -0.12, -0.06, 0.0, 0.06, 0.12  # [m] heights of the layers
-SUN = (-0.45, -0.35, -0.82)  # the direction its light goes: from the north-east, 55° high, so that fronts are lit
+SUN = (-0.45, 0.35, -0.82)  # the direction its light goes: a forenoon sun in the south-east, 55° high
 GROUND_MARGIN = 400.0  # [m] of ground around the map
 LINE_WIDTH = 0.12  # [m] of lane markings in town (RMS: 0.12)
 DASH, DASH_PERIOD = 3.0, 9.0  # [m] a lead line in town: 3 m line, 6 m gap (RMS)

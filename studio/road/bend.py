@@ -1,0 +1,116 @@
+"""Rounds mapped ways: a mapper draws a bend as a few straight pieces, a road is built as a curve.
+
+The mapped nodes stay where they are; between them points of a cubic curve are put in. Real corners stay corners.
+"""
+
+import itertools
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from studio.road.osm import Box, Way
+
+CORNER = np.radians(40.0)  # [rad] a sharper turn is a corner
+STRAIGHT = np.radians(1.5)  # [rad] a lesser turn needs no curve
+SPACING = 3.0  # [m] of the points put in
+
+Point = np.ndarray
+
+
+def rounded(ways: list[Way], box: Box, new_id: Iterator[int]) -> list[Way]:
+    """The ways with curves in their bends; bends also run on from one way into the next."""
+    places = local_places(ways, box)
+    ahead, behind = neighbours(ways)
+    return [bent(way, places, ahead, behind, box, new_id) for way in ways]
+
+
+def local_places(ways: list[Way], box: Box) -> dict[int, Point]:
+    nodes = {node: point for way in ways for node, point in zip(way.nodes, way.points, strict=True)}
+    longitude, latitude = np.array(list(nodes.values())).T
+    return dict(zip(nodes, box.local(latitude, longitude).T, strict=True))
+
+
+def neighbours(ways: list[Way]) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
+    """For every node the nodes that come after it and before it; a two-way street has both on either side."""
+    ahead, behind = defaultdict(set), defaultdict(set)
+    for way in ways:
+        pairs = list(itertools.pairwise(way.nodes))
+        for a, b in pairs if is_one_way(way) else [*pairs, *((b, a) for a, b in pairs)]:
+            ahead[a].add(b)
+            behind[b].add(a)
+    return ahead, behind
+
+
+def is_one_way(way: Way) -> bool:
+    return way.tags.get("oneway") in ("yes", "true", "1") or way.tags.get("junction") in ("roundabout", "circular")
+
+
+def bent(way: Way, places, ahead, behind, box: Box, new_id: Iterator[int]) -> Way:
+    line = [places[node] for node in way.nodes]
+    before = straightest(places, behind[way.nodes[0]], way.nodes[1], way.nodes[0])
+    after = straightest(places, ahead[way.nodes[-1]], way.nodes[-2], way.nodes[-1])
+    tangents = tangents_of(line, before, after)
+    nodes, points = [way.nodes[0]], [way.points[0]]
+    for i in range(len(line) - 1):
+        inner = hermite(line[i], line[i + 1], tangents[i][1], tangents[i + 1][0])
+        nodes += itertools.islice(new_id, inner.shape[1])
+        points += box.degrees(inner)
+        nodes.append(way.nodes[i + 1])
+        points.append(way.points[i + 1])
+    return replace(way, nodes=nodes, points=points)
+
+
+def straightest(places, candidates: set[int], beside: int, node: int) -> Point | None:
+    """The neighbour on the other side of the end node that goes on most nearly straight, if none is a corner."""
+    others = [places[other] for other in candidates if other != beside]
+    best = min(others, key=lambda other: turn(places[beside], places[node], other), default=None)
+    return best if best is not None and turn(places[beside], places[node], best) < CORNER else None
+
+
+def turn(a: Point, b: Point, c: Point) -> float:
+    """How much one turns at b on the way from a to c [rad], 0 for straight on."""
+    (t_x, t_y), (d_x, d_y) = b - a, c - b
+    return abs(np.arctan2(t_x * d_y - t_y * d_x, t_x * d_x + t_y * d_y))
+
+
+def tangents_of(line: list[Point], before: Point | None, after: Point | None) -> list[tuple[Point, Point]]:
+    """At every point the directions of the curve that arrives and of the one that leaves; they differ at corners."""
+    extended = [before, *line, after]
+    return [tangent(*extended[i : i + 3]) for i in range(len(line))]
+
+
+def tangent(a: Point | None, b: Point, c: Point | None) -> tuple[Point, Point]:
+    arriving = unit(b - a) if a is not None else None
+    leaving = unit(c - b) if c is not None else None
+    if arriving is None or leaving is None:
+        only = arriving if leaving is None else leaving
+        return only, only
+    if turn(a, b, c) >= CORNER:
+        return arriving, leaving
+    # the circle through three points: the shorter side bends away from the tangent less, so it counts more
+    before, behind = np.hypot(*(b - a)), np.hypot(*(c - b))
+    middle = unit(behind * arriving + before * leaving)
+    return middle, middle
+
+
+def unit(direction: Point) -> Point:
+    return direction / max(1e-9, float(np.hypot(*direction)))
+
+
+def hermite(a: Point, b: Point, start: Point, end: Point) -> np.ndarray:
+    """Points of the cubic curve from a to b between its ends, float64[2, n]; none where it is straight."""
+    chord = b - a
+    far = np.hypot(*chord)
+    straight = max(angle(chord, start), angle(chord, end)) < STRAIGHT
+    count = 0 if straight else int(far / SPACING)
+    u = np.linspace(0.0, 1.0, count + 2)[1:-1]
+    p, q, s, t = (vector[:, None] for vector in (a, b, start * far, end * far))
+    return (
+        (2 * u**3 - 3 * u**2 + 1) * p + (u**3 - 2 * u**2 + u) * s + (3 * u**2 - 2 * u**3) * q + (u**3 - u**2) * t
+    )
+
+
+def angle(a: Point, b: Point) -> float:
+    return abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))
