@@ -1,0 +1,70 @@
+"""Adaptive cruise control: keeps a time gap with the own radar alone.
+
+    u = -((v - v_p) + lambda (h v + r - d))/h        R. Rajamani, Vehicle Dynamics and Control, 2nd ed., Eq. 6.18
+
+v_p speed of the car ahead, d measured gap, h headway, r standstill distance. With a drive of time constant tau it is
+string stable only for h >= 2 tau (Rajamani, section 6.6).
+"""
+
+from typing import NamedTuple
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from studio.application.contract import LEAVE, Command
+from studio.compiled import compiled
+
+TITLE = "Adaptive cruise control (radar only)"
+COMPILED = True
+
+
+class Parameters(BaseModel):
+    """What is tuned."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    headway: float = Field(1.2, ge=0.2, le=5.0, title="Time headway", description="h", json_schema_extra={"unit": "s"})
+    standstill: float = Field(
+        2.0, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"}
+    )
+    gap_gain: float = Field(
+        0.1, gt=0.0, le=2.0, title="Gap gain", description="lambda", json_schema_extra={"unit": "1/s"}
+    )
+    cruise_gain: float = Field(
+        0.5, gt=0.0, le=3.0, title="Cruise gain", description="on the set speed, road free", json_schema_extra={"unit": "1/s"}
+    )
+    acceleration_max: float = Field(
+        2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"}
+    )
+    deceleration_max: float = Field(
+        8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"}
+    )
+
+
+class Memory(NamedTuple):
+    """Nothing is remembered but the last request [m/s²]."""
+
+    u: float = 0.0
+
+
+@compiled
+def cruise(gain, v_set, v):
+    """Acceleration [m/s²] towards the set speed [m/s]."""
+    return gain * (v_set - v)
+
+
+@compiled
+def keep_gap(p, v, front):
+    """Acceleration [m/s²] behind the target (Eq. 6.18); the target's speed is v + range rate."""
+    spacing_error = p.headway * v + p.standstill - front.range
+    return -(-front.range_rate + p.gap_gain * spacing_error) / p.headway
+
+
+@compiled
+def decide(parameters, memory, observation):
+    """One tick."""
+    p, own = parameters, observation.own
+    u = cruise(p.cruise_gain, own.set_speed, own.speed)
+    if observation.front.detected:
+        u = min(u, keep_gap(p, own.speed, observation.front))
+    u = min(max(u, -p.deceleration_max), p.acceleration_max)
+    return Memory(u), Command(acceleration=u, steering=LEAVE)

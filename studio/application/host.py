@@ -1,0 +1,173 @@
+"""Hosts: how applications are called at every tick.
+
+A compiled application runs in a loop over all its cars; the loop is written for it once, into the cache of compiled code,
+because numba can keep machine code only of functions that stand in a file. An ordinary one is called car by car.
+Both see the same observation and may return the same commands; so a developer starts in Python and sets COMPILED = True
+when the idea holds.
+"""
+
+import hashlib
+import os
+import sys
+import traceback
+from collections import namedtuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import numpy as np
+
+from studio.application.contract import Clock, Command, Front, Message, Observation, Own
+from studio.application.registry import Application
+from studio.compiled import CACHE
+from studio.errors import ApplicationError
+
+TEMPLATE = '''"""Calls {name} for all its cars."""
+
+from collections import namedtuple
+
+from studio.application.contract import Clock, Front, Message, Observation, Own
+from studio.compiled import compiled
+from {module} import Memory, decide
+
+Parameters = namedtuple("Parameters", {parameter_names})
+
+
+@compiled
+def run(columns, parameters, memory, observed, commands):
+    for j in range(columns.size):
+        v = columns[j]
+        observation = Observation(
+            Clock({clock}),
+            Own({own}),
+            Front({front}),
+            Message({message}),
+        )
+        remembered, command = decide(Parameters({parameters}), Memory({memory}), observation)
+{store}
+        commands[0, v] = command.acceleration
+        commands[1, v] = command.steering
+'''
+FLAGS = ("detected", "received")
+
+
+@dataclass
+class Hosted:
+    """One application on its cars: columns [car], parameters, memory and observed, [row, car]."""
+
+    application: Application
+    group: str
+    columns: np.ndarray
+    links: np.ndarray  # link that each car listens to, -1 when none
+    parameters: np.ndarray
+    memory: np.ndarray
+    observed: np.ndarray
+    run: Callable
+
+    def decide(self, commands: np.ndarray) -> None:
+        """All its cars decide; their commands go to their columns. Raises ApplicationError with the traceback."""
+        try:
+            self.run(self.columns, self.parameters, self.memory, self.observed, commands)
+        except Exception as error:
+            raise ApplicationError(
+                f"The application {self.application.name!r} of group {self.group!r} raised:\n{traceback.format_exc()}"
+            ) from error
+
+
+def observation_rows() -> list[str]:
+    """Names of the rows of `observed`: all fields of an observation, part by part."""
+    return [f"{part.__name__.lower()}.{name}" for part in (Clock, Own, Front, Message) for name in part._fields]
+
+
+def first_memory(application: Application) -> list[float]:
+    """What an application remembers before its first tick."""
+    return [float(value) for value in application.module.Memory()]
+
+
+def python_loop(application: Application) -> Callable:
+    """Calls `decide` car by car."""
+    module = application.module
+
+    def run(columns, parameters, memory, observed, commands):
+        for j, v in enumerate(columns):
+            remembered, command = module.decide(
+                parameter_tuple(application)(*parameters[:, j].tolist()),
+                module.Memory(*memory[:, j].tolist()),
+                observation_of(observed[:, j].tolist()),
+            )
+            memory[:, j] = remembered
+            commands[:, v] = command_of(command)
+
+    return run
+
+
+def command_of(command) -> tuple[float, float]:
+    """Both actuators; raises TypeError when `decide` returned something else."""
+    if not isinstance(command, Command):
+        raise TypeError(f"decide() returned {command!r} as its command, not a Command")
+    return command.acceleration, command.steering
+
+
+def observation_of(values: list[float]) -> Observation:
+    """An observation from its row of numbers."""
+    parts, start = [], 0
+    for part in (Clock, Own, Front, Message):
+        fields = dict(zip(part._fields, values[start : start + len(part._fields)], strict=True))
+        parts.append(part(**{key: bool(value) if key in FLAGS else value for key, value in fields.items()}))
+        start += len(part._fields)
+    return Observation(*parts)
+
+
+def parameter_tuple(application: Application) -> type:
+    """The parameters as a NamedTuple of floats, made once per application."""
+    module = application.module
+    if not hasattr(module, "_ParameterTuple"):
+        module._ParameterTuple = namedtuple("Parameters", list(module.Parameters.model_fields))
+    return module._ParameterTuple
+
+
+def compiled_loop(application: Application) -> Callable:
+    """The loop written for this application, loaded from its file."""
+    source = loop_source(application)
+    key = hashlib.sha256((source + Path(application.module.__file__).read_text("utf-8")).encode()).hexdigest()[:16]
+    path = CACHE / f"host_{application.name}_{key}.py"
+    if not path.exists():
+        draft = path.with_suffix(f".{os.getpid()}")
+        draft.write_text(source, encoding="utf-8")
+        draft.replace(path)
+    return load(path).run
+
+
+def load(path: Path):
+    """A module from a file."""
+    spec = spec_from_file_location(path.stem, path)
+    module = module_from_spec(spec)
+    sys.modules[path.stem] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def loop_source(application: Application) -> str:
+    """The text of that loop."""
+    rows = iter(range(len(observation_rows())))
+
+    def part(fields) -> str:
+        return ", ".join(value(name, next(rows)) for name in fields)
+
+    def value(name: str, row: int) -> str:
+        return f"observed[{row}, j] > 0.0" if name in FLAGS else f"observed[{row}, j]"
+
+    memory = application.module.Memory._fields
+    return TEMPLATE.format(
+        name=application.name,
+        module=application.module.__name__,
+        parameter_names=list(application.module.Parameters.model_fields),
+        clock=part(Clock._fields),
+        own=part(Own._fields),
+        front=part(Front._fields),
+        message=part(Message._fields),
+        parameters=", ".join(f"parameters[{i}, j]" for i in range(len(application.module.Parameters.model_fields))),
+        memory=", ".join(f"memory[{i}, j]" for i in range(len(memory))),
+        store="\n".join(f"        memory[{i}, j] = remembered.{name}" for i, name in enumerate(memory)),
+    )

@@ -1,0 +1,67 @@
+"""From a document to a complete scenario: applications found, their parameters checked and filled in, changes applied.
+
+    complete(document)  →  Scenario        every default filled in, every name known
+    change(document, {path: value})        an exchange of an application keeps the parameters that both have
+"""
+
+import copy
+from typing import Any
+
+from pydantic import ValidationError
+
+from studio.application import registry
+from studio.errors import Problem, ScenarioError, UnknownError
+from studio.scenario import edit, file
+from studio.scenario.schema import Application, Scenario
+
+
+def complete(document: dict[str, Any], where: str) -> Scenario:
+    """A valid scenario with the parameters of its applications filled in; raises ScenarioError with all problems."""
+    scenario = file.validate(document, where)
+    found = [filled(f"{where}: applications.{name}", group) for name, group in scenario.applications.items()]
+    wrong = [problem for _, problems in found for problem in problems]
+    if wrong:
+        raise ScenarioError(f"{where} is not a valid scenario.", wrong)
+    groups = {name: group for name, (group, _) in zip(scenario.applications, found, strict=True)}
+    return scenario.model_copy(update={"applications": groups})
+
+
+def filled(where: str, group: Application) -> tuple[Application, list[Problem]]:
+    """A group with all parameters of its application, or the problems."""
+    try:
+        application = registry.find(group.application)
+        return group.model_copy(update={"parameters": application.parameters(group.parameters)}), []
+    except UnknownError as error:
+        return group, [Problem(f"{where}.application", error.message)]
+    except ValidationError as error:
+        return group, file.problems(error, f"{where}.parameters", application.module.Parameters)
+
+
+def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dict[str, Any]:
+    """The document with the changes; raises ScenarioError for a path that does not exist."""
+    exchanges = {path: value for path, value in changes.items() if is_exchange(document, path)}
+    for path, name in exchanges.items():
+        document = exchange(document, path.split(".")[1], name)
+    if exchanges:
+        changes = {path: value for path, value in changes.items() if path not in exchanges}
+    for path, value in changes.items():
+        full = complete(document, where).model_dump(mode="json")
+        document = edit.put(document, full, path, value)
+    return document
+
+
+def is_exchange(document: dict[str, Any], path: str) -> bool:
+    """Whether a path names which application a group runs."""
+    parts = path.split(".")
+    return len(parts) == 3 and parts[0] == "applications" and parts[2] == "application" and edit.has(document, path)
+
+
+def exchange(document: dict[str, Any], group: str, name: Any) -> dict[str, Any]:
+    """The document with another application in a group; parameters that it does not have are dropped."""
+    changed = copy.deepcopy(document)
+    setup = changed["applications"][group]
+    setup["application"] = name
+    if isinstance(name, str) and name in registry.known():
+        fields = registry.find(name).module.Parameters.model_fields
+        setup["parameters"] = {key: value for key, value in (setup.get("parameters") or {}).items() if key in fields}
+    return changed

@@ -1,0 +1,68 @@
+"""The driver: steers along a path, keeps a speed, follows what is ahead, stops at red.
+
+Following: Intelligent Driver Model, M. Treiber, A. Hennecke, D. Helbing, Phys. Rev. E 62 (2000) 1805; for speeds above
+the desired one, the improved form of Treiber & Kesting, Traffic Flow Dynamics, 2013, Eq. 11.22.
+Steering: the controller of G. Hoffmann, C. Tomlin, M. Montemerlo, S. Thrun, ACC 2007, Eqs. 5 and 9, at the front axle.
+"""
+
+from math import atan2, sqrt
+
+from studio.compiled import compiled
+
+STOP_FIRM = 4.0  # [m/s²] a driver who would have to brake harder than this for an amber drives on
+STOP_CLOSE = 2.0  # [m] where a driver stops before the line
+NO_LIMIT = 1e3  # [m/s²] stands for "nothing asks me to brake"
+
+
+@compiled
+def free_acceleration(v, v_desired, a, b):
+    """Acceleration [m/s²] on an empty road; a comfortable acceleration, b comfortable deceleration [m/s²]."""
+    if v <= v_desired:
+        return a * (1.0 - (v / max(v_desired, 0.1)) ** 4)
+    return -b * (1.0 - (v_desired / v) ** (4.0 * a / b))
+
+
+@compiled
+def desired_gap(v, closing, s_0, T, a, b):
+    """s* [m] for speed v and closing speed [m/s], standstill gap s_0 [m], time headway T [s]."""
+    return s_0 + max(0.0, v * T + v * closing / (2.0 * sqrt(a * b)))
+
+
+@compiled
+def following_acceleration(v, v_desired, gap, closing, s_0, T, a, b):
+    """Acceleration [m/s²] behind something `gap` [m] ahead that comes nearer with `closing` [m/s]."""
+    pressure = desired_gap(v, closing, s_0, T, a, b) / max(gap, 0.1)
+    return free_acceleration(v, v_desired, a, b) - a * pressure * pressure
+
+
+@compiled
+def must_stop(v, distance):
+    """Whether a driver at v [m/s] who sees a light that is not green `distance` [m] ahead stops for it."""
+    return v * v < 2.0 * STOP_FIRM * max(distance, 0.0)
+
+
+@compiled
+def stopping_acceleration(v, distance, s_0, T, a, b):
+    """Acceleration [m/s²] towards a stop line `distance` [m] ahead of the front bumper."""
+    pressure = desired_gap(v, v, STOP_CLOSE, 0.0, a, b) / max(distance, 0.1)
+    return a * (1.0 - pressure * pressure)
+
+
+@compiled
+def front_compliance(m, l_r, L, C_f):
+    """Slip angle of the front axle per lateral acceleration [rad s²/m]: m l_r/(L C_f), axle stiffness C_f [N/rad]."""
+    return m * l_r / (L * C_f)
+
+
+@compiled
+def path_steering(e, d_psi, kappa, v, r, gain, yaw_damping, compliance, delta_max):
+    """Road wheel angle [rad].
+
+    e [m] offset of the front axle from the path (left positive), d_psi [rad] heading minus path heading there,
+    kappa [1/m] path curvature, v [m/s], r [rad/s], gain [1/s], yaw_damping [s], compliance [rad s²/m].
+    The front axle moves along the path when the wheels point along it, -d_psi, plus the slip that the side force of
+    the bend needs, compliance v² kappa.
+    """
+    steady = compliance * v * v * kappa
+    correction = -d_psi - atan2(gain * e, 1.0 + v) + yaw_damping * (v * kappa - r)
+    return min(max(correction + steady, -delta_max), delta_max)

@@ -1,0 +1,38 @@
+"""The front sensor: the nearest object in the own driving corridor, as a radar with target selection reports it.
+
+The corridor is the arc that the own motion predicts, y = kappa x²/2 with kappa = r/v: a car on the next lane of a bend
+is not the car ahead.
+"""
+
+from math import atan2, cos, sin, sqrt
+
+from studio.compiled import compiled
+
+CORRIDOR = 1.7  # [m] half width: half a lane
+V_CURVE = 2.0  # [m/s] below this the yaw rate says nothing about the path
+
+
+@compiled
+def seen_from(x, y, psi, x_other, y_other):
+    """Position [m] of a point in the axes of an observer at x, y, psi: forward and left."""
+    dx, dy = x_other - x, y_other - y
+    return dx * cos(psi) + dy * sin(psi), dy * cos(psi) - dx * sin(psi)
+
+
+@compiled
+def own_curvature(v, r):
+    """Curvature [1/m] of the own path from speed [m/s] and yaw rate [rad/s]."""
+    return r / v if v > V_CURVE else 0.0
+
+
+@compiled
+def in_view(forward, left, reach, half_angle):
+    """Whether a point lies inside the cone: reach [m], half of the opening angle [rad]."""
+    distance = sqrt(forward * forward + left * left)
+    return forward > 0.0 and distance < reach and abs(atan2(left, forward)) < half_angle
+
+
+@compiled
+def in_corridor(forward, left, kappa):
+    """Whether a point lies on the own predicted path."""
+    return abs(left - 0.5 * kappa * forward * forward) < CORRIDOR

@@ -1,0 +1,193 @@
+"""What a scenario file may say: every field with its unit, its range and what it means.
+
+Reading refuses what it does not know; nothing is repaired. Paths of fields (`applications.platoon.parameters.headway`)
+are the names that `--set`, the page and the run database use.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
+
+def number(default, *, unit: str, title: str, description: str = "", **bounds):
+    """A field with a unit."""
+    return Field(default, title=title, description=description, json_schema_extra={"unit": unit}, **bounds)
+
+
+class Part(BaseModel):
+    """Base of all parts: unknown fields are refused, numbers must be finite."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, str_strip_whitespace=True)
+
+
+class Map(Part):
+    """The place."""
+
+    file: str = Field(..., title="Map file", description="relative to the scenario file: .osm or .osm.gz")
+    radius: float = number(800.0, unit="m", title="Radius", description="what lies farther from the centre is cut off", ge=100, le=5000)
+
+
+class Clock(Part):
+    """Time: vehicles integrate with `step`, meet at `tick`."""
+
+    step: float = number(DEFAULT_STEP, unit="s", title="Integration step", ge=0.0005, le=0.01)
+    tick: float = number(DEFAULT_TICK, unit="s", title="Tick", ge=0.01, le=0.1)
+    duration: float = number(60.0, unit="s", title="Duration", gt=0, le=3600)
+
+    @model_validator(mode="after")
+    def whole_steps(self):
+        ratio = self.tick / self.step
+        if abs(ratio - round(ratio)) > 1e-6:
+            raise ValueError(f"the tick must be a whole number of steps; {self.tick} s / {self.step} s = {ratio:g}")
+        return self
+
+
+class SpeedAnnotation(Part):
+    """From this station on, this speed is wanted."""
+
+    at: float = number(..., unit="m", title="From station", ge=0)
+    speed: float = number(..., unit="m/s", title="Speed", gt=0, le=70)
+
+
+class Route(Part):
+    """A way along the roads of the map; between two named roads the quickest way is taken."""
+
+    roads: list[str] = Field(..., min_length=1, title="Roads", description="ids of roads, in driving order")
+    speeds: list[SpeedAnnotation] = Field([], title="Speed annotations")
+
+
+class Place(Part):
+    """Where a vehicle starts: `along` its route, or on a `road` and `lane` of it."""
+
+    along: float | None = Field(None, ge=0, title="Along the route", json_schema_extra={"unit": "m"})
+    road: str | None = Field(None, title="Road")
+    lane: int | None = Field(None, ge=0, le=9, title="Lane", description="0 is the lane at the kerb")
+    offset: float = number(0.0, unit="m", title="From the start of the road", ge=0)
+
+    @model_validator(mode="after")
+    def one_way_to_say_it(self):
+        if (self.along is None) == (self.road is None):
+            raise ValueError("give either `along`, or `road` with `lane` and `offset`")
+        return self
+
+
+class Driver(Part):
+    """Who sits at the wheel."""
+
+    acceleration: float = number(1.4, unit="m/s²", title="Comfortable acceleration", gt=0.1, le=5)
+    deceleration: float = number(2.0, unit="m/s²", title="Comfortable deceleration", gt=0.1, le=8)
+    time_headway: float = number(1.2, unit="s", title="Wanted headway", ge=0.3, le=5)
+    standstill_gap: float = number(2.0, unit="m", title="Gap at rest", ge=0.5, le=10)
+    speed_factor: float = number(1.0, unit="1", title="Wanted over permitted speed", ge=0.3, le=1.5)
+    steering_gain: float = number(2.0, unit="1/s", title="Steering gain", description="how fast an offset is steered away", ge=0.1, le=10)
+    yaw_damping: float = number(0.1, unit="s", title="Yaw damping", ge=0, le=1)
+
+
+class FrontSensor(Part):
+    """The radar that looks ahead. A reach of 0 means: none."""
+
+    range: float = number(120.0, unit="m", title="Reach", ge=0, le=300)
+    opening_angle: float = number(0.7, unit="rad", title="Opening angle", description="from edge to edge", gt=0, le=3.2)
+    range_noise: float = number(0.1, unit="m", title="Noise of the range", description="standard deviation", ge=0, le=10)
+    rate_noise: float = number(0.05, unit="m/s", title="Noise of the range rate", description="standard deviation", ge=0, le=5)
+
+
+class Vehicle(Part):
+    """One named car."""
+
+    model: str = Field("bmw_320i", title="Model", description="a name of the catalogue")
+    route: Name = Field(..., title="Route")
+    position: Place = Field(..., title="Start")
+    speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
+    driver: Driver = Field(default_factory=Driver, title="Driver")
+    sensor: FrontSensor = Field(default_factory=FrontSensor, title="Front sensor")
+    colour: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] = Field("#2f6fde", title="Colour")
+
+
+class Application(Part):
+    """One application on one or several cars; every car has its own instance."""
+
+    application: str = Field(..., title="Application", description="a registered name")
+    vehicles: list[Name] = Field(..., min_length=1, title="On these vehicles")
+    listens_to: list[Name] = Field([], title="Listening to", description="whose messages each of them uses, one each")
+    parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+
+    @model_validator(mode="after")
+    def one_sender_each(self):
+        if self.listens_to and len(self.listens_to) != len(self.vehicles):
+            raise ValueError(f"{len(self.vehicles)} vehicles but {len(self.listens_to)} in `listens_to`: one for each")
+        return self
+
+
+class Brake(Part):
+    """Brakes with a constant deceleration."""
+
+    maneuver: Literal["brake"] = "brake"
+    deceleration: float = number(6.0, unit="m/s²", title="Deceleration", gt=0, le=10)
+    duration: float = number(3.0, unit="s", title="Duration", gt=0, le=600)
+    to_speed: float = number(0.0, unit="m/s", title="Down to", description="ends earlier at this speed", ge=0, le=70)
+
+
+class Trigger(Part):
+    """At a time, a vehicle does something that is scripted."""
+
+    time: float = number(..., unit="s", title="Time", ge=0, le=3600)
+    vehicle: Name = Field(..., title="Vehicle")
+    do: Brake = Field(default_factory=Brake, title="Maneuver")
+
+
+class Traffic(Part):
+    """Cars that fill the map, placed at random on the ways from any arm to any other."""
+
+    count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
+    model: str = Field("ford_escort", title="Model", description="a name of the catalogue")
+    speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
+    spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
+    driver: Driver = Field(default_factory=Driver, title="Drivers")
+
+
+class Radio(Part):
+    """The ad hoc radio that all units share."""
+
+    period: float = number(0.1, unit="s", title="Message period", ge=0.01, le=2)
+    delay: float = number(0.02, unit="s", title="Delay", description="mean, sender's to receiver's application", ge=0, le=1)
+    delay_variation: float = number(0.005, unit="s", title="Variation of the delay", description="half width", ge=0, le=1)
+    loss: float = number(0.01, unit="1", title="Loss rate", ge=0, le=1)
+    loss_per_metre: float = number(0.0, unit="1/m", title="Loss per distance", ge=0, le=0.1)
+    range: float = number(300.0, unit="m", title="Range", gt=0, le=5000)
+
+
+class Recording(Part):
+    """What is kept of a run."""
+
+    period: float = number(DEFAULT_TICK, unit="s", title="Sampling period", ge=0.01, le=10)
+    traffic: bool = Field(False, title="Record the traffic too", description="else only the named vehicles")
+
+
+class Goal(Part):
+    """What a metric must keep for the run to pass."""
+
+    least: float | None = Field(None, title="At least", allow_inf_nan=False)
+    most: float | None = Field(None, title="At most", allow_inf_nan=False)
+
+
+class Scenario(Part):
+    """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
+
+    version: Literal[1] = Field(1, title="Version of this format")
+    title: str = Field(..., min_length=1, max_length=120, title="Title")
+    description: str = Field("", max_length=2000, title="Description")
+    map: Map = Field(..., title="Map")
+    clock: Clock = Field(default_factory=Clock, title="Clock")
+    seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
+    routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
+    vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
+    applications: dict[Name, Application] = Field({}, title="Applications")
+    triggers: dict[Name, Trigger] = Field({}, title="Triggers")
+    traffic: Traffic = Field(default_factory=Traffic, title="Traffic")
+    radio: Radio = Field(default_factory=Radio, title="Radio")
+    recording: Recording = Field(default_factory=Recording, title="Recording")
+    goals: dict[str, Goal] = Field({}, title="Goals", description="per metric")

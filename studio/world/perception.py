@@ -1,0 +1,131 @@
+"""Perception: what the units of this tick get to know, by sensor and by radio. Two passes.
+
+Sensors look at the true world and add their errors; messages are looked up in what the senders have sent.
+"""
+
+from math import atan2, cos, sin, sqrt
+
+from studio.compiled import compiled
+from studio.model import radio, sensor
+from studio.model.random import MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, uniform
+from studio.world.state import *  # noqa: F403 - the names of the rows
+
+PAIR = 65536  # a link is numbered receiver · PAIR + sender
+
+
+@compiled
+def rear_seen(v, other, state, parameter):
+    """The middle of the other's rear bumper [m], forward and left of the own front bumper."""
+    psi = state[PSI, other]
+    back = parameter[LENGTH, other] - parameter[FRONT, other]
+    x = state[X, other] - back * cos(psi)
+    y = state[Y, other] - back * sin(psi)
+    forward, left = sensor.seen_from(state[X, v], state[Y, v], state[PSI, v], x, y)
+    return forward - parameter[FRONT, v], left
+
+
+@compiled
+def nearest_target(v, first, count, state, parameter, sensor_set):
+    """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none."""
+    kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
+    best, best_forward, best_left = -1, sensor_set[REACH, v], 0.0
+    for other in range(first, first + count):
+        if other == v or state[ACTIVE, other] == 0.0:
+            continue
+        if abs(state[X, other] - state[X, v]) > best_forward + 20.0:
+            continue
+        forward, left = rear_seen(v, other, state, parameter)
+        if forward >= best_forward or not sensor.in_corridor(forward, left, kappa):
+            continue
+        if sensor.in_view(forward, left, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
+            best, best_forward, best_left = other, forward, left
+    return best, best_forward, best_left
+
+
+@compiled
+def closing_rate(v, other, forward, left, state):
+    """Change of the distance [m/s] to a car seen in that direction."""
+    distance = max(sqrt(forward * forward + left * left), 1e-6)
+    psi, psi_other = state[PSI, v], state[PSI, other]
+    east = state[V_X, other] * cos(psi_other) - state[V_X, v] * cos(psi)
+    north = state[V_X, other] * sin(psi_other) - state[V_X, v] * sin(psi)
+    ahead, aside = east * cos(psi) + north * sin(psi), north * cos(psi) - east * sin(psi)
+    return (ahead * forward + aside * left) / distance
+
+
+@compiled
+def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed, sensors):
+    """First pass: the front sensor of every car."""
+    for v in range(state.shape[1]):
+        w = world_of[v]
+        sensors[DETECTED, v] = 0.0
+        sensors[TARGET, v] = -1.0
+        if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0:
+            continue
+        other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
+        if other >= 0:
+            report(k, v, other, forward, left, state, sensor_set, w, entity[v], seed[w], sensors)
+
+
+@compiled
+def report(k, v, other, forward, left, state, sensor_set, w, unit, seed, sensors):
+    """Writes a target with the sensor's errors."""
+    noise_range = sensor_set[RANGE_SIGMA, v] * normal(seed, w, unit, RANGE_NOISE, k)
+    noise_rate = sensor_set[RATE_SIGMA, v] * normal(seed, w, unit, RATE_NOISE, k)
+    sensors[DETECTED, v] = 1.0
+    sensors[TARGET, v] = other
+    sensors[RANGE, v] = max(sqrt(forward * forward + left * left) + noise_range, 0.0)
+    sensors[RANGE_RATE, v] = closing_rate(v, other, forward, left, state) + noise_rate
+    sensors[AZIMUTH, v] = atan2(left, forward)
+
+
+@compiled
+def is_turn(k, unit, period):
+    """Whether a unit sends at tick k: every `period` ticks, units spread over the period."""
+    return (k + unit) % period == 0
+
+
+@compiled
+def send(k, tick, state, command, radio_set, world_of, entity, sent):
+    """Second pass, first half: the units whose turn it is broadcast what their car's bus says."""
+    n = state.shape[1]
+    for v in range(n):
+        period = int(round(radio_set[PERIOD, world_of[v]] / tick))
+        if state[ACTIVE, v] > 0.0 and is_turn(k, entity[v], period):
+            column = ((k + entity[v]) // period % RING) * n + v
+            sent[SENT, column] = k * tick
+            sent[M_X, column] = state[X, v]
+            sent[M_Y, column] = state[Y, v]
+            sent[M_SPEED, column] = state[V_X, v]
+            sent[M_ACCELERATION, column] = state[A_X, v]
+            sent[M_INTENTION, column] = command[U, ((k - 1) % RING) * n + v]
+
+
+@compiled
+def has_arrived(time, number, column, sender, receiver, w, state, radio_set, entity, seed, sent):
+    """Whether message `number` of the sender has reached the receiver by now."""
+    link = entity[receiver] * PAIR + entity[sender]
+    air = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], uniform(seed, w, link, MESSAGE_DELAY, number))
+    if sent[SENT, column] + air > time + 1e-9:
+        return False
+    dx, dy = sent[M_X, column] - state[X, receiver], sent[M_Y, column] - state[Y, receiver]
+    draw = uniform(seed, w, link, MESSAGE_LOSS, number)
+    distance = sqrt(dx * dx + dy * dy)
+    return not radio.is_lost(distance, radio_set[RADIO_RANGE, w], radio_set[LOSS, w], radio_set[LOSS_DISTANCE, w], draw)
+
+
+@compiled
+def receive(k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, sent, inbox):
+    """Second pass, second half: every link takes the newest message that has arrived."""
+    n = state.shape[1]
+    for link in range(link_receiver.size):
+        receiver, sender = link_receiver[link], link_sender[link]
+        w = world_of[receiver]
+        newest = (k + entity[sender]) // int(round(radio_set[PERIOD, w] / tick))
+        for number in range(newest, max(newest - RING, -1), -1):
+            column = (number % RING) * n + sender
+            if sent[SENT, column] <= inbox[SENT, link]:
+                break
+            if has_arrived(k * tick, number, column, sender, receiver, w, state, radio_set, entity, seed[w], sent):
+                inbox[:, link] = sent[:, column]
+                break

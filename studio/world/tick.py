@@ -1,0 +1,100 @@
+"""One tick of the world: the table of contents of the simulator.
+
+At a tick everybody meets: lights change, triggers fire, drivers look around, sensors measure, messages arrive,
+applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps.
+"""
+
+from studio.application.host import Hosted
+from studio.world import collision, control, motion, perception, traffic
+from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.world import World
+
+
+def tick(world: World) -> None:
+    """Advances the world by one tick. Raises ApplicationError when an application does."""
+    environment(world)
+    look(world)
+    sense(world)
+    communicate(world)
+    think(world)
+    applications(world)
+    act(world)
+    move(world)
+    collide(world)
+    world.clock.k += 1
+
+
+def environment(world: World) -> None:
+    """Lights and triggers."""
+    r, e, time = world.roads, world.events, world.clock.time
+    traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
+    control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
+
+
+def look(world: World) -> None:
+    """Drivers find themselves on their path and see who is ahead."""
+    v, r = world.vehicles, world.roads
+    traffic.orient(
+        v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
+        r.stop_link, r.shown, v.drivers, v.mind,
+    )  # fmt: skip
+    traffic.meetings(v.state, v.parameter, r.zone_pair, r.zone_span, v.drivers, v.mind)
+
+
+def sense(world: World) -> None:
+    """Sensors measure."""
+    v, u, w = world.vehicles, world.units, world.worlds
+    perception.sense(
+        world.clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, w.seed, u.sensors
+    )
+
+
+def communicate(world: World) -> None:
+    """Units send, and take what has reached them."""
+    v, u, w, clock = world.vehicles, world.units, world.worlds, world.clock
+    perception.send(clock.k, clock.tick, v.state, v.commands, u.radio_set, w.of, w.entity, u.sent)
+    perception.receive(
+        clock.k, clock.tick, v.state, u.radio_set, u.link_receiver, u.link_sender, w.of, w.entity, w.seed, u.sent, u.inbox
+    )
+
+
+def think(world: World) -> None:
+    """Drivers decide."""
+    v = world.vehicles
+    traffic.decide(v.state, v.parameter, v.drivers, v.mind)
+
+
+def applications(world: World) -> None:
+    """Every application sees its observation and decides."""
+    for hosted in world.hosted:
+        observe(world, hosted)
+        hosted.decide(world.vehicles.app_command)
+
+
+def observe(world: World, hosted: Hosted) -> None:
+    """What the cars of one group see, row by row as `observation_rows` names them."""
+    v, u, clock = world.vehicles, world.units, world.clock
+    control.observe(
+        clock.time, clock.tick, hosted.columns, hosted.links, v.state, v.mind, u.sensors, u.inbox, hosted.observed
+    )
+
+
+def act(world: World) -> None:
+    """Maneuvers, applications and drivers command the actuators."""
+    v, clock = world.vehicles, world.clock
+    control.command(clock.k, clock.time, v.state, v.parameter, v.script, v.mind, v.app_command, v.commands)
+
+
+def move(world: World) -> None:
+    """Every vehicle integrates to the next tick."""
+    v, clock = world.vehicles, world.clock
+    motion.integrate(
+        v.state, v.parameter, v.tyres, v.tyre_of, v.wheels, v.contact, v.commands, clock.k, clock.tick, clock.step
+    )
+
+
+def collide(world: World) -> None:
+    """Contacts are found at the end of the tick."""
+    v, w, e = world.vehicles, world.worlds, world.events
+    time = world.clock.time + world.clock.tick
+    e.hits_found = collision.collide(time, v.state, v.parameter, w.first, w.count, e.hits, e.hits_found)

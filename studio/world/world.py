@@ -1,0 +1,159 @@
+"""The world: all arrays of a batch of runs, in one place. One copy of it is a snapshot, its bytes are the hash."""
+
+import hashlib
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from studio.application.host import Hosted
+
+
+@dataclass
+class Clock:
+    """Time: `k` ticks of length `tick` [s] have passed; vehicles integrate with `step` [s]."""
+
+    tick: float
+    step: float
+    k: int = 0
+
+    @property
+    def time(self) -> float:
+        """Seconds since the start."""
+        return self.k * self.tick
+
+
+@dataclass
+class Vehicles:
+    """State, parameters and minds of all vehicles, [row, vehicle]; wheels and contact [row, corner · n + vehicle]."""
+
+    state: np.ndarray
+    wheels: np.ndarray
+    contact: np.ndarray
+    parameter: np.ndarray
+    tyres: np.ndarray  # [coefficient, tyre]
+    tyre_of: np.ndarray
+    drivers: np.ndarray
+    mind: np.ndarray
+    script: np.ndarray
+    commands: np.ndarray  # [row, slot · n + vehicle]
+    app_command: np.ndarray  # [acceleration, steering] of applications, not a number where there is none
+
+
+@dataclass
+class Worlds:
+    """Which vehicles belong to which world: `of` and `entity` per vehicle; `first`, `count`, `seed` per world."""
+
+    of: np.ndarray
+    entity: np.ndarray
+    first: np.ndarray
+    count: np.ndarray
+    seed: np.ndarray
+
+
+@dataclass
+class Roads:
+    """Paths as one array of points with a first point and a count per vehicle; stop lines; zones; signals."""
+
+    points: np.ndarray
+    path_first: np.ndarray
+    path_count: np.ndarray
+    stop_first: np.ndarray
+    stop_count: np.ndarray
+    stop_station: np.ndarray
+    stop_link: np.ndarray
+    zone_pair: np.ndarray  # int64[2, z]
+    zone_span: np.ndarray  # float64[4, z]
+    signal_time: np.ndarray  # [cycle, offset] per link
+    signal_first: np.ndarray
+    signal_count: np.ndarray
+    phase_end: np.ndarray
+    phase_state: np.ndarray
+    shown: np.ndarray
+
+
+@dataclass
+class Units:
+    """Sensors and radio: what is set, what was sent, what has been received."""
+
+    sensor_set: np.ndarray
+    sensors: np.ndarray
+    radio_set: np.ndarray  # per world
+    sent: np.ndarray  # [row, slot · n + vehicle]
+    link_receiver: np.ndarray
+    link_sender: np.ndarray
+    inbox: np.ndarray  # [row, link]
+
+
+@dataclass
+class Events:
+    """Triggers with their scripts, and the collisions found."""
+
+    trigger_time: np.ndarray
+    trigger_vehicle: np.ndarray
+    trigger_script: np.ndarray
+    fired: np.ndarray
+    hits: np.ndarray
+    hits_found: int = 0
+
+
+@dataclass
+class World:
+    """Everything that a tick reads and writes. `names` are the vehicles' names, one tuple per world."""
+
+    clock: Clock
+    vehicles: Vehicles
+    worlds: Worlds
+    roads: Roads
+    units: Units
+    events: Events
+    hosted: list[Hosted]
+    names: tuple[tuple[str, ...], ...]
+    colours: tuple[str, ...] = field(default=())
+
+    @property
+    def size(self) -> int:
+        """Number of vehicles in all worlds."""
+        return self.vehicles.state.shape[1]
+
+    def column(self, name: str, world: int = 0) -> int:
+        """Column of a vehicle; raises ValueError."""
+        return int(self.worlds.first[world]) + self.names[world].index(name)
+
+    def columns(self, world: int = 0) -> slice:
+        """Columns of one world."""
+        first = int(self.worlds.first[world])
+        return slice(first, first + int(self.worlds.count[world]))
+
+    def moving_parts(self) -> list[np.ndarray]:
+        """The arrays that change during a run."""
+        v, u, e = self.vehicles, self.units, self.events
+        memories = [hosted.memory for hosted in self.hosted]
+        return [v.state, v.wheels, v.mind, v.script, v.commands, u.sensors, u.sent, u.inbox, e.fired, e.hits, *memories]
+
+    def digest(self) -> str:
+        """SHA-256 of the moving parts and the clock."""
+        digest = hashlib.sha256(str(self.clock.k).encode())
+        for part in self.moving_parts():
+            digest.update(np.ascontiguousarray(part).tobytes())
+        return digest.hexdigest()
+
+    def world_digest(self, world: int) -> str:
+        """SHA-256 of the state of one world's vehicles, which does not depend on the batch they ran in."""
+        columns = self.columns(world)
+        digest = hashlib.sha256(str(self.clock.k).encode())
+        digest.update(np.ascontiguousarray(self.vehicles.state[:, columns]).tobytes())
+        digest.update(np.ascontiguousarray(self.wheel_columns(columns)).tobytes())
+        return digest.hexdigest()
+
+    def wheel_columns(self, columns: slice) -> np.ndarray:
+        """Wheel state [row, corner, vehicle] of some vehicles."""
+        wheels = self.vehicles.wheels
+        return wheels.reshape(wheels.shape[0], 4, self.size)[:, :, columns]
+
+
+def first_not_finite(state: np.ndarray) -> tuple[int, int] | None:
+    """Row and column of the first value that is not finite, or None."""
+    rows, columns = np.nonzero(~np.isfinite(state))
+    return (int(rows[0]), int(columns[0])) if rows.size else None
+
+
