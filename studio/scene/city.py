@@ -13,8 +13,8 @@ from studio.scene.light import SKY_RADIUS, SUN
 from studio.scene.shape import Surface, surface
 
 # Flat layers lie some centimetres apart, so that they do not flicker through each other from afar [m].
-GROUND, WATER, GREEN, ROAD, MARKING, SHADOW = -0.16, -0.13, -0.10, 0.0, 0.03, 0.05
-COLOURS = {"ground": "#b9b5a8", "water": "#6f9db3", "green": "#93a873", "road": "#55585c", "markings": "#eceae3"}
+GROUND, WATER, GREEN, ROAD, MARKING, SHADOW, TREE_SHADOW = -0.16, -0.13, -0.10, 0.0, 0.03, 0.05, 0.06
+COLOURS = {"ground": "#9ba18a", "water": "#6f9db3", "green": "#84995f", "road": "#55585c", "markings": "#eceae3"}
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
 
 
@@ -52,8 +52,13 @@ def ground(*, radius: float = SKY_RADIUS) -> Surface:
 
 
 def _flat(name: str, mesh, height: float, *, roughness: float = 1.0) -> Layer:
-    flat = surface(mesh.vertices, mesh.faces, COLOURS[name])
+    flat = surface(_level(mesh.vertices), mesh.faces, COLOURS[name])
     return Layer(name, glb(flat, Material(roughness=roughness)), height)
+
+
+def _level(vertices: np.ndarray) -> np.ndarray:
+    # the layers' heights are ours: shadows must lie low, or they climb up the wheels
+    return vertices * np.float32([1.0, 1.0, 0.0])
 
 
 def _areas(network: Network) -> list[Layer]:
@@ -75,8 +80,8 @@ def _buildings(network: Network) -> list[Layer]:
 
 def shade(network: Network) -> Surface:
     """The shadow of all buildings on the ground, one see-through sheet."""
-    mesh = roads.shadow_mesh(network, sun=SUN)
-    return surface(mesh.vertices, mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
+    mesh = roads.shadow_mesh(network, sun=tuple(-SUN))
+    return surface(_level(mesh.vertices), mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
 
 
 def _masts(network: Network) -> list[Layer]:
@@ -88,3 +93,8 @@ def _masts(network: Network) -> list[Layer]:
 def tree_mesh() -> bytes:
     """One tree, to be shown many times."""
     return glb(tree.tree(), Material(roughness=1.0))
+
+
+def tree_shadow() -> bytes:
+    """The shadow of one tree."""
+    return glb(tree.shadow(), Material(unlit=True, blend=True))

@@ -3,19 +3,20 @@
 import numpy as np
 import viser
 
+from studio.road import surface
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
-from studio.scene.shape import Surface, surface
+from studio.scene.shape import Surface
+from studio.scene.shape import surface as painted
 
-# A morning in summer: direction towards the sun, unit vector in the local east-north-up frame.
-SUN = np.array([0.50, -0.52, 0.69])
-SUN = SUN / np.linalg.norm(SUN)
+# direction towards the sun, unit vector in the local east-north-up frame
+SUN = -np.array(surface.SUN) / np.linalg.norm(surface.SUN)
 
 HAZE = "#c3d4e2"
 HAZE_NEAR, HAZE_FAR = 350.0, 2600.0
 SKY_RADIUS = 3000.0
 # elevation above the horizon [deg] and colour
-SKY = [(-12, HAZE), (0, HAZE), (3, "#bdd1e3"), (8, "#b0cae2"), (16, "#9cbfe0"), (30, "#7fabd8"), (50, "#6496cd"), (90, "#5187c4")]
+SKY = [(-12, HAZE), (0, HAZE), (2, "#bcd0e3"), (6, "#aac6e0"), (12, "#93b8db"), (22, "#78a5d2"), (40, "#5c8fc6"), (90, "#4a7fbb")]
 
 
 def light(server: viser.ViserServer) -> None:
@@ -26,7 +27,7 @@ def light(server: viser.ViserServer) -> None:
     # a hemisphere light shines from its position: at the origin it would have no direction
     up = {"position": (0.0, 0.0, 100.0)}
     scene.add_light_hemisphere("/light/sky", sky_color=rgb8("#dbe8f7"), ground_color=rgb8("#77705f"), intensity=2.1, **up)
-    scene.add_light_directional("/light/sun", color=rgb8("#fff0d8"), intensity=3.0, position=tuple(SUN * 500.0))
+    scene.add_light_directional("/light/sun", color=rgb8("#fff0d8"), intensity=2.8, position=tuple(SUN * 500.0))
     scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
     scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
 
@@ -41,4 +42,4 @@ def sky(*, radius: float = SKY_RADIUS) -> Surface:
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], -1).reshape(-1, 4)
     faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     shades = np.repeat([linear(colour) for _, colour in SKY], len(azimuth), axis=0)
-    return surface(vertices, faces, shades)
+    return painted(vertices, faces, shades)

@@ -10,7 +10,7 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
-from studio.scene.light import SKY_RADIUS, light
+from studio.scene.light import SKY_RADIUS, SUN, light
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
@@ -63,10 +63,14 @@ class Scene:
         if spots.shape[1] == 0:
             return []
         scales, turns = tree.sizes(spots.shape[1])
-        places = np.column_stack([spots.T, np.full(spots.shape[1], city.GREEN)])
         options = {"batched_scales": scales, "lod": "off", "cast_shadow": False, "receive_shadow": False}
-        trees = self._server.scene.add_batched_glb("/city/trees", city.tree_mesh(), turns, places, **options)
-        return [trees]
+        add = self._server.scene.add_batched_glb
+        # the crown's middle is some 5.5 m up, and its shadow lies where the sun throws it
+        thrown = spots.T - 5.5 * scales[:, 2:] * SUN[:2] / SUN[2]
+        return [
+            add("/city/trees", city.tree_mesh(), turns, _lifted(spots.T, city.GREEN), **options),
+            add("/city/tree_shadows", city.tree_shadow(), _still(len(turns)), _lifted(thrown, city.TREE_SHADOW), **options),
+        ]
 
     def _look_at(self, *, reach: float) -> None:
         """The overview: from the south, high enough to see the whole."""
@@ -109,6 +113,14 @@ def _free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
+
+
+def _lifted(spots: np.ndarray, height: float) -> np.ndarray:
+    return np.column_stack([spots, np.full(len(spots), height)]).astype(np.float32)
+
+
+def _still(count: int) -> np.ndarray:
+    return np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (count, 1))
 
 
 def _reach(network: Network) -> float:

@@ -14,7 +14,7 @@ MAST_HEIGHT, ARM_HEIGHT = 6.0, 5.75
 BEHIND_LINE = 1.6  # [m] from the stop line to the mast
 KERB = 0.9  # [m] from the edge of the lane to the mast
 LAMP_HEIGHTS = {"red": 5.62, "amber": 5.22, "green": 4.82}
-LAMP_COLOURS = {"red": "#ff2a1c", "amber": "#ffb51c", "green": "#22e07a"}
+LAMP_COLOURS = {"red": "#ff1a0a", "amber": "#ff9a00", "green": "#00d35a"}
 LIT_IN = {"red": (RED, RED_AMBER), "amber": (RED_AMBER, AMBER), "green": (GREEN,)}
 STEEL, HOUSING, OFF = "#6f757a", "#1b1e20", "#33302c"
 # a lit lamp stands a little before the dark one [m]

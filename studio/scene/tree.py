@@ -4,9 +4,10 @@ import numpy as np
 import shapely
 
 from studio.road.network import Network
-from studio.scene.shape import Surface, ball, cylinder, joined
+from studio.scene.colour import linear
+from studio.scene.shape import Surface, ball, cylinder, joined, surface
 
-MOST = 2200
+MOST = 2000
 SPACING = 9.0  # [m] at the closest
 CLEARANCE = 3.5  # [m] from the edge of a lane to a trunk
 TRUNK, CROWN, CROWN_TOP = "#6b5846", "#5f7f47", "#77965a"
@@ -14,9 +15,22 @@ TRUNK, CROWN, CROWN_TOP = "#6b5846", "#5f7f47", "#77965a"
 
 def tree() -> Surface:
     """A tree about 9 m high: a trunk and a crown of two round masses."""
-    crown = ball((2.5, 2.6, 2.4), CROWN, segments=9).moved(z=5.4)
-    top = ball((1.8, 1.7, 1.9), CROWN_TOP, segments=8).moved(x=0.35, y=-0.3, z=7.2)
+    crown = ball((2.5, 2.6, 2.4), CROWN, segments=11).moved(z=5.4)
+    top = ball((1.8, 1.7, 1.9), CROWN_TOP, segments=10).moved(x=0.35, y=-0.3, z=7.2)
     return joined([cylinder(0.22, 3.6, TRUNK, segments=6), crown, top])
+
+
+def shadow(*, darkness: float = 0.34) -> Surface:
+    """The shadow of the crown, a soft round patch in the plane z = 0 about the tree's foot, thrown by the sun."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
+    rings = [np.column_stack([r * np.cos(angle), r * np.sin(angle), 0 * angle]) for r in (1.5, 2.9)]
+    here = np.arange(16)
+    after = (here + 1) % 16
+    faces = [np.stack([np.full(16, 32), here, after], 1), np.stack([here, here + 16, after + 16], 1)]
+    faces.append(np.stack([here, after + 16, after], 1))
+    opacity = np.repeat([darkness, 0.0, darkness], [16, 16, 1])
+    colors = np.column_stack([np.tile(linear("#10151c"), (33, 1)), opacity])
+    return surface(np.concatenate([*rings, [[0.0, 0.0, 0.0]]]), np.concatenate(faces), colors)
 
 
 def places(network: Network) -> np.ndarray:

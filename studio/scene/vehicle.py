@@ -39,7 +39,7 @@ class Dimensions:
 
 # what a quad of the body is made of
 PAINT, TRIM, GLASS, HEADLIGHT, TAILLIGHT, GRILLE, PLATE = range(7)
-GLASS_COLOUR = "#141a21"
+GLASS_COLOUR = "#1a232c"
 PARTS = ["", "#15171a", GLASS_COLOUR, "#eef3f6", "#a80d12", "#0c0d0f", "#e8e8e2"]
 TYRE, RIM, GAP = range(3)
 WHEEL_COLOURS = ["#17181a", "#b9bec4", "#2a2c2f"]
@@ -84,7 +84,7 @@ def hull(size: Dimensions, palette: list[str]) -> Surface:
 
 def _lids(rings: np.ndarray, palette: list[str]) -> list[Surface]:
     # a ring closes by repeating its first point; seen from the front it runs counter-clockwise
-    return [fan(rings[0, :-1][::-1], palette[PAINT]), fan(rings[-1, :-1], palette[GRILLE])]
+    return [fan(rings[0, :-1][::-1], palette[PAINT]), fan(rings[-1, :-1], palette[PAINT])]
 
 
 def _share(size: Dimensions, x: float) -> float:
@@ -151,10 +151,9 @@ def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
     kinds = np.full((len(middle), half), PAINT)
     kinds[:, :FLANK_FROM] = TRIM
     kinds[:, FLANK_FROM] = TRIM
-    nose, tail = middle > 0.945, middle < 0.03
+    tail = middle < 0.03
     kinds[np.ix_((middle > 0.945) & (middle < 0.987), [FLANK_TO - 1, FLANK_TO])] = HEADLIGHT
     kinds[np.ix_(tail, [FLANK_TO - 1, FLANK_TO])] = TAILLIGHT
-    kinds[np.ix_(nose & (middle > 0.987), [FLANK_FROM + 1, FLANK_FROM + 2])] = GRILLE
     return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
 
 
@@ -189,15 +188,19 @@ def _cabin_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
 
 
 def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
-    """Mirrors and number plates."""
+    """Mirrors, number plates, and the dark openings at the front and the rear."""
     x = 0.16 * size.length
     mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(x=x, y=0.5 * size.width + 0.06, z=0.675 * size.height)
     plate = box((0.02, 0.52, 0.11), palette[PLATE])
+    front, rear = 0.5 * size.length + 0.002, -0.5 * size.length - 0.004
     return [
         mirror,
         mirror.mirrored(),
-        plate.moved(x=0.5 * size.length + 0.004, z=0.285 * size.height),
-        plate.moved(x=-0.5 * size.length - 0.004, z=0.36 * size.height),
+        plate.moved(x=front + 0.008, z=0.325 * size.height),
+        box((0.02, 0.98, 0.075), palette[GRILLE]).moved(x=front - 0.004, z=0.258 * size.height),
+        box((0.02, 0.80, 0.035), palette[GRILLE]).moved(x=front - 0.004, z=0.376 * size.height),
+        plate.moved(x=rear, z=0.375 * size.height),
+        box((0.02, 1.10, 0.07), palette[GRILLE]).moved(x=rear + 0.004, z=0.305 * size.height),
     ]
 
 
