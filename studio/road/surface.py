@@ -20,7 +20,9 @@ GROUND_MARGIN = 400.0  # [m] of ground around the map
 LINE_WIDTH = 0.12  # [m] of lane markings in town (RMS: 0.12)
 DASH, DASH_PERIOD = 3.0, 9.0  # [m] a lead line in town: 3 m line, 6 m gap (RMS)
 STOP_LINE_WIDTH = 0.5  # [m] (RMS: 0.50)
-EDGE_INSET = 0.1  # [m] of the edge line from the lane's edge
+EDGE_INSET = 0.1  # [m] of the edge line from the edge of the asphalt
+MIDDLE_INSET = 1.0  # [m] of asphalt beyond a line, from which on it is one between directions
+SMALLEST_ISLAND = 12.0  # [m²] a smaller hole in the asphalt is a slit between lanes that overlap
 SEAM = 0.15  # [m] gaps narrower than twice this between lanes and junctions are closed
 LONGEST_SHADOW = 120.0  # [m]
 
@@ -75,11 +77,21 @@ def facing_up(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 def road_form(network: Network) -> shapely.Geometry:
-    """The carriageway as one plane shape: lanes and junctions, with the seams between them closed."""
+    """The carriageway as one plane shape: lanes and junctions, with the seams and slits between them closed."""
     lanes = [strip(lane.centre, lane.width) for lane in network.lanes]
-    junctions = [shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions]
-    joined = shapely.union_all([*lanes, *junctions])
-    return joined.buffer(SEAM, join_style="mitre").buffer(-SEAM, join_style="mitre").simplify(0.01)
+    joined = shapely.union_all([*lanes, junction_form(network)])
+    closed = joined.buffer(SEAM, join_style="mitre").buffer(-SEAM, join_style="mitre").simplify(0.01)
+    return shapely.union_all([without_slits(polygon) for polygon in polygons(closed)])
+
+
+def without_slits(polygon: shapely.Polygon) -> shapely.Polygon:
+    """The polygon without holes too small for an island."""
+    islands = [hole for hole in polygon.interiors if shapely.Polygon(hole).area > SMALLEST_ISLAND]
+    return shapely.Polygon(polygon.exterior, islands)
+
+
+def junction_form(network: Network) -> shapely.Geometry:
+    return shapely.union_all([shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions])
 
 
 def strip(centre: np.ndarray, width: float) -> shapely.Geometry:
@@ -92,17 +104,14 @@ def road_mesh(network: Network) -> Mesh:
 
 
 def marking_mesh(network: Network) -> Mesh:
-    """Lines between lanes (dashed), along edges (solid) and stop lines where signals stand."""
-    lines = [line for road in network.roads.values() if not road.internal for line in road_lines(network, road.id)]
-    edges = [edge for road in network.roads.values() if not road.internal for edge in edge_lines(network, road.id)]
-    # where carriageways overlap, or a junction lies over a road's end, an edge line would run across the asphalt
-    edge = shapely.union_all(edges).difference(crossed_ground(network)) if edges else shapely.Polygon()
+    """Lines between lanes (dashed), between directions and along edges (solid), and stop lines where signals stand."""
+    roads = [road.id for road in network.roads.values() if not road.internal]
+    form, junctions = road_form(network), junction_form(network)
+    lines = [line for road in roads for line in road_lines(network, road)]
+    middles = shapely.union_all([middle_line(network, road) for road in roads])
+    middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junctions)
     stops = [stop_line(network, link) for link in range(len(network.signals))]
-    return flat(shapely.union_all([*lines, *stops, edge]), MARKING)
-
-
-def crossed_ground(network: Network) -> shapely.Geometry:
-    return shapely.union_all([shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions])
+    return flat(shapely.union_all([*lines, *stops, middles, edge_lines(network, form)]), MARKING)
 
 
 def beside(lane: Lane, offset: float) -> shapely.LineString:
@@ -127,12 +136,35 @@ def dashes(line: shapely.LineString) -> Iterator[shapely.Geometry]:
         yield strip(np.column_stack([ends[:, :1], inside, ends[:, 1:]]), LINE_WIDTH)
 
 
-def edge_lines(network: Network, road: str) -> Iterator[shapely.Geometry]:
-    lanes = network.lanes_of(road)
-    for lane, side in ((lanes[0], -1.0), (lanes[-1], 1.0)):
-        line = beside(lane, side * (lane.width / 2.0 - EDGE_INSET))
-        if not line.is_empty:
-            yield line.buffer(LINE_WIDTH / 2.0, cap_style="flat", join_style="mitre")
+def middle_line(network: Network, road: str) -> shapely.Geometry:
+    """The line to the left of a road; it is drawn where asphalt, the other direction's, lies beyond it."""
+    left = network.lanes_of(road)[-1]
+    return beside(left, left.width / 2.0).buffer(LINE_WIDTH / 2.0, cap_style="flat", join_style="mitre")
+
+
+def edge_lines(network: Network, form: shapely.Geometry) -> shapely.Geometry:
+    """A line along the edge of the asphalt, but not across the ends where the map is cut."""
+    inner = form.buffer(-EDGE_INSET, join_style="mitre")
+    line = inner.difference(inner.buffer(-LINE_WIDTH, join_style="mitre"))
+    return line.difference(shapely.union_all([end for lane in loose_ends(network) for end in lane]))
+
+
+def loose_ends(network: Network) -> Iterator[list[shapely.Geometry]]:
+    fed = {connection.to_lane for connection in network.connections}
+    feeding = {connection.from_lane for connection in network.connections}
+    for lane in network.lanes:
+        if not lane.internal:
+            starts = [] if lane.id in fed else [lane.centre[:, :2]]
+            ends = [] if lane.id in feeding else [lane.centre[:, -2:]]
+            yield [across(points, at, lane.width) for points, at in [*((p, 0) for p in starts), *((p, 1) for p in ends)]]
+
+
+def across(points: np.ndarray, at: int, width: float) -> shapely.Geometry:
+    """A bar over the end of a lane, a little narrower than the lane so that its edge lines stay."""
+    direction = np.diff(points)[:, 0]
+    direction = direction / np.hypot(*direction)
+    left = np.array([-direction[1], direction[0]]) * (width / 2.0 - EDGE_INSET - LINE_WIDTH)
+    return strip(np.column_stack([points[:, at] - left, points[:, at] + left]), 1.0)
 
 
 def stop_line(network: Network, link: int) -> shapely.Geometry:
