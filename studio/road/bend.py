@@ -15,15 +15,31 @@ from studio.road.osm import Box, Way
 CORNER = np.radians(40.0)  # [rad] a sharper turn is a corner
 STRAIGHT = np.radians(1.5)  # [rad] a lesser turn needs no curve
 SPACING = 3.0  # [m] of the points put in
+EASE = 20.0  # [m] on which a long straight may bend at its ends; between them it stays as mapped
 
 Point = np.ndarray
 
 
 def rounded(ways: list[Way], box: Box, new_id: Iterator[int]) -> list[Way]:
     """The ways with curves in their bends; bends also run on from one way into the next."""
+    ways = [staked(way, box, new_id) for way in ways]
     places = local_places(ways, box)
     ahead, behind = neighbours(ways)
     return [bent(way, places, ahead, behind, box, new_id) for way in ways]
+
+
+def staked(way: Way, box: Box, new_id: Iterator[int]) -> Way:
+    """The way with nodes `EASE` from both ends of its long straights."""
+    line = box.local(*np.array(way.points).T[::-1])
+    nodes, points = [way.nodes[0]], [way.points[0]]
+    for i, (a, b) in enumerate(itertools.pairwise(line.T)):
+        far = np.hypot(*(b - a))
+        if far > 3.0 * EASE:
+            nodes += [next(new_id), next(new_id)]
+            points += box.degrees(np.column_stack([a + (b - a) * EASE / far, b - (b - a) * EASE / far]))
+        nodes.append(way.nodes[i + 1])
+        points.append(way.points[i + 1])
+    return replace(way, nodes=nodes, points=points)
 
 
 def local_places(ways: list[Way], box: Box) -> dict[int, Point]:
