@@ -59,7 +59,9 @@ export const scene = (what: { scenario: string; set?: Changes } | { run: number 
     queryFn: () => post<Scene>("/api/scene", what),
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
-    staleTime: 0,
+    staleTime: Infinity,
+    refetchOnWindowFocus: false,
+    refetchOnReconnect: false,
     placeholderData: keepPreviousData,
   });
 

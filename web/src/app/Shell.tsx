@@ -30,7 +30,7 @@ export function Shell() {
         <Places />
       </main>
       <Keys opened={help} onClose={() => setHelp(false)} />
-      <Notifications position="bottom-right" limit={4} />
+      <Notifications position="bottom-right" limit={4} className={classes.notices} />
     </div>
   );
 }

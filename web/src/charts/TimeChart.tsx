@@ -1,7 +1,7 @@
 /** One quantity over time: a uPlot chart with our own compact legend. */
 
 import { useComputedColorScheme } from "@mantine/core";
-import { useEffect, useRef, useState } from "react";
+import { type ReactNode, useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { formatNumber, formatTime, withUnit } from "../model/units";
@@ -12,7 +12,6 @@ export interface Line {
   label: string;
   color: string;
   dashed?: boolean;
-  hidden?: boolean;
 }
 
 export type Columns = [number[], ...(number | null | undefined)[][]];
@@ -29,6 +28,8 @@ interface Props {
   /** The time axis reaches at least this far [s]. */
   duration?: number;
   height?: number;
+  /** Stands in front of the legend, for instance the choice of the quantity. */
+  lead?: ReactNode;
 }
 
 const INK = {
@@ -39,12 +40,11 @@ const FONT = '11px system-ui, -apple-system, "Segoe UI", sans-serif';
 /** Equal left margins keep stacked charts aligned. */
 const AXIS_WIDTH = 52;
 
-function series({ label, color, dashed, hidden }: Line): uPlot.Series {
+function series({ label, color, dashed }: Line): uPlot.Series {
   return {
     label,
     stroke: color,
     width: dashed ? 1.5 : 1.75,
-    show: !hidden,
     ...(dashed ? { dash: [6, 4] } : {}),
     points: { show: false },
     spanGaps: false,
@@ -101,7 +101,7 @@ function valueAt(column: Columns[number] | undefined, index: number | null): num
 }
 
 export function TimeChart(props: Props) {
-  const { lines, data, version, title, unit, height = 180 } = props;
+  const { lines, data, version, title, unit, height = 180, lead } = props;
   const dark = useComputedColorScheme("light") === "dark";
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>(undefined);
@@ -136,20 +136,30 @@ export function TimeChart(props: Props) {
   return (
     <figure className={classes.figure} aria-label={`${withUnit(title, unit)} over time`}>
       <figcaption className={classes.legend}>
+        {lead}
         <span className={classes.time}>{time === undefined ? "" : `t = ${formatTime(time)} s`}</span>
-        {lines.map((line, place) =>
-          line.hidden ? null : (
-            <span key={line.key} className={classes.item}>
-              <Stroke color={line.color} dashed={line.dashed === true} />
-              {line.label}
-              <b className={classes.value}>{shown(valueAt(data[place + 1], index))}</b>
-            </span>
-          ),
-        )}
+        {byLabel(lines).map(([label, members]) => (
+          <span key={label} className={classes.item}>
+            {label}
+            {members.map(({ line, place }) => (
+              <span key={line.key} className={classes.item}>
+                <Stroke color={line.color} dashed={line.dashed === true} />
+                <b className={classes.value}>{shown(valueAt(data[place + 1], index))}</b>
+              </span>
+            ))}
+          </span>
+        ))}
       </figcaption>
       <div ref={host} className={classes.plot} style={{ minHeight: height }} />
     </figure>
   );
+}
+
+/** Lines of the same name share one entry of the legend: a solid and a dashed value side by side. */
+function byLabel(lines: readonly Line[]): [string, { line: Line; place: number }[]][] {
+  const groups = new Map<string, { line: Line; place: number }[]>();
+  lines.forEach((line, place) => groups.set(line.label, [...(groups.get(line.label) ?? []), { line, place }]));
+  return [...groups];
 }
 
 const shown = (value: number | null): string => (value === null ? "–" : formatNumber(Number(value.toFixed(2))));

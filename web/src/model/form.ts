@@ -6,9 +6,9 @@
 import type { Changes, Json, Problem, Tree } from "./run";
 import { leaf } from "./run";
 import { isTree, resolve, type Schema } from "./schema";
-import { words } from "./units";
+import { unitText, words } from "./units";
 
-export type Kind = "number" | "integer" | "boolean" | "choice" | "text" | "list";
+export type Kind = "number" | "integer" | "boolean" | "choice" | "text" | "list" | "colour";
 
 export interface Field {
   path: string;
@@ -19,6 +19,10 @@ export interface Field {
   choices: string[];
   minimum?: number;
   maximum?: number;
+  /** What is allowed, in words. */
+  allowed: string;
+  /** Whether it may be left empty. */
+  nullable: boolean;
   /** The value without the user's changes. */
   initial: Json;
   value: Json;
@@ -59,7 +63,7 @@ export interface Source {
 }
 
 /** What a developer turns most comes first; keys that are not named here follow in the schema's order. */
-const ORDER = ["applications", "radio", "sensors", "drivers", "traffic", "triggers", "clock"];
+const ORDER = ["applications", "radio", "vehicles", "traffic", "triggers", "clock", "goals", "recording", "routes", "map"];
 
 /** Told in the page's head or in the run bar, so not in the form. */
 const ELSEWHERE = new Set(["title", "description", "seed", "version", "format"]);
@@ -73,7 +77,8 @@ export function sections(source: Source): Section[] {
     ? [{ path: "", title: "General", description: "", fields: all.fields, sections: [] }]
     : [];
   const place = (path: string) => (ORDER.includes(path) ? ORDER.indexOf(path) : ORDER.length);
-  return [...[...all.sections].sort((a, b) => place(a.path) - place(b.path)), ...general];
+  const filled = all.sections.filter((section) => notEmpty(section));
+  return [...filled.sort((a, b) => place(a.path) - place(b.path)), ...general];
 }
 
 function objectSection(source: Source, path: string, schema: Schema, value: Tree): Section {
@@ -88,6 +93,10 @@ function objectSection(source: Source, path: string, schema: Schema, value: Tree
     } else {
       add(section, source, below, childSchema(schema, key), value[key] ?? null);
     }
+    // A title given to a property names the section; that of a class of entries does not tell them apart.
+    const inner = section.sections.at(-1);
+    const title = schema.properties?.[key]?.title;
+    if (inner?.path === below && title) inner.title = words(title);
   }
   return section;
 }
@@ -102,7 +111,19 @@ function add(section: Section, source: Source, path: string, child: Schema, valu
   const schema = resolve(child, source.schema, value);
   if (isTree(value)) section.sections.push(objectSection(source, path, schema, value));
   else if (Array.isArray(value) && value.some(isTree)) section.sections.push(listSection(source, path, schema, value));
-  else if (schema.const === undefined) section.fields.push(field(path, schema, value, source.changes));
+  else if (editable(schema, source.schema)) section.fields.push(field(path, schema, value, source.changes, nullable(child, source.schema)));
+}
+
+/** Constants are told by where they stand, and an empty list of objects has nothing to edit. */
+function editable(schema: Schema, root: Schema): boolean {
+  const items = typeof schema.items === "object" ? resolve(schema.items, root, undefined) : {};
+  return schema.const === undefined && items.type !== "object";
+}
+
+/** Whether one of the alternatives is nothing. */
+function nullable(schema: Schema, root: Schema): boolean {
+  const plain = schema.$ref ? resolve({ $ref: schema.$ref }, root, undefined) : schema;
+  return [...(schema.anyOf ?? []), ...(schema.oneOf ?? [])].some(({ type }) => type === "null") || [plain.type].flat().includes("null");
 }
 
 function listSection(source: Source, path: string, schema: Schema, values: Json[]): Section {
@@ -131,15 +152,17 @@ function childSchema(schema: Schema, key: string): Schema {
 }
 
 /** One value of the document as a field of the form. */
-function field(path: string, schema: Schema, initial: Json, changes: Changes): Field {
+function field(path: string, schema: Schema, initial: Json, changes: Changes, empty = false): Field {
   const value = path in changes ? (changes[path] as Json) : initial;
   const result: Field = {
     path,
     label: schema.title ? words(schema.title) : words(leaf(path)),
     description: schema.description ?? "",
-    unit: schema.unit ?? "",
+    unit: unitText(schema.unit),
     kind: kindOf(schema, initial),
     choices: (schema.enum ?? []).map(String),
+    allowed: limits(schema),
+    nullable: empty,
     initial,
     value,
     changed: !same(value, initial),
@@ -151,9 +174,18 @@ function field(path: string, schema: Schema, initial: Json, changes: Changes): F
   return result;
 }
 
+/** The range of a schema in words. */
+function limits({ minimum, exclusiveMinimum, maximum, exclusiveMaximum, unit }: Schema): string {
+  const low = minimum !== undefined ? `at least ${minimum}` : exclusiveMinimum !== undefined ? `above ${exclusiveMinimum}` : "";
+  const high = maximum !== undefined ? `at most ${maximum}` : exclusiveMaximum !== undefined ? `below ${exclusiveMaximum}` : "";
+  const both = [low, high].filter(Boolean).join(", ");
+  return both && unitText(unit) ? `${both} ${unitText(unit)}` : both;
+}
+
 function kindOf(schema: Schema, value: Json): Kind {
   const type = [schema.type ?? typeof value].flat().find((name) => name !== "null");
   if (schema.enum) return "choice";
+  if (typeof value === "string" && /^#[0-9a-f]{6}$/i.test(value)) return "colour";
   if (type === "number" || type === "integer" || type === "boolean") return type;
   return type === "array" || Array.isArray(value) ? "list" : "text";
 }
@@ -183,7 +215,7 @@ function applicationFields(source: Source, path: string, exchange: Exchange, par
   return Object.entries(schema.properties ?? {}).map(([key, property]) => {
     const initial = parameters[key] ?? property.default ?? null;
     const plain = resolve(property, schema, initial);
-    return field(`${path}.${key}`, plain, initial, source.changes);
+    return field(`${path}.${key}`, plain, initial, source.changes, nullable(property, schema));
   });
 }
 
@@ -271,4 +303,27 @@ export function placed(problems: readonly Problem[], paths: readonly string[]): 
     result.set(path, [...(result.get(path) ?? []), problem]);
   }
   return result;
+}
+
+// -------------------------------------------------------------------------------------- units
+
+/** The unit of every setting of a scenario, by path; of every application's parameters by `*` and name. */
+export function unitsOf(source: Source): Record<string, string> {
+  const fields = fieldsOf(sections(source)).map(({ path, unit }) => [path, unit] as const);
+  const parameters = source.applications.flatMap(({ parameters: schema }) =>
+    Object.entries(schema.properties ?? {}).map(([key, { unit }]) => [`*.${key}`, unitText(unit)] as const),
+  );
+  return Object.fromEntries([...parameters, ...fields]);
+}
+
+/** The unit of a path; a parameter of an application that was exchanged since is found by its name. */
+export const unitAt = (units: Record<string, string>, path: string): string =>
+  units[path] ?? (path.includes(".parameters.") ? (units[`*.${leaf(path)}`] ?? "") : "");
+
+/** The value at a dotted path of a document, if there is one. */
+export function valueAt(document: Json | undefined, path: string): Json | undefined {
+  return path.split(".").reduce<Json | undefined>((node, key) => {
+    if (Array.isArray(node)) return node[Number(key)];
+    return isTree(node) ? node[key] : undefined;
+  }, document);
 }

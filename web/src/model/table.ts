@@ -1,6 +1,7 @@
 /** The table of runs: its columns, their order, and which of them say something. */
 
 import type { Json, Run } from "./run";
+import { fromSet, unitAt } from "./form";
 import { shortNames } from "./run";
 import { formatValue, words } from "./units";
 
@@ -17,16 +18,17 @@ export interface Column {
 }
 
 /** One column for every parameter that any run set. */
-export function parameterColumns(runs: readonly Run[]): Column[] {
-  const paths = [...new Set(runs.flatMap(({ parameters }) => Object.keys(parameters)))].sort();
+export function parameterColumns(runs: readonly Run[], units: Record<string, string>): Column[] {
+  const set = new Map(runs.map((run) => [run.run, fromSet(run.parameters)]));
+  const paths = [...new Set([...set.values()].flatMap((changes) => Object.keys(changes)))].sort();
   const short = shortNames(paths);
   return paths.map((path) => ({
     id: `parameter:${path}`,
     group: "parameters",
     title: words(short[path] ?? path),
-    unit: "",
+    unit: unitAt(units, path),
     name: path,
-    value: ({ parameters }) => parameters[path],
+    value: ({ run }) => set.get(run)?.[path],
   }));
 }
 

@@ -41,14 +41,23 @@ export function formatDuration(seconds: number): string {
   return `${Math.floor(whole / 60)} min ${String(whole % 60).padStart(2, "0")} s`;
 }
 
-/** `mean_time_gap` → `Mean time gap`. */
+const ACRONYMS = /\b(rms|ttc|thw|drac|pet|cam|id|acc|cacc|v2x|rss)\b/gi;
+
+/** `mean_time_gap` → `Mean time gap`, `min_ttc` → `Min TTC`. */
 export function words(name: string): string {
-  const text = name.replace(/[_.]+/g, " ").trim();
+  const text = name
+    .replace(/[_.]+/g, " ")
+    .trim()
+    .replace(ACRONYMS, (acronym) => acronym.toUpperCase());
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
+/** The unit as it is shown: a pure number, unit "1", has none. */
+export const unitText = (unit: string | null | undefined): string => (!unit || unit === "1" ? "" : unit);
+
 /** A heading with its unit: `Speed [m/s]`; without one, the name alone. */
-export const withUnit = (name: string, unit: string): string => (unit ? `${name} [${unit}]` : name);
+export const withUnit = (name: string, unit: string | null | undefined): string =>
+  unitText(unit) ? `${name} [${unit}]` : name;
 
 /** When something was made, short, in the reader's own time zone: `22 Nov 05:09`. */
 export function formatMoment(iso: string): string {

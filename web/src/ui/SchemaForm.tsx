@@ -1,10 +1,10 @@
 /** The parameter form: sections with one row per value, its unit, and what is wrong with it. */
 
-import { Accordion, ActionIcon, Badge, NativeSelect, NumberInput, Switch, Text, TextInput, Tooltip } from "@mantine/core";
-import { useId } from "react";
-import { type Application, changedIn, type Exchange, type Field, type Section } from "../model/form";
+import { Accordion, ActionIcon, Badge, NativeSelect, NumberInput, Switch, Text, TextInput, Tooltip, UnstyledButton } from "@mantine/core";
+import { useId, useState } from "react";
+import { type Application, changedIn, type Exchange, type Field, fieldsOf, type Section } from "../model/form";
 import type { Json, Problem } from "../model/run";
-import { formatNumber, formatValue } from "../model/units";
+import { formatValue } from "../model/units";
 import { Icon } from "./Icon";
 import { ProblemText } from "./Problems";
 import classes from "./SchemaForm.module.css";
@@ -20,10 +20,12 @@ interface Props extends Actions {
   problems: ReadonlyMap<string, readonly Problem[]>;
   /** Paths of the sections that stand open. */
   open: string[];
+  /** Show everything, as while searching. */
+  expanded: boolean;
   onOpen: (open: string[]) => void;
 }
 
-type Shared = Pick<Props, "applications" | "problems" | "onChange" | "onExchange">;
+type Shared = Pick<Props, "applications" | "problems" | "expanded" | "onChange" | "onExchange">;
 
 export function SchemaForm({ sections, open, onOpen, ...shared }: Props) {
   return (
@@ -51,7 +53,7 @@ const ACCORDION = {
 /** How much below this section was changed, and whether something is wrong there. */
 function Marks({ section, problems }: { section: Section; problems: Props["problems"] }) {
   const changed = changedIn(section);
-  const wrong = [...problems.keys()].filter((path) => path !== "" && path.startsWith(section.path)).length;
+  const wrong = [...problems.keys()].filter((path) => path !== "" && path.startsWith(`${section.path}.`)).length;
   return (
     <>
       {changed > 0 ? (
@@ -77,14 +79,30 @@ function SectionBody({ section, ...shared }: { section: Section } & Shared) {
         <FieldRow key={field.path} field={field} problems={shared.problems.get(field.path) ?? []} onChange={shared.onChange} />
       ))}
       {sections.map((inner) => (
-        <section key={inner.path} className={classes.inner} aria-label={inner.title}>
-          <div className={classes.heading}>{inner.title}</div>
-          <div className={classes.nested}>
-            <SectionBody section={inner} {...shared} />
-          </div>
-        </section>
+        <InnerSection key={inner.path} section={inner} {...shared} />
       ))}
     </>
+  );
+}
+
+/** Long parts, such as a whole vehicle, stand closed until they are wanted. */
+const SHORT = 12;
+
+function InnerSection({ section, ...shared }: { section: Section } & Shared) {
+  const [toggled, setToggled] = useState<boolean>();
+  const open = shared.expanded || (toggled ?? fieldsOf([section]).length <= SHORT);
+  return (
+    <section className={classes.inner} aria-label={section.title}>
+      <UnstyledButton className={classes.heading} aria-expanded={open} onClick={() => setToggled(!open)}>
+        <Icon name={open ? "down" : "right"} size={12} />
+        {section.title} <Marks section={section} problems={shared.problems} />
+      </UnstyledButton>
+      {open ? (
+        <div className={classes.nested}>
+          <SectionBody section={section} {...shared} />
+        </div>
+      ) : null}
+    </section>
   );
 }
 
@@ -118,10 +136,10 @@ interface RowProps {
 
 function FieldRow({ field, problems, onChange }: RowProps) {
   const id = useId();
-  const wide = field.kind === "text" || field.kind === "list" || (field.kind === "choice" && !field.unit);
+  const wide = field.kind === "list" || (field.kind === "text" && String(field.initial ?? "").length > 12);
   return (
     <div className={classes.row} data-wide={wide || undefined} data-changed={field.changed || undefined}>
-      <Label id={id} text={field.label} description={field.description} path={field.path} limits={limits(field)} />
+      <Label id={id} text={field.label} description={field.description} path={field.path} limits={field.allowed} />
       <Control id={id} field={field} invalid={problems.length > 0} onChange={(value) => onChange(field, value)} />
       {wide ? null : <span className={classes.unit}>{field.unit}</span>}
       {field.changed ? <Reset label={field.label} initial={field.initial} onReset={() => onChange(field, field.initial)} /> : <span />}
@@ -139,14 +157,6 @@ function Wrong({ problems }: { problems: readonly Problem[] }) {
       ))}
     </div>
   );
-}
-
-/** What is allowed, in words. */
-function limits({ minimum, maximum, unit }: Field): string {
-  const end = unit ? ` ${unit}` : "";
-  if (minimum !== undefined && maximum !== undefined) return `${formatNumber(minimum)} to ${formatNumber(maximum)}${end}`;
-  if (minimum !== undefined) return `at least ${formatNumber(minimum)}${end}`;
-  return maximum !== undefined ? `at most ${formatNumber(maximum)}${end}` : "";
 }
 
 interface LabelProps {
@@ -198,6 +208,8 @@ function Control({ id, field, invalid, onChange }: ControlProps) {
   switch (field.kind) {
     case "boolean":
       return <Switch {...shared} error={undefined} checked={field.value === true} onChange={(event) => onChange(event.currentTarget.checked)} />;
+    case "colour":
+      return <TextInput {...shared} type="color" value={String(field.value)} onChange={(event) => onChange(event.currentTarget.value)} />;
     case "choice":
       return <NativeSelect {...shared} value={String(field.value ?? "")} data={field.choices} onChange={(event) => onChange(event.currentTarget.value)} />;
     case "number":
@@ -228,7 +240,8 @@ function NumberControl({ shared, field, onChange }: TypedControl) {
       allowDecimal={kind === "number"}
       clampBehavior="none"
       step={stepFor(field)}
-      onChange={(next) => onChange(next === "" ? initial : Number(next))}
+      onChange={(next) => onChange(next === "" ? (field.nullable ? null : initial) : Number(next))}
+      placeholder={field.nullable ? "not set" : undefined}
       {...(minimum === undefined ? {} : { min: minimum })}
       {...(maximum === undefined ? {} : { max: maximum })}
     />

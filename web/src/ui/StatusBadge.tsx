@@ -15,7 +15,7 @@ const COLORS: Record<Status, string> = {
 
 export function StatusBadge({ status, error }: { status: Status; error?: string | null }) {
   const badge = (
-    <Badge color={COLORS[status] ?? "gray"} variant="light" size="sm" radius="sm" tt="none" miw={62}>
+    <Badge color={COLORS[status] ?? "gray"} variant="light" size="sm" radius="sm" tt="none" miw={70} style={{ overflow: "visible" }}>
       {status}
     </Badge>
   );

@@ -3,9 +3,11 @@
 import { ActionIcon, Badge, Button, Group, NativeSelect, Table, Text, Title, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
-import { comparison, runs } from "../../api/queries";
+import { comparison, run as runQuery, runs } from "../../api/queries";
 import type { Comparison } from "../../api/types";
-import { type MetricDifference, type ParameterDifference, tally, type Verdict, verdict } from "../../model/compare";
+import { useUnits } from "../../api/units";
+import { differing, type MetricDifference, type ParameterDifference, tally, type Verdict, verdict } from "../../model/compare";
+import { unitAt } from "../../model/form";
 import type { Run } from "../../model/run";
 import { formatDifference, formatNumber, formatRelative, formatValue, withUnit, words } from "../../model/units";
 import { Icon } from "../../ui/Icon";
@@ -110,7 +112,10 @@ function Heads({ comparison: { a, b } }: { comparison: Comparison }) {
 
 function Parameters({ comparison: found }: { comparison: Comparison }) {
   const { a, b, parameters } = found;
-  const rows: ParameterDifference[] = [...parameters, ...seedDifference(a, b)];
+  const one = useQuery(runQuery(a.run)).data?.document;
+  const other = useQuery(runQuery(b.run)).data?.document;
+  const units = useUnits([a, b]);
+  const rows = [...differing(parameters, one, other), ...seedDifference(a, b)].filter(unique);
   return (
     <section className={classes.card} data-testid="compare-parameters">
       <h2>What differs</h2>
@@ -134,7 +139,7 @@ function Parameters({ comparison: found }: { comparison: Comparison }) {
           <Table.Tbody>
             {rows.map(({ path, a: one, b: other, unit }) => (
               <Table.Tr key={path}>
-                <Table.Td className={classes.path}>{withUnit(path, unit)}</Table.Td>
+                <Table.Td className={classes.path}>{withUnit(path, unit || unitAt(units, path))}</Table.Td>
                 <Table.Td ta="right">{formatValue(one)}</Table.Td>
                 <Table.Td ta="right">
                   <b>{formatValue(other)}</b>
@@ -158,6 +163,9 @@ function Parameters({ comparison: found }: { comparison: Comparison }) {
     </section>
   );
 }
+
+const unique = (row: ParameterDifference, index: number, all: readonly ParameterDifference[]): boolean =>
+  all.findIndex(({ path }) => path === row.path) === index;
 
 const seedDifference = (a: Run, b: Run): ParameterDifference[] => (a.seed === b.seed ? [] : [{ path: "seed", a: a.seed, b: b.seed, unit: "" }]);
 

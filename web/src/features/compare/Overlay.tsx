@@ -1,8 +1,8 @@
 /** The charts of both runs in one: A solid, B dashed, one colour per vehicle, linked cursors. */
 
-import { Checkbox, Group, NativeSelect } from "@mantine/core";
+import { Checkbox, Group } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
-import { useMemo, useState } from "react";
+import { type ReactNode, useMemo, useState } from "react";
 import { run as runQuery, trace } from "../../api/queries";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
@@ -11,6 +11,7 @@ import { lineColor } from "../../model/palette";
 import type { Run } from "../../model/run";
 import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
+import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
 import classes from "./Compare.module.css";
 
@@ -38,16 +39,20 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
         {chosen.map((name, place) => (
           // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
           <div key={place}>
-            <NativeSelect
-              size="xs"
-              w={180}
-              ml={52}
-              aria-label="Quantity of this chart"
-              value={name}
-              onChange={(event) => setChosen(chosen.map((old, index) => (index === place ? event.currentTarget.value : old)))}
-              data={quantitiesOf(all).map((known) => ({ value: known.name, label: `${known.label} [${known.unit}]` }))}
+            <Both
+              a={a.run}
+              b={b.run}
+              name={name}
+              all={all}
+              hidden={hidden}
+              lead={
+                <QuantitySelect
+                  value={name}
+                  quantities={quantitiesOf(all)}
+                  onChange={(next) => setChosen(chosen.map((old, index) => (index === place ? next : old)))}
+                />
+              }
             />
-            <Both a={a.run} b={b.run} name={name} all={all} hidden={hidden} />
           </div>
         ))}
       </div>
@@ -83,9 +88,10 @@ interface BothProps {
   name: string;
   all: readonly string[];
   hidden: readonly string[];
+  lead: ReactNode;
 }
 
-function Both({ a, b, name, all, hidden }: BothProps) {
+function Both({ a, b, name, all, hidden, lead }: BothProps) {
   const dark = useDark();
   const channels = useMemo(() => channelsOf(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)), [name, all, hidden]);
   const one = useQuery(trace(a, channels, POINTS));
@@ -99,7 +105,7 @@ function Both({ a, b, name, all, hidden }: BothProps) {
   const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>
-      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" />
+      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" lead={lead} />
     </div>
   );
 }
@@ -111,7 +117,7 @@ function linesOf(channels: readonly string[], all: readonly string[], dark: bool
     channels.map((channel) => {
       const { vehicle } = parts(channel);
       const color = lineColor(vehicles.indexOf(vehicle), dark);
-      return { key: `${side} ${channel}`, label: `${side} ${words(vehicle)}`, color, dashed: side === "B" };
+      return { key: `${side} ${channel}`, label: words(vehicle), color, dashed: side === "B" };
     }),
   );
 }

@@ -1,17 +1,20 @@
 /** Everything about one run, and the way on from it. */
 
-import { Anchor, Button, Code, Group, NativeSelect, Table, Text, Title } from "@mantine/core";
+import { Anchor, Button, Code, Group, Table, Text, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { run as runQuery, runs as runsQuery, trace } from "../../api/queries";
+import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { fromSet, unitAt } from "../../model/form";
 import { lineColor } from "../../model/palette";
 import type { Metric, RunDetail } from "../../model/run";
-import { formatDuration, formatMoment, formatNumber, formatValue, words } from "../../model/units";
+import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { Icon } from "../../ui/Icon";
+import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import classes from "./Runs.module.css";
@@ -109,7 +112,9 @@ function Metrics({ metrics }: { metrics: Record<string, Metric> }) {
             <Table.Td ta="right" style={{ fontVariantNumeric: "tabular-nums", whiteSpace: "nowrap" }}>
               <b>{value === null ? "–" : formatNumber(value)}</b>
             </Table.Td>
-            <Table.Td c="dimmed" style={{ whiteSpace: "nowrap" }}>{unit}</Table.Td>
+            <Table.Td c="dimmed" style={{ whiteSpace: "nowrap" }}>
+              {unitText(unit)}
+            </Table.Td>
           </Table.Tr>
         ))}
       </Table.Tbody>
@@ -117,14 +122,16 @@ function Metrics({ metrics }: { metrics: Record<string, Metric> }) {
   );
 }
 
-function Parameters({ run: { parameters } }: { run: RunDetail }) {
-  const rows = Object.entries(parameters);
+function Parameters({ run }: { run: RunDetail }) {
+  const { parameters } = run;
+  const units = useUnits([run]);
+  const rows = Object.entries(fromSet(parameters));
   if (rows.length === 0) return <Text size="sm" c="dimmed">None: the scenario ran as it stands in its file.</Text>;
   return (
     <dl className={classes.facts}>
       {rows.map(([path, value]) => (
         <Fact key={path} name={path}>
-          <b>{formatValue(value)}</b>
+          <b>{formatValue(value)}</b> {unitAt(units, path)}
         </Fact>
       ))}
     </dl>
@@ -183,20 +190,30 @@ function Charts({ run }: { run: RunDetail }) {
   return chosen.map((name, place) => (
     // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
     <section key={place} className={classes.card}>
-      <NativeSelect
-        size="xs"
-        w={180}
-        aria-label="Quantity of this chart"
-        value={name}
-        onChange={(event) => setChosen(chosen.map((old, index) => (index === place ? event.currentTarget.value : old)))}
-        data={quantities.map((known) => ({ value: known.name, label: `${known.label} [${known.unit}]` }))}
+      <QuantityChart
+        run={run.run}
+        name={name}
+        all={names}
+        lead={
+          <QuantitySelect
+            value={name}
+            quantities={quantities}
+            onChange={(next) => setChosen(chosen.map((old, index) => (index === place ? next : old)))}
+          />
+        }
       />
-      <QuantityChart run={run.run} name={name} all={names} />
     </section>
   ));
 }
 
-function QuantityChart({ run, name, all }: { run: number; name: string; all: readonly string[] }) {
+interface ChartProps {
+  run: number;
+  name: string;
+  all: readonly string[];
+  lead: ReactNode;
+}
+
+function QuantityChart({ run, name, all, lead }: ChartProps) {
   const dark = useDark();
   const channels = useMemo(() => channelsOf(name, all), [name, all]);
   const { data, error } = useQuery(trace(run, channels));
@@ -213,7 +230,7 @@ function QuantityChart({ run, name, all }: { run: number; name: string; all: rea
   const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>
-      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" />
+      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" lead={lead} />
     </div>
   );
 }

@@ -1,10 +1,11 @@
 /** The table itself: grouped headers with units, sorting, and rows drawn only where they are seen. */
 
-import { Checkbox } from "@mantine/core";
+import { Checkbox, VisuallyHidden } from "@mantine/core";
 import { columnVisibilityFeature, rowSortingFeature, tableFeatures, useTable, type ColumnDef, type SortingState } from "@tanstack/react-table";
 import { useNavigate } from "@tanstack/react-router";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useMemo, useRef } from "react";
+import { useUnits } from "../../api/units";
 import type { Json, Run } from "../../model/run";
 import { type Column, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
 import { formatMoment, formatNumber, formatValue, withUnit } from "../../model/units";
@@ -44,7 +45,8 @@ interface Props {
 }
 
 export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props) {
-  const columns = useMemo(() => [...FIXED, ...parameterColumns(all), ...metricColumns(all)], [all]);
+  const units = useUnits(all);
+  const columns = useMemo(() => [...FIXED, ...parameterColumns(all, units), ...metricColumns(all)], [all, units]);
   const sorting = readSort(view.sort);
   const data = useMemo(() => ordered(runs, columns, sorting[0]), [runs, columns, view.sort]); // biome-ignore lint/correctness/useExhaustiveDependencies: `sorting` is read from `view.sort`
   const table = useTable({
@@ -71,7 +73,7 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
         <thead>
           {table.getHeaderGroups().map((group, level) => (
             <tr key={group.id}>
-              <th className={classes.pick} aria-label={level === 0 ? undefined : "Compare"} />
+              <th className={classes.pick}>{level === 0 ? null : <VisuallyHidden>Select to compare</VisuallyHidden>}</th>
               {group.headers.map((header) =>
                 level === 0 ? (
                   <th key={header.id} colSpan={header.colSpan} scope="colgroup" className={classes.group} data-group={header.column.id}>
@@ -152,7 +154,7 @@ const ARIA_SORT = { asc: "ascending", desc: "descending" } as const;
 
 function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
   return (
-    <th scope="col" title={column.name} data-numeric={isNumeric(column) || undefined} aria-sort={direction ? ARIA_SORT[direction] : "none"}>
+    <th scope="col" title={column.name} data-numeric={isNumeric(column) || undefined} data-sticky={column.id === "run" || undefined} aria-sort={direction ? ARIA_SORT[direction] : "none"}>
       <button type="button" className={classes.sort} onClick={onSort}>
         {withUnit(column.title, column.unit)}
         {direction ? <Icon name={direction === "asc" ? "up" : "down"} size={12} /> : null}
@@ -186,7 +188,7 @@ function RunRow({ run, columns, selected, onToggle }: RowProps) {
         <Checkbox size="xs" checked={selected} onChange={onToggle} aria-label={`Select run ${run.run} to compare`} data-testid={`select-${run.run}`} />
       </td>
       {columns.map((column) => (
-        <td key={column.id} data-numeric={isNumeric(column) || undefined}>
+        <td key={column.id} data-numeric={isNumeric(column) || undefined} data-sticky={column.id === "run" || undefined}>
           <Cell column={column} run={run} />
         </td>
       ))}

@@ -1,6 +1,5 @@
 /** Two charts of the platoon, by default speed and gap, that grow while the run goes. */
 
-import { NativeSelect } from "@mantine/core";
 import { useMemo, useState } from "react";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
@@ -8,6 +7,7 @@ import { lineColor } from "../../model/palette";
 import type { Samples } from "../../model/samples";
 import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
+import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty } from "../../ui/State";
 import classes from "./Studio.module.css";
 
@@ -64,16 +64,17 @@ function LiveChart({ name, samples, version, duration, onChoose }: ChartProps) {
   const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>
-      <NativeSelect
-        className={classes.quantity}
-        size="xs"
-        variant="unstyled"
-        aria-label="Quantity of this chart"
-        value={name}
-        onChange={(event) => onChoose(event.currentTarget.value)}
-        data={quantitiesOf(names.split(" ")).map((known) => ({ value: known.name, label: `${known.label} [${known.unit}]` }))}
+      <TimeChart
+        title={label}
+        unit={unit}
+        lines={lines}
+        data={data}
+        version={version}
+        sync="live"
+        duration={duration}
+        height={60}
+        lead={<QuantitySelect value={name} quantities={quantitiesOf(names.split(" "))} onChange={onChoose} />}
       />
-      <TimeChart title={label} unit={unit} lines={lines} data={data} version={version} sync="live" duration={duration} height={90} />
     </div>
   );
 }

@@ -56,6 +56,7 @@ export function ParameterPanel({ sections, applications, problems, parent, onCha
             applications={applications}
             problems={wrong}
             open={query ? shown.map(({ path }) => path) : open}
+            expanded={query !== ""}
             onOpen={setOpen}
             onChange={onChange}
             onExchange={onExchange}

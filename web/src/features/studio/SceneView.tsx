@@ -12,6 +12,7 @@ import classes from "./Studio.module.css";
 const VIEWS = [
   { value: "overview", label: "Overview" },
   { value: "top", label: "Top" },
+  { value: "chase", label: "Chase" },
   { value: "driver", label: "Driver" },
 ];
 
@@ -27,14 +28,21 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
   const [view, setView] = useState<View>("overview");
-  const picked = useCallback((vehicle: number) => setFollowed(vehicle), []);
-  const { ready, send } = useBridge(frame, picked);
+  const follow = useCallback((vehicle: number | null) => {
+    setFollowed(vehicle);
+    setView((before) => (vehicle === null ? "overview" : before === "overview" ? "chase" : before));
+  }, []);
+  const { ready, send } = useBridge(frame, follow);
 
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
-  useEffect(() => send({ studio: "follow", vehicle: followed }), [followed, ready, send]);
+  useEffect(() => {
+    send({ studio: "follow", vehicle: followed });
+    send({ studio: "view", preset: view });
+  }, [followed, view, ready, send]);
   const choose = (preset: View) => {
     setView(preset);
-    send({ studio: "view", preset });
+    if (preset === "overview") setFollowed(null);
+    if (preset === "chase" || preset === "driver") setFollowed(followed ?? vehicles[0]?.index ?? null);
   };
 
   return (
@@ -47,7 +55,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
             aria-label="Follow a car"
             data-testid="follow"
             value={followed ?? ""}
-            onChange={({ currentTarget: { value } }) => setFollowed(value === "" ? null : Number(value))}
+            onChange={({ currentTarget: { value } }) => follow(value === "" ? null : Number(value))}
             data={followChoices(vehicles)}
           />
           <SegmentedControl size="xs" aria-label="View" data={VIEWS} value={view} onChange={(value) => choose(value as View)} />

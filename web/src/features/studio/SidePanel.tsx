@@ -6,6 +6,7 @@ import { Link, useNavigate } from "@tanstack/react-router";
 import { useState } from "react";
 import type { LiveEvent } from "../../api/live";
 import { runs } from "../../api/queries";
+import { fromSet } from "../../model/form";
 import { leaf, type Run } from "../../model/run";
 import { formatMoment, formatTime, formatValue, words } from "../../model/units";
 import { Icon } from "../../ui/Icon";
@@ -106,7 +107,7 @@ function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
 
 /** What was set for the run, in one line. */
 function settingText({ parameters, parent }: Run): string {
-  const set = Object.entries(parameters).map(([path, value]) => `${words(leaf(path))} ${formatValue(value)}`);
+  const set = Object.entries(fromSet(parameters)).map(([path, value]) => `${words(leaf(path))} ${formatValue(value)}`);
   return set.length ? set.join(", ") : parent === null ? "As in the file" : "Nothing changed";
 }
 
@@ -117,7 +118,7 @@ function Setting({ run }: { run: Run }) {
         {formatMoment(run.created)}, seed {run.seed}
         {run.parent === null ? "" : `, child of #${run.parent}`}
       </Text>
-      {Object.entries(run.parameters).map(([path, value]) => (
+      {Object.entries(fromSet(run.parameters)).map(([path, value]) => (
         <Text size="xs" key={path}>
           {path} = {formatValue(value)}
         </Text>

@@ -38,7 +38,7 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
   const control = useControl({ id, draft, update, set: form.set, live: shown.live, run });
   useTakeOver(id, from, update);
   useFarewell(shown.live, run);
-  const scene = useScene(id, form.set, isLive(shown.progress?.status) ? run : undefined, form.ok);
+  const scene = useScene(id, form.set, shown.live ? run : undefined, form.ok);
   const space = { paused: control.onResume, running: control.onPause }[shown.progress?.status as string] ?? control.onRun;
   useShortcuts({ " ": space, ".": control.onStep }, active);
 
@@ -115,7 +115,7 @@ function ScenarioHead({ id }: { id: string }) {
 const NO_SCENE = { vehicles: [], attribution: "" };
 const NONE: never[] = [];
 
-/** Show the scenario, or the run that is going, in the 3D scene. */
+/** Show the scenario in the 3D scene, or the run that is going; when it ends, its last moment stays. */
 function useScene(id: string, set: Changes, live: number | undefined, ok: boolean) {
   // Only what changes the picture is worth building the scene again.
   const visible = useMemo(() => Object.fromEntries(Object.entries(set).filter(([path]) => SEEN.test(path))), [set]);
@@ -172,6 +172,11 @@ function useShownRun(run: number | undefined) {
     if (going) follow(run);
   }, [going, run]);
   const live = useLive(followed === run ? run : undefined);
+  // The process of a run may die without a last word; what is stored then counts.
+  const lost = live !== undefined && !live.connected && detail !== undefined && !going;
+  useEffect(() => {
+    if (lost) follow(undefined);
+  }, [lost]);
   const samples = useStoredSamples(live ? undefined : detail);
   return {
     live,
