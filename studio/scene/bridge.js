@@ -203,7 +203,11 @@
 
   function listenToPointer() {
     let down = null;
-    window.addEventListener("pointerdown", (event) => (down = [event.clientX, event.clientY, event.button]), true);
+    window.addEventListener("pointerdown", (event) => {
+      down = [event.clientX, event.clientY, event.button];
+      // the client keeps the click from giving us the focus, and with it the keys that move the camera
+      window.focus();
+    }, true);
     window.addEventListener("pointerup", (event) => {
       const still = down && down[2] === 0 && Math.hypot(event.clientX - down[0], event.clientY - down[1]) < 5;
       if (still && event.target instanceof HTMLCanvasElement) pick(event);

@@ -48,18 +48,31 @@ def _walls(ring: np.ndarray, base: float, top: float, colour: np.ndarray) -> tup
     after = np.roll(ring, -1, axis=0)
     count = len(ring)
     low, high = np.full((count, 1), base), np.full((count, 1), top)
-    corners = [np.hstack([ring, low]), np.hstack([after, low]), np.hstack([after, high]), np.hstack([ring, high])]
+    corners = [
+        np.hstack([ring, low]),
+        np.hstack([after, low]),
+        np.hstack([after, high]),
+        np.hstack([ring, high]),
+    ]
     quad = 4 * np.arange(count)[:, None]
     faces = np.concatenate([quad + [0, 1, 2], quad + [0, 2, 3]])
     shade = np.array([FOOT_SHADE if base < 1.0 else 1.0, 1.0])[[0, 0, 1, 1]]
     colors = np.tile(shade[:, None] * colour, (count, 1))
-    return np.stack(corners, 1).reshape(-1, 3), faces, colors, _wall_uv(np.hypot(*(after - ring).T), top - base)
+    return (
+        np.stack(corners, 1).reshape(-1, 3),
+        faces,
+        colors,
+        _wall_uv(np.hypot(*(after - ring).T), top - base),
+    )
 
 
 def _wall_uv(length: np.ndarray, height: float) -> np.ndarray:
     bays = np.maximum(1, np.round(length / BAY))
     floors = max(1, round(height / FLOOR))
-    uv = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * np.stack([bays, np.full(len(bays), floors)], 1)[:, None, :]
+    uv = (
+        np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        * np.stack([bays, np.full(len(bays), floors)], 1)[:, None, :]
+    )
     uv[length < NARROWEST] = BLANK
     return uv.reshape(-1, 2)
 
@@ -70,7 +83,12 @@ def _roof(building: Building, colour: np.ndarray) -> tuple[np.ndarray, ...]:
     ends = np.cumsum([len(ring) for ring in rings]).astype(np.uint32)
     faces = mapbox_earcut.triangulate_float64(places, ends).reshape(-1, 3)
     vertices = np.column_stack([places, np.full(len(places), building.height)])
-    return vertices, upward(vertices, faces), np.tile(colour, (len(places), 1)), np.full((len(places), 2), BLANK)
+    return (
+        vertices,
+        upward(vertices, faces),
+        np.tile(colour, (len(places), 1)),
+        np.full((len(places), 2), BLANK),
+    )
 
 
 def upward(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:

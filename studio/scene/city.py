@@ -14,7 +14,13 @@ from studio.scene.shape import Surface, surface
 
 # Flat layers lie some centimetres apart, so that they do not flicker through each other from afar [m].
 GROUND, WATER, GREEN, ROAD, MARKING, SHADOW, TREE_SHADOW = -0.16, -0.13, -0.10, 0.0, 0.03, 0.05, 0.06
-COLOURS = {"ground": "#9ba18a", "water": "#6f9db3", "green": "#84995f", "road": "#55585c", "markings": "#eceae3"}
+COLOURS = {
+    "ground": "#9ba18a",
+    "water": "#6f9db3",
+    "green": "#84995f",
+    "road": "#55585c",
+    "markings": "#eceae3",
+}
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
 
 
@@ -43,7 +49,9 @@ def ground(*, radius: float = SKY_RADIUS) -> Surface:
     """A disc out to the horizon."""
     angle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
     reach = np.array([0.0, 0.3, 1.0]) * radius * 0.99
-    vertices = np.concatenate([np.column_stack([r * np.cos(angle), r * np.sin(angle), 0 * angle]) for r in reach])
+    vertices = np.concatenate(
+        [np.column_stack([r * np.cos(angle), r * np.sin(angle), 0 * angle]) for r in reach]
+    )
     here = np.arange(48)
     after = (here + 1) % 48
     faces = [np.stack([i + here, o + here, o + after], 1) for i, o in ((0, 48), (48, 96))]
@@ -64,7 +72,11 @@ def _level(vertices: np.ndarray) -> np.ndarray:
 def _areas(network: Network) -> list[Layer]:
     heights = {"green": GREEN, "water": WATER}
     meshes = roads.area_meshes(network)
-    return [_flat(kind, meshes[kind], heights[kind]) for kind in heights if kind in meshes and len(meshes[kind].faces)]
+    return [
+        _flat(kind, meshes[kind], heights[kind])
+        for kind in heights
+        if kind in meshes and len(meshes[kind].faces)
+    ]
 
 
 def _buildings(network: Network) -> list[Layer]:

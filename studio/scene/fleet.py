@@ -38,7 +38,9 @@ class Fleet:
         self._offsets = np.array([_wheel_places(size) for size in sizes], np.float32).reshape(-1, 4, 3)
         self._middle = np.array([size.centre for size in sizes], np.float32)
         # half the way that the shadow of the roof has been thrown
-        self._throw = np.array([-SUN[:2] / SUN[2] * size.height * 0.5 for size in sizes], np.float32).reshape(-1, 2)
+        self._throw = np.array([-SUN[:2] / SUN[2] * size.height * 0.5 for size in sizes], np.float32).reshape(
+            -1, 2
+        )
         self._wheels = self._add("wheels", glb(vehicle.wheel(_first(sizes)), RUBBER), 4 * len(sizes))
         self._shadows = self._add("shadows", glb(vehicle.shadow(_first(sizes)), SOFT_SHADOW), 2 * len(sizes))
 

@@ -88,7 +88,9 @@ def _primitive(buffer: _Buffer, mesh: Surface, uv: np.ndarray | None) -> dict:
             vertices, kind="VEC3", min=vertices.min(0).tolist(), max=vertices.max(0).tolist(), **place
         ),
         "NORMAL": buffer.add_array(mesh.normals, kind="VEC3", **place),
-        "COLOR_0": buffer.add_array(mesh.colors.astype(np.float32), kind=f"VEC{mesh.colors.shape[1]}", **place),
+        "COLOR_0": buffer.add_array(
+            mesh.colors.astype(np.float32), kind=f"VEC{mesh.colors.shape[1]}", **place
+        ),
     }
     if uv is not None:
         attributes["TEXCOORD_0"] = buffer.add_array(uv.astype(np.float32), kind="VEC2", **place)

@@ -16,7 +16,16 @@ HAZE = "#c3d4e2"
 HAZE_NEAR, HAZE_FAR = 350.0, 2600.0
 SKY_RADIUS = 3000.0
 # elevation above the horizon [deg] and colour
-SKY = [(-12, HAZE), (0, HAZE), (2, "#bcd0e3"), (6, "#aac6e0"), (12, "#93b8db"), (22, "#78a5d2"), (40, "#5c8fc6"), (90, "#4a7fbb")]
+SKY = [
+    (-12, HAZE),
+    (0, HAZE),
+    (2, "#bcd0e3"),
+    (6, "#aac6e0"),
+    (12, "#93b8db"),
+    (22, "#78a5d2"),
+    (40, "#5c8fc6"),
+    (90, "#4a7fbb"),
+]
 
 
 def light(server: viser.ViserServer) -> None:
@@ -26,8 +35,12 @@ def light(server: viser.ViserServer) -> None:
     scene.configure_default_lights(False)
     # a hemisphere light shines from its position: at the origin it would have no direction
     up = {"position": (0.0, 0.0, 100.0)}
-    scene.add_light_hemisphere("/light/sky", sky_color=rgb8("#dbe8f7"), ground_color=rgb8("#77705f"), intensity=2.1, **up)
-    scene.add_light_directional("/light/sun", color=rgb8("#fff0d8"), intensity=2.8, position=tuple(SUN * 500.0))
+    scene.add_light_hemisphere(
+        "/light/sky", sky_color=rgb8("#dbe8f7"), ground_color=rgb8("#77705f"), intensity=2.1, **up
+    )
+    scene.add_light_directional(
+        "/light/sun", color=rgb8("#fff0d8"), intensity=2.8, position=tuple(SUN * 500.0)
+    )
     scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
     scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
 

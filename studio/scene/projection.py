@@ -69,13 +69,22 @@ class Scene:
         thrown = spots.T - 5.5 * scales[:, 2:] * SUN[:2] / SUN[2]
         return [
             add("/city/trees", city.tree_mesh(), turns, _lifted(spots.T, city.GREEN), **options),
-            add("/city/tree_shadows", city.tree_shadow(), _still(len(turns)), _lifted(thrown, city.TREE_SHADOW), **options),
+            add(
+                "/city/tree_shadows",
+                city.tree_shadow(),
+                _still(len(turns)),
+                _lifted(thrown, city.TREE_SHADOW),
+                **options,
+            ),
         ]
 
     def _look_at(self, *, reach: float) -> None:
         """The overview: from the south, high enough to see the whole."""
         camera = self._server.initial_camera
-        camera.position, camera.look_at = np.array([0.28, -0.95, 0.62]) * reach, np.array([0.0, -0.06 * reach, 0.0])
+        camera.position, camera.look_at = (
+            np.array([0.28, -0.95, 0.62]) * reach,
+            np.array([0.0, -0.06 * reach, 0.0]),
+        )
         camera.fov, camera.near, camera.far = FIELD_OF_VIEW, 0.5, 2.5 * SKY_RADIUS
 
     def show_vehicles(self, looks: Sequence[Look]) -> None:

@@ -43,7 +43,9 @@ class Surface:
         for corner in range(3):
             np.add.at(total, self.faces[:, corner], face_normals)
         length = np.linalg.norm(total, axis=1, keepdims=True)
-        return np.divide(total, length, out=np.tile([0.0, 0.0, 1.0], (len(total), 1)), where=length > 0).astype(np.float32)
+        return np.divide(
+            total, length, out=np.tile([0.0, 0.0, 1.0], (len(total), 1)), where=length > 0
+        ).astype(np.float32)
 
 
 def surface(vertices, faces, colour: str | np.ndarray) -> Surface:
@@ -65,9 +67,8 @@ def joined(parts: Iterable[Surface]) -> Surface:
     )
 
 
-def edged(mesh: Surface, *, degrees: float = 0.0) -> Surface:
+def edged(mesh: Surface) -> Surface:
     """The same surface with every triangle on its own: every edge is hard."""
-    del degrees
     picked = mesh.faces.ravel()
     faces = np.arange(len(picked), dtype=np.uint32).reshape(-1, 3)
     return Surface(mesh.vertices[picked], faces, mesh.colors[picked])
@@ -98,6 +99,8 @@ def _of_kind(points: np.ndarray, quads: np.ndarray, colour: str) -> Surface:
 
 def fan(ring: np.ndarray, colour: str) -> Surface:
     """The flat lid of a ring [n, 3] that runs counter-clockwise seen from outside."""
+    # to the same micrometre as `grid`, so that a lid closes its body exactly
+    ring = np.round(ring, 6)
     count = len(ring)
     here = np.arange(count)
     faces = np.stack([np.full(count, count), here, (here + 1) % count], axis=1)
@@ -116,7 +119,10 @@ def lathe(profile: np.ndarray, kinds: np.ndarray, palette: Sequence[str]) -> Sur
     """A body turned about the y axis; profile [n, 2] of (radius, y) with y falling, kinds [segments, n-1]."""
     angle = np.linspace(0.0, 2.0 * np.pi, kinds.shape[0] + 1)[:, None]
     radius, y = profile[:, 0][None, :], profile[:, 1][None, :]
-    points = np.stack([radius * np.sin(angle), np.broadcast_to(y, (len(angle), len(profile))), radius * np.cos(angle)], axis=-1)
+    points = np.stack(
+        [radius * np.sin(angle), np.broadcast_to(y, (len(angle), len(profile))), radius * np.cos(angle)],
+        axis=-1,
+    )
     return grid(points, kinds, palette)
 
 
@@ -132,9 +138,13 @@ def ball(radii: Sequence[float], colour: str, *, segments: int = 10) -> Surface:
 def cylinder(radius: float, height: float, colour: str, *, segments: int = 8) -> Surface:
     """An upright cylinder on the origin with its lids, smooth around."""
     angle = np.linspace(0.0, 2.0 * np.pi, segments, endpoint=False)
-    ring = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(segments)], axis=1)
+    ring = np.round(np.stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(segments)], axis=1), 6)
     top = ring + [0.0, 0.0, height]
     here = np.arange(segments)
     after = (here + 1) % segments
-    faces = np.concatenate([np.stack([here, after, after + segments], 1), np.stack([here, after + segments, here + segments], 1)])
-    return joined([surface(np.concatenate([ring, top]), faces, colour), fan(top, colour), fan(ring[::-1], colour)])
+    faces = np.concatenate(
+        [np.stack([here, after, after + segments], 1), np.stack([here, after + segments, here + segments], 1)]
+    )
+    return joined(
+        [surface(np.concatenate([ring, top]), faces, colour), fan(top, colour), fan(ring[::-1], colour)]
+    )

@@ -25,7 +25,10 @@ HIDDEN = np.float32([0.0, 0.0, -500.0])
 def masts(network: Network) -> Surface:
     """Masts, arms and heads of all signals as one mesh."""
     signals = network.signals
-    heads = [_head().turned(h).moved(x=x, y=y) for x, y, h in zip(*head_places(network), signals.link_heading, strict=True)]
+    heads = [
+        _head().turned(h).moved(x=x, y=y)
+        for x, y, h in zip(*head_places(network), signals.link_heading, strict=True)
+    ]
     return joined([*heads, *(_mast(network, links) for links in _approaches(network).values())])
 
 
@@ -33,7 +36,9 @@ def head_places(network: Network) -> tuple[np.ndarray, np.ndarray]:
     """x and y of the signal head of every link [m]."""
     signals = network.signals
     ahead = BEHIND_LINE
-    return signals.link_x + ahead * np.cos(signals.link_heading), signals.link_y + ahead * np.sin(signals.link_heading)
+    return signals.link_x + ahead * np.cos(signals.link_heading), signals.link_y + ahead * np.sin(
+        signals.link_heading
+    )
 
 
 def _approaches(network: Network) -> dict[str, list[int]]:
@@ -61,7 +66,9 @@ def _head() -> Surface:
     lamps = [ball((0.06, 0.15, 0.15), OFF, segments=12).moved(x=-0.14, z=z) for z in LAMP_HEIGHTS.values()]
     visors = [box((0.16, 0.30, 0.025), HOUSING).moved(x=-0.21, z=z + 0.165) for z in LAMP_HEIGHTS.values()]
     board = box((0.05, 0.62, 1.42), HOUSING).moved(x=-0.05, z=LAMP_HEIGHTS["amber"])
-    return joined([board, box((0.20, 0.40, 1.22), HOUSING).moved(x=-0.04, z=LAMP_HEIGHTS["amber"]), *lamps, *visors])
+    return joined(
+        [board, box((0.20, 0.40, 1.22), HOUSING).moved(x=-0.04, z=LAMP_HEIGHTS["amber"]), *lamps, *visors]
+    )
 
 
 class Lamps:
@@ -72,8 +79,13 @@ class Lamps:
         heading = network.signals.link_heading
         before = 0.14 + PROUD
         x, y = x - before * np.cos(heading), y - before * np.sin(heading)
-        self._places = {name: np.stack([x, y, np.full(len(x), z)], 1).astype(np.float32) for name, z in LAMP_HEIGHTS.items()}
-        turns = np.stack([np.cos(heading / 2), 0 * heading, 0 * heading, np.sin(heading / 2)], 1).astype(np.float32)
+        self._places = {
+            name: np.stack([x, y, np.full(len(x), z)], 1).astype(np.float32)
+            for name, z in LAMP_HEIGHTS.items()
+        }
+        turns = np.stack([np.cos(heading / 2), 0 * heading, 0 * heading, np.sin(heading / 2)], 1).astype(
+            np.float32
+        )
         self._nodes = {name: self._add(server, name, turns) for name in LAMP_HEIGHTS}
         self._shown = np.full(len(x), -1)
 

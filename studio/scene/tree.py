@@ -50,7 +50,11 @@ def _plantable(network: Network) -> shapely.Geometry:
     green = shapely.union_all([_polygon(area) for area in areas if area.kind == "green"])
     taken = [_polygon(area).buffer(2.0) for area in areas if area.kind != "green"]
     taken += [_polygon(building).buffer(3.5) for building in network.scenery.buildings]
-    taken += [shapely.Polygon(junction.T).buffer(CLEARANCE) for junction in network.junctions if junction.shape[1] > 2]
+    taken += [
+        shapely.Polygon(junction.T).buffer(CLEARANCE)
+        for junction in network.junctions
+        if junction.shape[1] > 2
+    ]
     return green.difference(shapely.union_all([*taken, _lanes(network, CLEARANCE)]))
 
 
@@ -59,7 +63,9 @@ def _polygon(thing) -> shapely.Geometry:
 
 
 def _lanes(network: Network, clearance: float) -> shapely.Geometry:
-    strips = [shapely.LineString(lane.centre.T).buffer(lane.width / 2.0 + clearance) for lane in network.lanes]
+    strips = [
+        shapely.LineString(lane.centre.T).buffer(lane.width / 2.0 + clearance) for lane in network.lanes
+    ]
     return shapely.union_all(strips)
 
 

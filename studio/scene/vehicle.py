@@ -51,15 +51,22 @@ DECK = PchipInterpolator(
     [0.0, 0.008, 0.03, 0.08, 0.30, 0.70, 0.78, 0.90, 0.955, 0.985, 1.0],
     [0.62, 0.80, 0.915, 0.955, 0.955, 0.950, 0.925, 0.835, 0.760, 0.660, 0.56],
 )
-UNDERSIDE = PchipInterpolator([0.0, 0.012, 0.04, 0.12, 0.88, 0.955, 0.985, 1.0], [0.42, 0.31, 0.25, 0.20, 0.20, 0.21, 0.24, 0.33])
+UNDERSIDE = PchipInterpolator(
+    [0.0, 0.012, 0.04, 0.12, 0.88, 0.955, 0.985, 1.0], [0.42, 0.31, 0.25, 0.20, 0.20, 0.21, 0.24, 0.33]
+)
 HALF_WIDTH = PchipInterpolator(
     [0.0, 0.008, 0.03, 0.08, 0.20, 0.50, 0.80, 0.90, 0.955, 0.985, 1.0],
     [0.74, 0.84, 0.91, 0.955, 0.99, 1.0, 0.985, 0.945, 0.865, 0.75, 0.62],
 )
 # The flank bulges: half width as a share of its largest over the height [m].
-FLANK = PchipInterpolator([0.19, 0.26, 0.36, 0.52, 0.62, 0.75, 0.88, 0.97], [0.935, 0.965, 0.985, 1.0, 0.998, 0.982, 0.955, 0.90])
+FLANK = PchipInterpolator(
+    [0.19, 0.26, 0.36, 0.52, 0.62, 0.75, 0.88, 0.97], [0.935, 0.965, 0.985, 1.0, 0.998, 0.982, 0.955, 0.90]
+)
 # Height of the roof line [m] from the foot of the rear window to that of the windscreen.
-ROOF = PchipInterpolator([0.055, 0.09, 0.16, 0.22, 0.33, 0.45, 0.53, 0.575, 0.66, 0.745], [0.95, 1.13, 1.33, 1.405, 1.44, 1.45, 1.43, 1.395, 1.18, 0.94])
+ROOF = PchipInterpolator(
+    [0.055, 0.09, 0.16, 0.22, 0.33, 0.45, 0.53, 0.575, 0.66, 0.745],
+    [0.95, 1.13, 1.33, 1.405, 1.44, 1.45, 1.43, 1.395, 1.18, 0.94],
+)
 CABIN_WIDTH = PchipInterpolator([0.055, 0.16, 0.35, 0.6, 0.745], [0.80, 0.90, 0.935, 0.925, 0.82])
 TUMBLEHOME = 0.42
 
@@ -92,12 +99,48 @@ def _share(size: Dimensions, x: float) -> float:
 
 
 def _hull_stations(size: Dimensions) -> np.ndarray:
-    shape = [0.0, 0.003, 0.008, 0.016, 0.03, 0.05, 0.08, 0.12, 0.3, 0.4, 0.5, 0.6, 0.7, 0.745, 0.78, 0.9, 0.93]
+    shape = [
+        0.0,
+        0.003,
+        0.008,
+        0.016,
+        0.03,
+        0.05,
+        0.08,
+        0.12,
+        0.3,
+        0.4,
+        0.5,
+        0.6,
+        0.7,
+        0.745,
+        0.78,
+        0.9,
+        0.93,
+    ]
     nose = [0.945, 0.958, 0.97, 0.979, 0.987, 0.993, 0.997, 1.0]
     arches = [
         _share(size, axle) + reach * _arch(size) / size.length
         for axle in size.axles
-        for reach in (-1.004, -1.0, -0.97, -0.9, -0.78, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.78, 0.9, 0.97, 1.0, 1.004)
+        for reach in (
+            -1.004,
+            -1.0,
+            -0.97,
+            -0.9,
+            -0.78,
+            -0.6,
+            -0.4,
+            -0.2,
+            0.0,
+            0.2,
+            0.4,
+            0.6,
+            0.78,
+            0.9,
+            0.97,
+            1.0,
+            1.004,
+        )
     ]
     stations = np.unique(np.round([*shape, *nose, *arches], 5))
     return stations[(stations >= 0.0) & (stations <= 1.0)]
@@ -128,7 +171,11 @@ def _hull_ring(size: Dimensions, s: float) -> np.ndarray:
     edge = y[-1]
     top = np.array([[0.985, 0.45], [0.95, 0.80], [0.88, 1.0], [0.60, 1.25], [0.0, 1.55]])
     side = np.concatenate(
-        [[[0.0, low], [0.5 * y[0], low], [0.94 * y[0], low]], np.stack([y, z], 1)[:], np.stack([edge * top[:, 0], deck + rounding * (top[:, 1] - 1.0)], 1)]
+        [
+            [[0.0, low], [0.5 * y[0], low], [0.94 * y[0], low]],
+            np.stack([y, z], 1)[:],
+            np.stack([edge * top[:, 0], deck + rounding * (top[:, 1] - 1.0)], 1),
+        ]
     )
     return _mirrored_ring((s - 0.5) * size.length, side)
 
@@ -159,7 +206,32 @@ def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
 
 def cabin(size: Dimensions, palette: list[str]) -> Surface:
     """The part above the window line: windscreen, side and rear windows in glass, pillars and roof in paint."""
-    stations = np.array([0.055, 0.07, 0.085, 0.12, 0.155, 0.175, 0.20, 0.235, 0.28, 0.34, 0.405, 0.42, 0.48, 0.53, 0.56, 0.58, 0.62, 0.66, 0.70, 0.725, 0.735, 0.745])
+    stations = np.array(
+        [
+            0.055,
+            0.07,
+            0.085,
+            0.12,
+            0.155,
+            0.175,
+            0.20,
+            0.235,
+            0.28,
+            0.34,
+            0.405,
+            0.42,
+            0.48,
+            0.53,
+            0.56,
+            0.58,
+            0.62,
+            0.66,
+            0.70,
+            0.725,
+            0.735,
+            0.745,
+        ]
+    )
     rings = np.stack([_cabin_ring(size, s) for s in stations])
     return joined([grid(rings, _cabin_kinds(stations, rings.shape[1]), palette), *_lids(rings, palette)])
 
@@ -173,7 +245,15 @@ def _cabin_ring(size: Dimensions, s: float) -> np.ndarray:
     levels = sill + np.array([0.0, 0.14, 0.80]) * rise
     edge = base - TUMBLEHOME * rise
     wall = np.stack([base - TUMBLEHOME * (levels - sill), levels], 1)
-    top = np.array([[edge + 0.012, roof - 0.75 * bow], [edge - 0.03, roof - 0.30 * bow], [edge - 0.10, roof], [0.55 * edge, roof + 0.4 * bow], [0.0, roof + 0.6 * bow]])
+    top = np.array(
+        [
+            [edge + 0.012, roof - 0.75 * bow],
+            [edge - 0.03, roof - 0.30 * bow],
+            [edge - 0.10, roof],
+            [0.55 * edge, roof + 0.4 * bow],
+            [0.0, roof + 0.6 * bow],
+        ]
+    )
     return _mirrored_ring((s - 0.5) * size.length, np.concatenate([[[0.0, sill - 0.02]], wall, top]))
 
 
@@ -190,7 +270,9 @@ def _cabin_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
 def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
     """Mirrors, number plates, and the dark openings at the front and the rear."""
     x = 0.16 * size.length
-    mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(x=x, y=0.5 * size.width + 0.06, z=0.675 * size.height)
+    mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(
+        x=x, y=0.5 * size.width + 0.06, z=0.675 * size.height
+    )
     plate = box((0.02, 0.52, 0.11), palette[PLATE])
     front, rear = 0.5 * size.length + 0.002, -0.5 * size.length - 0.004
     return [
@@ -207,7 +289,17 @@ def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
 def wheel(size: Dimensions) -> Surface:
     """A wheel about its own centre, axle along y: tyre with round shoulders and a five-spoked rim on both sides."""
     r, b = size.wheel_radius, size.wheel_width / 2.0
-    half = [(0.0, 0.72 * b), (0.16 * r, 0.74 * b), (0.20 * r, 0.62 * b), (0.60 * r, 0.80 * b), (0.64 * r, 0.92 * b), (0.70 * r, 0.97 * b), (0.86 * r, b), (0.96 * r, 0.90 * b), (r, 0.66 * b)]
+    half = [
+        (0.0, 0.72 * b),
+        (0.16 * r, 0.74 * b),
+        (0.20 * r, 0.62 * b),
+        (0.60 * r, 0.80 * b),
+        (0.64 * r, 0.92 * b),
+        (0.70 * r, 0.97 * b),
+        (0.86 * r, b),
+        (0.96 * r, 0.90 * b),
+        (r, 0.66 * b),
+    ]
     profile = np.array(half + [(radius, -y) for radius, y in half[::-1]])
     rows = np.array([RIM, RIM, GAP, RIM, TYRE, TYRE, TYRE, TYRE])
     kinds = np.tile(np.concatenate([rows, [TYRE], rows[::-1]]), (40, 1))

@@ -44,10 +44,18 @@ class SameOrigin:
         secure = scope.get("scheme") in ("https", "wss")
         called = _place(f"{'https' if secure else 'http'}://{host}")
         if called is None or not self.knows(called[0]):
-            return Problem("Host", "this server is not known by that name", host, ", ".join(sorted(self.names - {""})), REMEDY)
+            return Problem(
+                "Host",
+                "this server is not known by that name",
+                host,
+                ", ".join(sorted(self.names - {""})),
+                REMEDY,
+            )
         origin = _header(scope, b"origin")
         if origin and _place(origin) != called:
-            return Problem("Origin", "a page of another origin may not talk to this server", origin, host, REMEDY)
+            return Problem(
+                "Origin", "a page of another origin may not talk to this server", origin, host, REMEDY
+            )
         return None
 
     def knows(self, name: str) -> bool:

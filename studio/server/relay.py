@@ -45,7 +45,11 @@ async def relay(browser: WebSocket, url: str) -> None:
     """Join a browser's WebSocket with the one at `url` until either side goes."""
     try:
         upstream = await websockets.connect(
-            url, subprotocols=browser.scope["subprotocols"] or None, max_size=None, compression=None, proxy=None
+            url,
+            subprotocols=browser.scope["subprotocols"] or None,
+            max_size=None,
+            compression=None,
+            proxy=None,
         )
     except (OSError, websockets.WebSocketException, TimeoutError):
         await browser.close(TRY_AGAIN_LATER)

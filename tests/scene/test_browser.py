@@ -1,0 +1,281 @@
+"""The scene in a real browser: a picture, motion in it, following, views, theme, and words to the page."""
+
+import asyncio
+import io
+import shutil
+import threading
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import Page, sync_playwright
+
+from studio.scene import pose
+from studio.scene.fleet import Look
+from studio.scene.projection import Scene
+from tests.server.stage import served
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+# a picture without a graphics card, from a browser that calls nobody
+FLAGS = [
+    *(
+        "--headless=new",
+        "--no-sandbox",
+        "--use-gl=angle",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+    ),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run"),
+]
+WIDTH, HEIGHT = 640, 400
+SPEED = 12.0  # [m/s]
+LOOKS = [Look("leader", "#c2281d"), Look("follower_1", "#1f5fa8"), Look("traffic_01", "#d9d9d6")]
+
+
+class Drive(threading.Thread):
+    """Vehicles that go up and down the street at 50 Hz, in a slight bend so that they turn as well."""
+
+    def __init__(self, scene: Scene) -> None:
+        super().__init__(daemon=True)
+        self.scene, self.going, self.ended = scene, threading.Event(), threading.Event()
+        self.time = 0.0
+
+    def run(self) -> None:
+        while not self.ended.wait(0.02):
+            if self.going.is_set():
+                self.time += 0.02
+            self.scene.update(self.poses())
+
+    def poses(self) -> np.ndarray:
+        s = (SPEED * self.time + np.array([20.0, 8.0, -10.0])) % 240.0 - 120.0
+        poses = pose.standing(3)
+        poses[pose.X], poses[pose.Y] = s, [-1.75, -1.75, 1.75] + 0.8 * np.sin(s / 15.0)
+        poses[pose.YAW] = np.arctan(0.8 / 15.0 * np.cos(s / 15.0))
+        poses[pose.WHEEL_ANGLE] = s / 0.316
+        return poses
+
+
+@pytest.fixture(scope="module")
+def drive(town):
+    scene = Scene()
+    scene.show_city(town)
+    scene.show_vehicles(LOOKS)
+    scene.show_signals(np.array([0, 2], np.int8))
+    driver = Drive(scene)
+    driver.start()
+    yield driver
+    driver.ended.set()
+    driver.join()
+    scene.stop()
+
+
+@pytest.fixture(scope="module")
+def page(drive):
+    found = next((path for name in BROWSERS if (path := shutil.which(name))), None)
+    if found is None:
+        pytest.skip("no browser: install one with `apt install chromium`, or put google-chrome on the PATH")
+    with served(lambda: drive.scene.port) as port, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS
+        )
+        shown = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
+        shown.errors = []
+        shown.on("pageerror", lambda error: shown.errors.append(str(error)))
+        # the frame posts to its parent; here the page is its own parent, so it stands in a frame of its own
+        shown.goto(f"http://127.0.0.1:{port}/scene/?fixedDpr=1")
+        shown.wait_for_function("window.__studioBridge?.poseOf(0) != null", timeout=60_000)
+        shown.wait_for_function("window.__viserMutable.nodeRefFromName['/city/buildings'] != null")
+        yield shown
+        browser.close()
+
+
+def picture(page: Page) -> np.ndarray:
+    page.wait_for_timeout(400)
+    return np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB")).astype(float)
+
+
+def say(page: Page, **message) -> None:
+    page.evaluate("message => window.postMessage(message, location.origin)", message)
+
+
+def seen(page: Page, vehicle: int) -> tuple[float, float]:
+    """Where a vehicle is in the picture, -1..1 from left to right and from bottom to top."""
+    return tuple(page.evaluate(
+        """vehicle => {
+            const { poseOf, toThree, client } = window.__studioBridge;
+            const pose = poseOf(vehicle);
+            const at = client().camera.position.clone().set(...toThree([pose.x, pose.y, pose.z + 0.7]));
+            return at.project(client().camera).toArray().slice(0, 2);
+        }""",
+        vehicle,
+    ))  # fmt: skip
+
+
+def test_the_picture_shows_something(page):
+    shown = picture(page)
+    assert shown.std() > 20.0
+    # neither washed out nor black, and many tones
+    assert 60.0 < shown.mean() < 220.0
+    assert len(np.unique((shown // 16).astype(int).reshape(-1, 3), axis=0)) > 30
+
+
+def test_sky_is_above_and_ground_below(page):
+    say(page, studio="view", preset="driver")
+    page.wait_for_timeout(500)
+    shown = picture(page)
+    sky, ground = shown[: HEIGHT // 8].mean(axis=(0, 1)), shown[-HEIGHT // 3 :].mean(axis=(0, 1))
+    assert sky[2] > sky[0] + 15.0
+    assert sky[2] > ground[2] + 15.0
+    say(page, studio="view", preset="overview")
+    page.wait_for_timeout(800)
+
+
+def test_only_the_picture_is_left_of_the_client(page):
+    panels = "[data-floating-window], .mantine-Notifications-root, .mantine-Paper-root"
+    assert all(not panel.is_visible() for panel in page.query_selector_all(panels))
+    canvas = page.query_selector("canvas[data-engine]").bounding_box()
+    assert (canvas["width"], canvas["height"]) == (WIDTH, HEIGHT)
+
+
+def test_a_narrow_frame_shows_no_sheet_either(page):
+    page.set_viewport_size({"width": 420, "height": HEIGHT})
+    page.wait_for_timeout(600)
+    sheets = page.query_selector_all(".mantine-Paper-root")
+    assert all(not sheet.is_visible() for sheet in sheets)
+    page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
+    page.wait_for_timeout(600)
+
+
+def test_the_picture_stands_while_cars_stand_and_changes_when_they_move(page, drive):
+    say(page, studio="view", preset="overview")
+    page.wait_for_timeout(800)
+    still = np.abs(picture(page) - picture(page)).max()
+    assert still < 3.0
+    before = picture(page)
+    drive.going.set()
+    page.wait_for_timeout(800)
+    drive.going.clear()
+    changed = np.abs(picture(page) - before).max(axis=-1) > 25.0
+    # cars are small from up there, and nothing but cars has moved
+    assert 20 < changed.sum() < 0.1 * changed.size
+
+
+def test_following_keeps_the_car_in_the_middle_while_it_drives(page, drive):
+    drive.going.set()
+    say(page, studio="follow", vehicle=0)
+    page.wait_for_timeout(1500)
+    places = []
+    for _ in range(8):
+        places.append(seen(page, 0))
+        page.wait_for_timeout(150)
+    drive.going.clear()
+    assert np.abs(places).max() < 0.3
+    # from behind: the one ahead is seen further up than the one behind
+    say(page, studio="follow", vehicle=1)
+    page.wait_for_timeout(800)
+    assert seen(page, 0)[1] > seen(page, 1)[1]
+    say(page, studio="follow", vehicle=None)
+
+
+def test_the_user_may_turn_and_zoom_while_following(page, drive):
+    say(page, studio="follow", vehicle=0)
+    page.wait_for_timeout(800)
+    azimuth, distance = (
+        page.evaluate(f"__viserMutable.cameraControl.{name}") for name in ("azimuthAngle", "distance")
+    )
+    page.mouse.move(WIDTH / 2, HEIGHT / 2)
+    page.mouse.down()
+    page.mouse.move(WIDTH / 2 + 120, HEIGHT / 2, steps=6)
+    page.mouse.up()
+    page.mouse.wheel(0, 300)
+    drive.going.set()
+    page.wait_for_timeout(1000)
+    drive.going.clear()
+    turned, zoomed = (
+        page.evaluate(f"__viserMutable.cameraControl.{name}") for name in ("azimuthAngle", "distance")
+    )
+    assert abs(turned - azimuth) > 0.3 and zoomed > 1.1 * distance
+    assert np.abs(seen(page, 0)).max() < 0.3
+    say(page, studio="view", preset="overview")
+    page.wait_for_timeout(800)
+
+
+def test_dusk_is_darker_than_day(page):
+    day = picture(page).mean()
+    say(page, studio="theme", dark=True)
+    dusk = picture(page).mean()
+    say(page, studio="theme", dark=False)
+    assert dusk < 0.7 * day
+    assert picture(page).mean() == pytest.approx(day, rel=0.05)
+
+
+def framed(page: Page) -> None:
+    """Put the scene into a frame of its own origin, and note what it tells its parent."""
+    page.evaluate(
+        """() => {
+            window.heard = [];
+            window.addEventListener('message', event => event.data?.studio && window.heard.push(event.data));
+            const frame = document.createElement('iframe');
+            frame.src = location.pathname + '?fixedDpr=1';
+            frame.style = 'position:fixed;inset:0;width:100%;height:100%;border:0;z-index:9999';
+            document.body.append(frame);
+        }"""
+    )
+    page.wait_for_function("window.heard.some(message => message.studio === 'ready')", timeout=60_000)
+    page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null", timeout=60_000)
+
+
+def test_the_page_around_hears_ready_picks_and_keys_and_the_frame_hears_the_page(page):
+    framed(page)
+    assert page.evaluate("heard.find(message => message.studio === 'ready').follow") is True
+    page.evaluate("frames[0].postMessage({studio: 'follow', vehicle: 0}, location.origin)")
+    page.wait_for_timeout(1500)
+    page.mouse.click(WIDTH / 2, HEIGHT / 2)
+    page.wait_for_function("heard.some(message => message.studio === 'picked')", timeout=5_000)
+    assert page.evaluate("heard.find(message => message.studio === 'picked').vehicle") == 0
+    for key in ("Space", "w", "?"):
+        page.keyboard.press(key)
+    page.wait_for_function("heard.some(message => message.key === '?')", timeout=5_000)
+    keys = page.evaluate("heard.filter(message => message.studio === 'key').map(message => message.key)")
+    # W moves the camera and is not the page's
+    assert keys == [" ", "?"]
+    page.evaluate("document.querySelector('iframe').remove()")
+
+
+def test_messages_of_another_origin_are_not_heard(page):
+    page.evaluate(
+        """() => {
+            const frame = document.createElement('iframe');
+            frame.sandbox = 'allow-scripts';
+            frame.srcdoc = "<script>parent.postMessage({studio: 'follow', vehicle: 2}, '*')<" + "/script>";
+            document.body.append(frame);
+        }"""
+    )
+    page.wait_for_timeout(600)
+    assert page.evaluate("__studioBridge.view.vehicle") is None
+    page.evaluate("document.querySelector('iframe').remove()")
+
+
+def test_a_lost_connection_comes_back_without_the_focus(page, drive):
+    framed(page)
+    page.evaluate("document.body.append(Object.assign(document.createElement('input'), {id: 'elsewhere'}))")
+    page.focus("#elsewhere")
+    server = drive.scene._server._websock_server
+    lost = dict(server._live_connections)
+    assert len(lost) == 2
+    for connection in lost.values():
+        asyncio.run_coroutine_threadsafe(connection.close(), server._background_event_loop).result(5.0)
+    for _ in range(100):
+        page.wait_for_timeout(100)
+        back = set(server._live_connections) - set(lost)
+        if len(back) == 2:
+            break
+    assert len(back) == 2
+    page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null", timeout=30_000)
+    page.evaluate("document.querySelector('iframe').remove(); document.querySelector('#elsewhere').remove()")
+
+
+def test_the_client_ran_without_errors_and_with_few_draw_calls(page):
+    calls = page.evaluate("__viserTestpoints.rendererInfo.render.calls")
+    assert 5 < calls <= 30
+    assert page.errors == []

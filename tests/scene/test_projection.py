@@ -1,0 +1,174 @@
+"""What the projection puts on the viser server: where vehicles go, what is reused, what is hidden."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from studio.scene import fleet, pose
+from studio.scene.fleet import Look
+from studio.scene.projection import Scene
+from studio.scene.vehicle import Dimensions
+
+LOOKS = [Look("leader", "#c2281d"), *(Look(f"follower_{i}", "#1f5fa8") for i in range(1, 5))]
+LOOKS += [Look(f"traffic_{i:02d}", ["#d9d9d6", "#3c4248", "#8e9499", "#b59f7b"][i % 4]) for i in range(1, 21)]
+
+
+@pytest.fixture(scope="module")
+def scene(town):
+    shown = Scene()
+    shown.show_city(town)
+    shown.show_vehicles(LOOKS)
+    yield shown
+    shown.stop()
+
+
+def node(scene: Scene, name: str):
+    return scene._server.scene.get_handle_by_name(name)
+
+
+def poses() -> np.ndarray:
+    some = pose.standing(len(LOOKS))
+    some[pose.X] = np.arange(len(LOOKS)) * 10.0
+    return some
+
+
+def test_turns_are_yaw_then_pitch_then_roll():
+    angles = np.random.default_rng(1).uniform(-1.5, 1.5, (3, 50))
+    got = fleet._turns(*angles)
+    expected = Rotation.from_euler("ZYX", angles.T).as_quat(scalar_first=True)
+    same = np.abs(np.sum(got * expected, axis=1))
+    np.testing.assert_allclose(same, 1.0, atol=1e-9)
+
+
+def test_bodies_and_shadows_go_where_the_poses_say(scene):
+    where = poses()
+    where[pose.Y, 3], where[pose.YAW, 3] = 7.0, 0.5
+    scene.update(where)
+    # instance i of the shadows is vehicle i: the bridge relies on it for following
+    shadows = node(scene, "/vehicles/shadows")
+    np.testing.assert_allclose(shadows.batched_positions[3, :2], [30.0, 7.0], atol=1e-5)
+    np.testing.assert_allclose(shadows.batched_wxyzs[3], [np.cos(0.25), 0, 0, np.sin(0.25)], atol=1e-6)
+    bodies = node(scene, "/vehicles/body_1")
+    np.testing.assert_allclose(bodies.batched_positions[2], [30.0, 7.0, 0.0], atol=1e-5)
+
+
+def test_wheels_stand_on_the_road_steer_and_spin(scene):
+    where = poses()
+    where[pose.YAW, 0], where[pose.STEER, 0], where[pose.WHEEL_ANGLE, 0] = np.pi / 2, 0.3, 1.0
+    where[pose.ROLL, 0], where[pose.PITCH, 0] = 0.1, 0.1
+    scene.update(where)
+    wheels = node(scene, "/vehicles/wheels")
+    size = Dimensions()
+    np.testing.assert_allclose(
+        wheels.batched_positions[0], [-size.track / 2, size.front_axle, size.wheel_radius], atol=1e-5
+    )
+    front = Rotation.from_quat(wheels.batched_wxyzs[0], scalar_first=True)
+    rear = Rotation.from_quat(wheels.batched_wxyzs[2], scalar_first=True)
+    # the axle turns with yaw and steer and stays level; a mark on the rim goes round forwards
+    axle = front.apply([0.0, 1.0, 0.0])
+    np.testing.assert_allclose(axle, [-np.cos(0.3), -np.sin(0.3), 0.0], atol=1e-6)
+    np.testing.assert_allclose(rear.apply([0.0, 0.0, 1.0]), [0.0, np.sin(1.0), np.cos(1.0)], atol=1e-6)
+
+
+def test_hidden_vehicles_are_far_below_the_ground(scene):
+    where = poses()
+    where[pose.VISIBLE, 2] = 0.0
+    scene.update(where)
+    assert node(scene, "/vehicles/shadows").batched_positions[2, 2] < -100.0
+    assert node(scene, "/vehicles/body_1").batched_positions[1, 2] < -100.0
+    assert (node(scene, "/vehicles/wheels").batched_positions[8:12, 2] < -100.0).all()
+
+
+def test_frames_reuse_the_nodes(scene):
+    before = {
+        name: node(scene, name) for name in ("/vehicles/body_0", "/vehicles/wheels", "/vehicles/shadows")
+    }
+    for step in range(5):
+        where = poses()
+        where[pose.X] += step
+        scene.update(where)
+    assert all(node(scene, name) is handle for name, handle in before.items())
+
+
+def test_one_batch_per_colour(scene):
+    colours = {look.color for look in LOOKS}
+    bodies = [
+        name for name in scene._server.scene._handle_from_node_name if name.startswith("/vehicles/body_")
+    ]
+    assert len(bodies) == len(colours)
+
+
+def test_new_vehicles_replace_the_old_ones(town):
+    scene = Scene()
+    try:
+        scene.show_vehicles(LOOKS)
+        scene.show_vehicles(LOOKS[:1])
+        assert node(scene, "/vehicles/body_1") is None
+        scene.update(pose.standing(1))
+        assert len(node(scene, "/vehicles/wheels").batched_positions) == 4
+        scene.show_vehicles([])
+        scene.update(pose.standing(0))
+    finally:
+        scene.stop()
+
+
+def test_lamps_follow_the_states_and_cost_nothing_when_they_do_not_change(scene):
+    def lit(name):
+        return node(scene, f"/signals/{name}").batched_positions[:, 2] > 0.0
+
+    # RED, RED_AMBER, GREEN, AMBER
+    for state, red, amber, green in [(0, 1, 0, 0), (1, 1, 1, 0), (2, 0, 0, 1), (3, 0, 1, 0)]:
+        scene.show_signals(np.array([state, 0], np.int8))
+        assert (lit("red")[0], lit("amber")[0], lit("green")[0]) == (bool(red), bool(amber), bool(green))
+        assert lit("red")[1] and not lit("green")[1]
+
+
+def test_another_city_takes_the_place_of_the_first(town):
+    scene = Scene()
+    try:
+        scene.show_city(town)
+        first = set(scene._server.scene._handle_from_node_name)
+        scene.show_city(town)
+        assert set(scene._server.scene._handle_from_node_name) == first
+    finally:
+        scene.stop()
+
+
+def test_an_update_of_25_vehicles_is_quick(scene):
+    where = poses()
+    took = []
+    for step in range(200):
+        where[pose.X] += 0.1
+        start = time.perf_counter()
+        scene.update(where)
+        took.append(time.perf_counter() - start)
+    # at 60 Hz a frame has 16.7 ms; the median is some 0.6 ms
+    assert np.median(took) < 3e-3
+
+
+def test_any_thread_may_update(scene):
+    failures = []
+
+    def drive(offset: float):
+        try:
+            for step in range(50):
+                where = poses()
+                where[pose.X] += offset + step
+                scene.update(where)
+        except Exception as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=drive, args=(1000.0 * i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert failures == []
+
+
+def test_nobody_can_open_a_public_tunnel(scene):
+    assert scene._server.request_share_url() is None
+    assert scene._server._websock_server._host == "127.0.0.1"

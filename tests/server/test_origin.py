@@ -1,0 +1,99 @@
+"""Pages from elsewhere get 403, over HTTP and over WebSockets; our own page and programs without Origin pass."""
+
+import pytest
+from fastapi import FastAPI, WebSocket
+from fastapi.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from studio.server.origin import SameOrigin
+
+OURS = "127.0.0.1:8000"
+
+
+def client(**options) -> TestClient:
+    app = FastAPI()
+
+    @app.get("/")
+    def root() -> str:
+        return "here"
+
+    @app.websocket("/socket")
+    async def socket(connection: WebSocket) -> None:
+        await connection.accept()
+        await connection.send_text("here")
+        await connection.close()
+
+    return TestClient(SameOrigin(app, **options), base_url=f"http://{OURS}")
+
+
+def answers(headers: dict[str, str], **options) -> tuple[int, int]:
+    """Status over HTTP, and 200 or 403 over a WebSocket."""
+    with client(**options) as here:
+        status = here.get("/", headers=headers).status_code
+        try:
+            with here.websocket_connect("/socket", headers=headers) as socket:
+                return status, 200 if socket.receive_text() == "here" else 500
+        except WebSocketDisconnect:
+            return status, 403
+
+
+ALLOWED = [
+    {"host": OURS},
+    {"host": OURS, "origin": f"http://{OURS}"},
+    {"host": "localhost:8000", "origin": "http://localhost:8000"},
+    {"host": "LOCALHOST:8000", "origin": "http://localhost:8000"},
+    {"host": "[::1]:8000", "origin": "http://[::1]:8000"},
+    # a tunnel to another port of this machine
+    {"host": "localhost:9000", "origin": "http://localhost:9000"},
+    {"host": "localhost", "origin": "http://localhost:80"},
+]
+FOREIGN = [
+    {"host": OURS, "origin": "http://evil.example"},
+    {"host": OURS, "origin": "http://localhost:8000"},
+    {"host": OURS, "origin": "http://127.0.0.1:3000"},
+    {"host": OURS, "origin": "http://127.0.0.1"},
+    {"host": OURS, "origin": "http://127.0.0.1:8000.evil.example"},
+    {"host": OURS, "origin": "http://127.0.0.1:8000@evil.example"},
+    {"host": OURS, "origin": "https://127.0.0.1"},
+    {"host": OURS, "origin": "file://"},
+    # sandboxed frames and local files
+    {"host": OURS, "origin": "null"},
+    # DNS rebinding: origin and host agree, but the name is not ours
+    {"host": "evil.example:8000", "origin": "http://evil.example:8000"},
+    {"host": "evil.example:8000"},
+    {"host": "192.168.1.5:8000", "origin": "http://192.168.1.5:8000"},
+    {"host": ""},
+]
+
+
+@pytest.mark.parametrize("headers", ALLOWED, ids=str)
+def test_our_own_page_and_programs_pass(headers):
+    assert answers(headers) == (200, 200)
+
+
+@pytest.mark.parametrize("headers", FOREIGN, ids=str)
+def test_foreign_pages_are_refused(headers):
+    assert answers(headers) == (403, 403)
+
+
+def test_the_refusal_says_why_and_what_to_do():
+    with client() as here:
+        body = here.get("/", headers={"origin": "http://evil.example"}).json()
+    (problem,) = body["problems"]
+    assert problem["where"] == "Origin" and problem["value"] == "http://evil.example"
+    assert problem["allowed"] == OURS and problem["remedy"]
+
+
+def test_a_server_on_every_address_may_be_called_by_numbers_but_not_by_foreign_names():
+    number = {"host": "192.168.1.5:8000", "origin": "http://192.168.1.5:8000"}
+    name = {"host": "evil.example:8000", "origin": "http://evil.example:8000"}
+    assert answers(number, host="0.0.0.0") == (200, 200)
+    assert answers(name, host="0.0.0.0") == (403, 403)
+    assert answers(name, host="0.0.0.0", names=["evil.example"]) == (200, 200)
+    assert answers(number, host="192.168.1.5") == (200, 200)
+
+
+def test_two_origins_are_none_of_ours():
+    with client() as here:
+        doubled = [("host", OURS), ("origin", f"http://{OURS}"), ("origin", f"http://{OURS}")]
+        assert here.get("/", headers=doubled).status_code == 403
