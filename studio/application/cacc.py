@@ -86,10 +86,10 @@ def ploeg_rate(p, h, u, u_ahead, own, front):
 def decide(parameters, memory, observation):
     """One tick."""
     p, own, message = parameters, observation.own, observation.message
-    linked = message.received and message.age <= p.timeout
+    linked = message.age <= p.timeout
     wanted = p.headway if linked else p.fallback_headway
-    h = wanted if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * observation.clock.tick)
-    u_ahead = message.intention if linked else 0.0
+    h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * observation.clock.tick)
+    u_ahead = message.intention if linked and message.received else 0.0
     u_cruise = p.cruise_gain * (own.set_speed - own.speed)
     if observation.front.detected:
         u = memory.u + observation.clock.tick * ploeg_rate(p, h, memory.u, u_ahead, own, observation.front)

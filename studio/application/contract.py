@@ -51,7 +51,7 @@ class Message(NamedTuple):
     """The newest message of the unit that this application listens to."""
 
     received: bool  # whether one ever came
-    age: float  # [s] since it was sent
+    age: float  # [s] since it was sent; since the start of the run while none has come
     x: float  # [m] position of the sender
     y: float  # [m]
     speed: float  # [m/s]

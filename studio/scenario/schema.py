@@ -191,3 +191,24 @@ class Scenario(Part):
     radio: Radio = Field(default_factory=Radio, title="Radio")
     recording: Recording = Field(default_factory=Recording, title="Recording")
     goals: dict[str, Goal] = Field({}, title="Goals", description="per metric")
+
+
+def unit_at(model: type[BaseModel], path: str) -> str:
+    """Unit of the field at a path, empty when it has none here (parameters of applications know their own)."""
+    schema = model.model_json_schema()
+    node = schema
+    for part in path.split("."):
+        node = descend(schema, node, part)
+    return node.get("unit", "")
+
+
+def descend(schema: dict, node: dict, part: str) -> dict:
+    """The node of a JSON schema one level down."""
+    if "$ref" in node:
+        node = schema["$defs"][node["$ref"].rpartition("/")[2]]
+    if part in node.get("properties", {}):
+        return node["properties"][part]
+    if part.isdigit() and "items" in node:
+        return node["items"]
+    found = node.get("additionalProperties")
+    return found if isinstance(found, dict) else {}

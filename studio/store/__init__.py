@@ -1,1 +1,1 @@
-""
+"""The run database: one SQLite file that holds every iteration."""

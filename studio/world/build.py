@@ -47,6 +47,7 @@ class Car:
     driver: Driver
     sensor: FrontSensor
     colour: str
+    returns: bool = False
 
 
 @dataclass(frozen=True)
@@ -220,7 +221,7 @@ def traffic(scenario: Scenario, network: Network, named: list[Car]) -> list[Car]
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
         name = f"traffic_{i + 1:02d}"
-        cars.append(Car(name, wanted.model, path, station, speed, driver, FrontSensor(range=0.0), "#9aa3ad"))
+        cars.append(Car(name, wanted.model, path, station, speed, driver, FrontSensor(range=0.0), "#9aa3ad", returns=True))
     return cars
 
 
@@ -319,6 +320,7 @@ def vehicles_of(cars: list[Car]) -> Vehicles:
         mind=mind,
         script=np.tile([[0.0], [-np.inf], [0.0]], n),
         commands=np.zeros((len(COMMAND), RING * n)),
+        returns=np.array([int(car.returns) for car in cars]),
         app_command=np.full((2, n), np.nan),
     )
 

@@ -96,6 +96,7 @@ def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
 def observe_message(time, link, inbox, observed, j):
     """The newest message of the unit that car j listens to."""
     observed[12, j] = 0.0
+    observed[13, j] = time
     if link >= 0 and inbox[SENT, link] > -inf:
         observed[12, j] = 1.0
         observed[13, j] = time - inbox[SENT, link]

@@ -21,6 +21,7 @@ def tick(world: World) -> None:
     act(world)
     move(world)
     collide(world)
+    recirculate(world)
     world.clock.k += 1
 
 
@@ -98,3 +99,11 @@ def collide(world: World) -> None:
     v, w, e = world.vehicles, world.worlds, world.events
     time = world.clock.time + world.clock.tick
     e.hits_found = collision.collide(time, v.state, v.parameter, w.first, w.count, e.hits, e.hits_found)
+
+
+def recirculate(world: World) -> None:
+    """Traffic that has arrived comes in again."""
+    v, r, w = world.vehicles, world.roads, world.worlds
+    traffic.recirculate(
+        v.returns, r.points, r.path_first, w.of, w.first, w.count, v.state, v.parameter, v.wheels, v.mind
+    )

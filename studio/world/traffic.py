@@ -1,4 +1,4 @@
-"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Four passes.
+"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Five passes.
 
 Two paths that run within a lane's width of each other share a zone: a stretch of one belongs to a stretch of the other.
 Following on one lane, merging and crossing are then one and the same: a car that is in the zone, or will be there
@@ -9,7 +9,16 @@ from math import cos, inf, nan, sin
 
 from studio.compiled import compiled
 from studio.model import driver
-from studio.road.path import PATH_CURVATURE, PATH_HEADING, PATH_SPACING, PATH_SPEED, interpolate, project
+from studio.road.path import (
+    PATH_CURVATURE,
+    PATH_HEADING,
+    PATH_SPACING,
+    PATH_SPEED,
+    PATH_X,
+    PATH_Y,
+    interpolate,
+    project,
+)
 from studio.road.signals import GREEN, signal_state
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
@@ -19,6 +28,7 @@ HORIZON = 60.0  # [m] how far before a merge drivers mind each other
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
+ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
 
 @compiled
@@ -185,3 +195,37 @@ def decide(state, parameter, drivers, mind):
         )
         mind[WISH, v] = min(min(free, mind[FOLLOWING, v]), min(mind[YIELDING, v], mind[STOPPING, v]))
         mind[STEER_WISH, v] = steer_wish(v, state, parameter, drivers, mind)
+
+
+@compiled
+def is_free(x, y, first, count, state):
+    """Whether no car of the same world is near a place."""
+    for other in range(first, first + count):
+        dx, dy = state[X, other] - x, state[Y, other] - y
+        if state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE:
+            return False
+    return True
+
+
+@compiled
+def enter(v, points, start, state, parameter, wheels, mind):
+    """Puts a car at the start of its path, rolling at the permitted speed."""
+    n = state.shape[1]
+    state[:, v] = 0.0
+    state[X, v], state[Y, v], state[PSI, v] = points[PATH_X, start], points[PATH_Y, start], points[PATH_HEADING, start]
+    state[V_X, v] = points[PATH_SPEED, start]
+    state[ACTIVE, v] = 1.0
+    mind[STATION, v] = 0.0
+    for corner in range(4):
+        wheels[OMEGA, corner * n + v] = state[V_X, v] / parameter[RADIUS, v]
+
+
+@compiled
+def recirculate(returns, points, path_first, world_of, first, count, state, parameter, wheels, mind):
+    """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] > 0.0 or returns[v] == 0:
+            continue
+        start, w = path_first[v], world_of[v]
+        if is_free(points[PATH_X, start], points[PATH_Y, start], first[w], count[w], state):
+            enter(v, points, start, state, parameter, wheels, mind)

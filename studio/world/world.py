@@ -36,6 +36,7 @@ class Vehicles:
     mind: np.ndarray
     script: np.ndarray
     commands: np.ndarray  # [row, slot · n + vehicle]
+    returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     app_command: np.ndarray  # [acceleration, steering] of applications, not a number where there is none
 
 

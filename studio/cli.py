@@ -1,0 +1,301 @@
+"""The command line: the same functions as the page and REST, as commands.
+
+Results go to standard output, progress and errors to standard error. Wrong input ends with code 2, a run that failed
+with code 1.
+"""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from studio.errors import Problem, StudioError, UnknownError
+
+app = typer.Typer(
+    help="Cooperative ADAS Studio. Without a command it serves the page.",
+    no_args_is_help=False,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+Db = Annotated[Path, typer.Option("--db", help="The run database; made when there is none.")]
+Applications = Annotated[
+    Path | None, typer.Option("--applications", help="A folder of Python files, each an application of your own.")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object instead of a table.")]
+Sets = Annotated[list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a field; can be repeated.")]
+ScenarioFile = Annotated[Path, typer.Argument(metavar="SCENARIO", help="A scenario file (YAML).")]
+DEFAULT_DB = Path("runs.db")
+PIPED_WIDTH = 160  # columns of a table that is piped
+COMMANDS = ("serve", "run", "runs", "show", "compare", "check", "schema", "openapi")
+
+
+@app.command()
+def serve(
+    host: Annotated[str, typer.Option(help="Address to serve on; others than this machine's own open it to the network.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port to serve on.", min=0, max=65535)] = 8000,
+    db: Db = DEFAULT_DB,
+    scenarios: Annotated[Path | None, typer.Option(help="Folder of scenario files; default: ./scenarios, else the samples.")] = None,
+    applications: Applications = None,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in a browser.")] = True,
+) -> None:  # fmt: skip
+    """Serves the page, the scene and the REST API."""
+    from studio.server.serve import serve as start
+
+    start(host=host, port=port, db=db, scenarios=scenarios, applications=applications, browser=browser)
+
+
+@app.command()
+def run(
+    scenario: ScenarioFile,
+    set_: Sets = None,
+    seed: Annotated[int | None, typer.Option(help="Seed of every random number; default: the scenario's.")] = None,
+    parent: Annotated[int | None, typer.Option(help="The run that this one refines.")] = None,
+    db: Db = DEFAULT_DB,
+    applications: Applications = None,
+    as_json: AsJson = False,
+) -> None:
+    """Runs a scenario as fast as possible and saves the run."""
+    with progress("starting") as report:
+        from studio import job
+        from studio.store.runs import open_runs
+
+        load_applications(applications)
+        loaded = job.load(scenario, changes(set_))
+        result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
+    if as_json:
+        print_json(run_json(result.row))
+    else:
+        print_run(result.row)
+    if result.status == "failed":
+        raise typer.Exit(1)
+
+
+@app.command()
+def runs(db: Db = DEFAULT_DB, limit: Annotated[int, typer.Option(help="How many, newest first.", min=1)] = 50, as_json: AsJson = False) -> None:  # fmt: skip
+    """Lists the runs of the database."""
+    rows = existing(db).select(limit=limit)
+    if as_json:
+        print_json([run_json(row) for row in rows])
+        return
+    if not rows:
+        print(f"No run in {db} yet. Try: studio run scenarios/grosser_stern_platoon.yaml")
+        return
+    print_table(
+        ["run", "scenario", "status", "parent", "seed", "set", "min TTC [s]", "worst hop gain [1]"],
+        [[str(row.run), row.scenario, row.status, str(row.parent or ""), str(row.seed), settings(row.parameters),
+          metric_text(row, "min_ttc"), metric_text(row, "worst_hop_gain")] for row in rows],
+    )  # fmt: skip
+
+
+@app.command()
+def show(run: Annotated[int, typer.Argument(help="Number of the run.")], db: Db = DEFAULT_DB, as_json: AsJson = False) -> None:  # fmt: skip
+    """Shows one run: what was set, and every metric."""
+    row = existing(db).find(run)
+    print_json(run_json(row)) if as_json else print_run(row)
+
+
+@app.command()
+def compare(
+    a: Annotated[int, typer.Argument(help="Number of a run.")],
+    b: Annotated[int, typer.Argument(help="Number of another run.")],
+    db: Db = DEFAULT_DB,
+    as_json: AsJson = False,
+) -> None:
+    """Compares two runs: the parameters that differ, and every metric."""
+    from studio.store.comparison import compare as compared
+
+    result = compared(existing(db), a, b)
+    if as_json:
+        print_json(result)
+        return
+    print_table(
+        ["parameter", f"run {a}", f"run {b}"],
+        [[each["path"], text(each["a"]), text(each["b"])] for each in result["parameters"]],
+    )
+    print_table(
+        ["metric", f"run {a}", f"run {b}", "difference", "better"],
+        [[f"{each['name']} [{each['unit']}]", text(each["a"]), text(each["b"]), signed(each["difference"]),
+          {"a": f"run {a}", "b": f"run {b}"}.get(each["better"], each["better"] or "")] for each in result["metrics"]],
+    )  # fmt: skip
+
+
+@app.command()
+def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications = None) -> None:
+    """Checks a scenario file: fields, names, map, routes and starts."""
+    with progress("checking"):
+        from studio import job
+
+        load_applications(applications)
+        prepared = job.prepare(job.load(scenario, changes(set_)))
+    print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}")
+
+
+@app.command()
+def schema() -> None:
+    """Prints the JSON schema of scenario files."""
+    from studio.scenario.schema import Scenario
+
+    print_json(Scenario.model_json_schema())
+
+
+@app.command()
+def openapi() -> None:
+    """Prints the description of the REST API."""
+    from studio.server.app import description
+
+    print_json(description())
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Entry point: `studio` alone, or with options only, serves."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if not arguments or (arguments[0].startswith("-") and arguments[0] not in ("--help", "--version")):
+        arguments = ["serve", *arguments]
+    if arguments == ["--version"]:
+        from studio.job import code_version
+
+        print(code_version())
+        return
+    try:
+        app(arguments, standalone_mode=True)
+    except StudioError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+
+
+# --- input -------------------------------------------------------------------------------------------------------------
+
+
+def changes(assignments: list[str] | None) -> dict[str, Any]:
+    """The --set options as {path: value}."""
+    from studio.scenario.edit import parse_assignment
+
+    return dict(parse_assignment(each) for each in assignments or [])
+
+
+def load_applications(folder: Path | None) -> None:
+    """Registers the user's own applications."""
+    if folder:
+        from studio.application.registry import load_folder
+
+        load_folder(folder)
+
+
+def existing(db: Path):
+    """The runs of a database that must exist; reading makes no file."""
+    from studio.store.runs import open_runs
+
+    if not db.exists():
+        raise UnknownError(
+            f"There is no run database {db}.",
+            [Problem("--db", "does not exist", str(db), remedy="run a scenario first, or name another file")],
+        )
+    return open_runs(db)
+
+
+# --- output ------------------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def progress(title: str) -> Iterator[Callable[[float], None]]:
+    """A bar on standard error once something takes longer than a second; none when nobody watches."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task(first_start(title), total=None)
+        yield lambda share: bar.update(task, description="running", total=1.0, completed=share)
+
+
+def first_start(title: str) -> str:
+    """What the bar says before there is progress."""
+    from studio.compiled import is_warm
+
+    return title if is_warm() else f"{title} (compiling once, about half a minute)"
+
+
+def run_json(row) -> dict[str, Any]:
+    """A run as the one object that scripts read."""
+    plain = asdict(row)
+    plain["metrics"] = {name: asdict(each) for name, each in row.metrics.items()}
+    return plain
+
+
+def print_json(value: Any) -> None:
+    """JSON on standard output."""
+    print(json.dumps(value, ensure_ascii=False, indent=2))
+
+
+def print_run(row) -> None:
+    """A run for people."""
+    lines = {
+        "run": f"{row.run} ({row.status})",
+        "scenario": f"{row.scenario}  {row.scenario_hash[:12]}",
+        "set": settings(row.parameters) or "nothing, as in the file",
+        "parent": str(row.parent or "none"),
+        "seed": str(row.seed),
+        "time": f"{text(row.sim_time_s)} s simulated in {text(row.wall_time_s)} s",
+        "state": (row.state_hash or "none")[:16],
+        "code": row.code_version,
+    }
+    for name, value in lines.items():
+        print(f"{name:9} {value}")
+    if row.error:
+        print(f"\n{row.error}")
+    for each in row.unmet:
+        print(f"goal not met: {each}")
+    if row.metrics:
+        print_table(
+            ["metric", "value", "better"],
+            [[f"{name} [{each.unit}]", text(each.value), each.goal or ""] for name, each in row.metrics.items()],
+        )
+
+
+def print_table(header: list[str], rows: list[list[str]]) -> None:
+    """A table that survives being piped."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console(markup=False, highlight=False)
+    table = Table(box=SIMPLE_HEAD)
+    for column in header:
+        table.add_column(Text(column), overflow="fold")
+    for row in rows:
+        table.add_row(*map(Text, row))
+    console.print(table, width=None if console.is_terminal else PIPED_WIDTH)
+
+
+def settings(parameters: dict[str, Any]) -> str:
+    """What was set, in one line."""
+    return ", ".join(f"{path}={value}" for path, value in parameters.items())
+
+
+def metric_text(row, name: str) -> str:
+    """A metric of a row."""
+    return text(row.metrics[name].value) if name in row.metrics else ""
+
+
+def text(value: Any) -> str:
+    """A value for people."""
+    if value is None:
+        return "–"
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def signed(value: float | None) -> str:
+    """A difference for people."""
+    return "–" if value is None else f"{value:+.4g}"
+
+
+if __name__ == "__main__":
+    main()

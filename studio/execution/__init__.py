@@ -1,0 +1,1 @@
+"""Running a world: as fast as possible, paced, paused, step by step; and what is kept of it."""

@@ -1,0 +1,85 @@
+"""The record of a run: channels of the recorded vehicles over time, and what happened."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from studio.errors import UnknownError, nearest
+from studio.world.channel import BY_NAME, CHANNELS, TIME_GAP, sample
+from studio.world.world import World
+
+ROLLING = 0.5  # [m/s] below this speed a time gap says nothing
+
+
+@dataclass(frozen=True)
+class Happening:
+    """Something that happened: when [s], what, to which vehicle."""
+
+    time: float
+    text: str
+    vehicle: str
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Vehicles of an application group, each listening to the one before; the first only sends."""
+
+    group: str
+    application: str
+    vehicles: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Record:
+    """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings."""
+
+    time: np.ndarray
+    values: np.ndarray
+    vehicles: tuple[str, ...]
+    happenings: tuple[Happening, ...]
+    chains: tuple[Chain, ...] = ()
+    links: dict[str, float] = field(default_factory=dict)
+
+    def channel(self, name: str) -> np.ndarray:
+        """One quantity of all vehicles, float64[vehicle, n]."""
+        if name == TIME_GAP.name:
+            speed = self.channel("speed")
+            return np.where(speed > ROLLING, self.channel("gap") / np.maximum(speed, ROLLING), np.nan)
+        return self.values[[channel.name for channel in CHANNELS].index(name)]
+
+    def trace(self, name: str) -> np.ndarray:
+        """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""
+        vehicle, _, quantity = name.partition(".")
+        if vehicle not in self.vehicles:
+            raise UnknownError(f"No vehicle {vehicle!r} was recorded; {nearest(vehicle, self.vehicles)}")
+        if quantity not in BY_NAME:
+            raise UnknownError(f"There is no channel {quantity!r}; {nearest(quantity, BY_NAME)}")
+        return self.channel(quantity)[self.vehicles.index(vehicle)]
+
+    def names(self) -> list[str]:
+        """All `vehicle.quantity`."""
+        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in BY_NAME]
+
+
+@dataclass
+class Recorder:
+    """Collects samples every `every` ticks."""
+
+    columns: np.ndarray
+    every: int
+    times: list[float] = field(default_factory=list)
+    samples: list[np.ndarray] = field(default_factory=list)
+
+    def take(self, world: World) -> bool:
+        """Takes a sample when it is time for one; tells whether it did."""
+        if world.clock.k % self.every:
+            return False
+        self.times.append(world.clock.time)
+        self.samples.append(sample(world, self.columns))
+        return True
+
+    def values(self) -> np.ndarray:
+        """float64[channel, vehicle, n]."""
+        if not self.samples:
+            return np.zeros((len(CHANNELS), self.columns.size, 0))
+        return np.moveaxis(np.array(self.samples), 0, -1)

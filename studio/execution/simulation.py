@@ -1,0 +1,162 @@
+"""One run in the making: a world, its recorder, and the rules of when it ends."""
+
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from studio.errors import ApplicationError
+from studio.execution.record import Chain, Happening, Record, Recorder
+from studio.world.build import Setting, build
+from studio.world.state import ACTIVE, HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, SENT, VEHICLE
+from studio.world.tick import environment, look, tick
+from studio.world.world import World, first_not_finite
+
+CHECK_EVERY = 50  # ticks between two looks for numbers that are not finite
+
+
+@dataclass
+class Simulation:
+    """A setting that is being run. `status` is running, done, stopped or failed; `error` says why it failed."""
+
+    setting: Setting
+    world: World
+    recorder: Recorder
+    happenings: list[Happening] = field(default_factory=list)
+    status: str = "running"
+    error: str | None = None
+    started: float = field(default_factory=time.perf_counter)
+    reported: dict[str, int] = field(default_factory=lambda: {"hits": 0})
+    ages: list[np.ndarray] = field(default_factory=list)
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self.world.clock.time
+
+    @property
+    def ticks(self) -> int:
+        """Length of the whole run in ticks."""
+        clock = self.setting.scenario.clock
+        return round(clock.duration / clock.tick)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether there is nothing left to do."""
+        return self.status != "running"
+
+    def advance(self) -> None:
+        """One tick. A failing application, or a state that is not finite, ends the run as failed."""
+        try:
+            tick(self.world)
+        except ApplicationError as error:
+            self.fail(error.message)
+            return
+        k = self.world.clock.k
+        if self.recorder.take(self.world):
+            self.ages.append(self.world.clock.time - self.world.units.inbox[SENT])
+        self.report()
+        if k % CHECK_EVERY == 0 or k >= self.ticks:
+            self.check()
+        if k >= self.ticks and not self.is_over:
+            self.status = "done"
+
+    def fail(self, reason: str) -> None:
+        """Ends the run as failed."""
+        self.status, self.error = "failed", reason
+        self.happen(self.time, f"failed: {reason.splitlines()[0]}", "")
+
+    def stop(self) -> None:
+        """Ends the run because somebody asked for it."""
+        if not self.is_over:
+            self.status = "stopped"
+
+    def check(self) -> None:
+        """Ends the run when a number is not finite, and names vehicle, quantity and time."""
+        found = first_not_finite(self.world.vehicles.state)
+        if found:
+            row, column = found
+            name = self.setting.names[column]
+            self.fail(f"{VEHICLE[row].name} of {name} is not finite at {self.time:.2f} s")
+
+    def happen(self, when: float, text: str, vehicle: str) -> None:
+        """Adds an event."""
+        self.happenings.append(Happening(round(when, 6), text, vehicle))
+
+    def report(self) -> None:
+        """Turns what the tick found into events."""
+        self.report_triggers()
+        self.report_hits()
+        self.report_arrivals()
+
+    def report_triggers(self) -> None:
+        """Scripted maneuvers that have begun."""
+        for i, (name, trigger) in enumerate(self.setting.scenario.triggers.items()):
+            if self.world.events.fired[i] and name not in self.reported:
+                self.reported[name] = 1
+                text = f"{name}: {trigger.do.maneuver} with {trigger.do.deceleration:g} m/s²"
+                self.happen(trigger.time, text, trigger.vehicle)
+
+    def report_hits(self) -> None:
+        """Collisions."""
+        events, names = self.world.events, self.setting.names
+        for i in range(self.reported["hits"], events.hits_found):
+            first, second = (names[int(events.hits[row, i])] for row in (HIT_FIRST, HIT_SECOND))
+            text = f"collision of {first} and {second} at {events.hits[HIT_SPEED, i]:.1f} m/s"
+            self.happen(float(events.hits[HIT_TIME, i]), text, first)
+        self.reported["hits"] = events.hits_found
+
+    def report_arrivals(self) -> None:
+        """Named vehicles that have reached the end of their route."""
+        for column, name in enumerate(self.setting.scenario.vehicles):
+            arrived = f"arrived {name}"
+            if self.world.vehicles.state[ACTIVE, column] == 0.0 and arrived not in self.reported:
+                self.reported[arrived] = 1
+                self.happen(self.time, "arrived at the end of its route", name)
+
+    def record(self) -> Record:
+        """What has been recorded so far."""
+        return Record(
+            time=np.array(self.recorder.times),
+            values=self.recorder.values(),
+            vehicles=tuple(self.setting.names[column] for column in self.recorder.columns),
+            happenings=tuple(self.happenings),
+            chains=chains(self.setting),
+            links=link_ages(self),
+        )
+
+
+def chains(setting: Setting) -> tuple[Chain, ...]:
+    """Groups in which everybody listens to the vehicle ahead of it in the list."""
+    found = []
+    for name, group in setting.scenario.applications.items():
+        order = [*group.listens_to[:1], *group.vehicles]
+        if group.listens_to and group.listens_to == order[:-1]:
+            found.append(Chain(name, group.application, tuple(order)))
+    return tuple(found)
+
+
+def link_ages(simulation: Simulation) -> dict[str, float]:
+    """Mean age [s] of the newest message on each link, named sender→receiver, over the time in which there was one."""
+    if not simulation.ages or not simulation.world.units.link_receiver.size:
+        return {}
+    ages = np.array(simulation.ages)
+    heard = np.isfinite(ages)
+    means = np.where(heard, ages, 0.0).sum(axis=0) / np.maximum(heard.sum(axis=0), 1)
+    units, names = simulation.world.units, simulation.setting.names
+    return {
+        f"{names[sender]}→{names[receiver]}": float(mean)
+        for sender, receiver, mean in zip(units.link_sender, units.link_receiver, means, strict=True)
+    }
+
+
+def simulation(setting: Setting) -> Simulation:
+    """A run at its start, with its first sample: drivers have looked around once."""
+    scenario = setting.scenario
+    recorded = len(setting.cars) if scenario.recording.traffic else len(scenario.vehicles)
+    every = round(scenario.recording.period / scenario.clock.tick)
+    fresh = Simulation(setting, build([setting]), Recorder(np.arange(recorded), every))
+    environment(fresh.world)
+    look(fresh.world)
+    fresh.recorder.take(fresh.world)
+    return fresh

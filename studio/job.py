@@ -1,0 +1,192 @@
+"""A job: one run from a scenario file to its row in runs.db.
+
+The command line, Python, REST and live runs all go through these functions; there is no second way to run.
+
+    load(path, changes)  →  Loaded                  a valid scenario and what was changed
+    prepare(loaded)      →  Setting                 its map and cars
+    begin, finish                                   the row at the start, and all of it at the end
+    run(loaded)          →  Run                     everything at once
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from studio.application import setup
+from studio.assess.metric import Measured, measure_all, unmet
+from studio.compiled import DIGEST
+from studio.errors import Problem, ScenarioError
+from studio.execution.loop import as_fast_as_possible
+from studio.execution.record import Record
+from studio.execution.simulation import Simulation, simulation
+from studio.scenario import file
+from studio.scenario.schema import Scenario
+from studio.store.runs import Row, Runs
+from studio.world.build import Setting, setting
+
+LARGEST_SEED = 2**63 - 1
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A scenario that was read: the file, what was changed by path, and the valid result."""
+
+    path: Path
+    changes: dict[str, Any]
+    scenario: Scenario
+
+    @property
+    def name(self) -> str:
+        """Its name in lists: the file's name without ending."""
+        return self.path.stem
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The full document as plain data."""
+        return self.scenario.model_dump(mode="json")
+
+    def changed(self, changes: dict[str, Any]) -> "Loaded":
+        """The same with further changes; raises ScenarioError."""
+        return load(self.path, self.changes | changes)
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run that is over: its record, metrics, and its row when it was saved."""
+
+    record: Record
+    metrics: dict[str, Measured]
+    unmet: list[str]
+    status: str
+    error: str | None
+    state_hash: str
+    sim_time_s: float
+    wall_time_s: float
+    row: Row | None = None
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of the samples [s]."""
+        return self.record.time
+
+    def trace(self, name: str) -> np.ndarray:
+        """`vehicle.quantity` over time; raises UnknownError with the nearest name."""
+        return self.record.trace(name)
+
+
+def load(path: str | Path, changes: dict[str, Any] | None = None) -> Loaded:
+    """Reads a scenario file and applies changes {path: value}. Raises ScenarioError with all problems."""
+    path = Path(path)
+    document = file.read(path)
+    changes = dict(changes or {})
+    if changes:
+        setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
+        document = setup.change(document, changes, path.name)
+    return Loaded(path, changes, setup.complete(document, path.name))
+
+
+def seeded(loaded: Loaded, seed: int | None) -> Loaded:
+    """With another seed; raises ScenarioError when it is none."""
+    if seed is None:
+        return loaded
+    if not 0 <= seed <= LARGEST_SEED:
+        raise ScenarioError("The seed is out of range.", [Problem("seed", "is out of range", str(seed), f"0 to {LARGEST_SEED}")])
+    return Loaded(loaded.path, loaded.changes, loaded.scenario.model_copy(update={"seed": seed}))
+
+
+def prepare(loaded: Loaded) -> Setting:
+    """Map, routes and cars. Raises ScenarioError, MapError or RouteError."""
+    return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
+
+
+@cache
+def code_version() -> str:
+    """Version of the package and digest of the sources that compute."""
+    return f"{version('cooperative-adas-studio')}+{DIGEST}"
+
+
+def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
+    """Content hash of what is run: the document without its seed, and the map."""
+    return file.digest(loaded.document, prepared.network.digest)
+
+
+def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> int:
+    """The row of a run that starts now."""
+    return runs.begin(
+        scenario=loaded.name,
+        title=loaded.scenario.title,
+        document=loaded.document,
+        scenario_hash=scenario_hash(loaded, prepared),
+        map_digest=prepared.network.digest,
+        parent=parent,
+        seed=loaded.scenario.seed,
+        parameters=loaded.changes,
+        code_version=code_version(),
+    )
+
+
+def outcome(loaded: Loaded, finished: Simulation) -> Run:
+    """What a finished simulation brought."""
+    wall = time.perf_counter() - finished.started
+    record = finished.record()
+    metrics = measure_all(record)
+    return Run(
+        record=record,
+        metrics=metrics,
+        unmet=unmet(loaded.scenario.goals, metrics),
+        status=finished.status,
+        error=finished.error,
+        state_hash=finished.world.digest(),
+        sim_time_s=round(finished.time, 9),
+        wall_time_s=round(wall, 3),
+    )
+
+
+def save(run: int, result: Run, runs: Runs) -> Row:
+    """Writes a result to its row."""
+    runs.finish(
+        run,
+        status=result.status,
+        error=result.error,
+        state_hash=result.state_hash,
+        record=result.record,
+        sim_time_s=result.sim_time_s,
+        wall_time_s=result.wall_time_s,
+        metrics=result.metrics,
+        unmet=result.unmet,
+    )
+    return runs.find(run)
+
+
+def run(
+    loaded: Loaded,
+    *,
+    seed: int | None = None,
+    runs: Runs | None = None,
+    parent: int | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Run:
+    """Runs a scenario to its end, as fast as possible; with `runs` it has a row there from its first moment.
+
+    Raises ScenarioError, MapError, RouteError before anything is written; a run that fails is returned as failed.
+    """
+    loaded = seeded(loaded, seed)
+    prepared = prepare(loaded)
+    number = begin(loaded, prepared, runs, parent) if runs else None
+    try:
+        current = simulation(prepared)
+        as_fast_as_possible(current, progress)
+        result = outcome(loaded, current)
+    except BaseException as error:
+        if runs:
+            runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
+        raise
+    if runs is None:
+        return result
+    return Run(**{**vars(result), "row": save(number, result, runs)})

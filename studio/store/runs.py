@@ -1,0 +1,226 @@
+"""Runs in the database: begin, finish, find, compare their inputs.
+
+A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
+says "running", the run was killed; the row says so as soon as somebody looks.
+"""
+
+import json
+import os
+import sqlite3
+from dataclasses import asdict, dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+from sqlite_utils import Database
+
+from studio.assess.metric import Measured
+from studio.errors import StoreError, UnknownError
+from studio.execution.record import Happening, Record
+from studio.store import trace
+from studio.store.tables import open_database, unusable
+
+CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
+
+
+@dataclass(frozen=True)
+class Row:
+    """A run as it stands in the database. `parameters` are those that were set, by path."""
+
+    run: int
+    scenario: str
+    scenario_hash: str
+    parent: int | None
+    seed: int
+    status: str
+    error: str | None
+    state_hash: str | None
+    code_version: str
+    created: str
+    sim_time_s: float | None
+    wall_time_s: float | None
+    parameters: dict[str, Any] = field(default_factory=dict)
+    unmet: list[str] = field(default_factory=list)
+    metrics: dict[str, Measured] = field(default_factory=dict)
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return asdict(self)
+
+
+@dataclass
+class Runs:
+    """The runs of one database file."""
+
+    path: Path
+    database: Database
+
+    def begin(self, *, scenario: str, title: str, document: dict, scenario_hash: str, map_digest: str, parent: int | None,
+              seed: int, parameters: dict[str, Any], code_version: str) -> int:  # fmt: skip
+        """A new row that says "running"; returns its number."""
+        if parent is not None:
+            self.find(parent)
+        process = psutil.Process()
+        row = {
+            "scenario": scenario,
+            "scenario_hash": scenario_hash,
+            "parent": parent,
+            "seed": seed,
+            "status": "running",
+            "code_version": code_version,
+            "created": datetime.now(UTC).isoformat(timespec="milliseconds"),
+            "parameters": json.dumps(parameters, ensure_ascii=False),
+            "unmet": "[]",
+            "process": process.pid,
+            "process_started": process.create_time(),
+        }
+        with self.writing():
+            kept = {"hash": scenario_hash, "title": title, "map_digest": map_digest}
+            content = {key: value for key, value in document.items() if key != "seed"}
+            kept["document"] = json.dumps(content, ensure_ascii=False)
+            self.database["scenarios"].insert(kept, pk="hash", ignore=True)
+            return int(self.database["runs"].insert(row, pk="run").last_pk)
+
+    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: Record, sim_time_s: float,
+               wall_time_s: float, metrics: dict[str, Measured], unmet: list[str]) -> None:  # fmt: skip
+        """Writes everything a run has brought, in one transaction: all of it or nothing."""
+        ending = {
+            "status": status,
+            "error": error,
+            "state_hash": state_hash,
+            "sim_time_s": sim_time_s,
+            "wall_time_s": wall_time_s,
+            "unmet": json.dumps(unmet, ensure_ascii=False),
+        }
+        parquet = trace.write(record)
+        with self.writing():
+            self.database["runs"].update(run, ending)
+            self.database["metrics"].insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
+            self.database["events"].insert_all({"run": run, **asdict(each)} for each in record.happenings)
+            self.database["traces"].insert({"run": run, "parquet": parquet}, pk="run", replace=True)
+
+    def end(self, run: int, status: str, error: str) -> None:
+        """Marks a run that brought nothing."""
+        with self.writing():
+            self.database["runs"].update(run, {"status": status, "error": error})
+
+    def writing(self) -> "Writing":
+        """A transaction; SQLite's refusals become StoreErrors."""
+        return Writing(self)
+
+    def find(self, run: int) -> Row:
+        """One run; raises UnknownError that says which there are."""
+        rows = self.select(where="run = ?", values=[run])
+        if not rows:
+            last = self.database.execute("select max(run) from runs").fetchone()[0]
+            have = f"the newest is {last}" if last else "there is none yet"
+            raise UnknownError(f"There is no run {run} in {self.path}; {have}")
+        return rows[0]
+
+    def select(self, *, where: str = "1", values: list = (), limit: int = -1) -> list[Row]:
+        """Runs, newest first, with their metrics."""
+        self.mark_killed()
+        query = f"select * from runs where {where} order by run desc limit {int(limit)}"
+        rows = [dict(row) for row in self.rows(query, values)]
+        metrics = self.metrics_of([row["run"] for row in rows])
+        return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+
+    def rows(self, query: str, values=()) -> list[dict[str, Any]]:
+        """Rows of a query as dictionaries."""
+        try:
+            return list(self.database.query(query, list(values)))
+        except sqlite3.Error as error:
+            raise unusable(self.path, error) from None
+
+    def metrics_of(self, runs: list[int]) -> dict[int, dict[str, Measured]]:
+        """Metrics of many runs."""
+        found: dict[int, dict[str, Measured]] = {}
+        marks = ", ".join("?" * len(runs))
+        for row in self.rows(f"select * from metrics where run in ({marks}) order by rowid", runs):
+            found.setdefault(row["run"], {})[row["name"]] = Measured(row["value"], row["unit"], row["goal"])
+        return found
+
+    def mark_killed(self) -> None:
+        """Rows that still say "running" although their process is gone."""
+        query = "select run, process, process_started from runs where status = 'running'"
+        for row in self.rows(query):
+            if not is_alive(row["process"], row["process_started"]):
+                self.end(row["run"], "killed", "The process that ran it ended before the run did.")
+
+    def document(self, row: Row) -> dict[str, Any]:
+        """The full scenario of a run, with its seed."""
+        return json.loads(self.database["scenarios"].get(row.scenario_hash)["document"]) | {"seed": row.seed}
+
+    def parquet(self, run: int) -> bytes:
+        """The traces of a run as they are kept; raises UnknownError when there are none."""
+        self.find(run)
+        found = self.rows("select parquet from traces where run = ?", [run])
+        if not found:
+            raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
+        return found[0]["parquet"]
+
+    def channels(self, run: int) -> list[dict[str, str]]:
+        """Recorded channels of a run; none when it has no traces."""
+        found = self.rows("select parquet from traces where run = ?", [run])
+        return trace.channels(found[0]["parquet"]) if found else []
+
+    def trace(self, run: int, names: list[str]) -> dict[str, np.ndarray]:
+        """Time and channels of a run."""
+        return trace.read(self.parquet(run), names)
+
+    def events(self, run: int) -> list[Happening]:
+        """What happened in a run."""
+        rows = self.rows("select time, text, vehicle from events where run = ? order by time, rowid", [run])
+        return [Happening(**row) for row in rows]
+
+    def close(self) -> None:
+        """Closes the file."""
+        self.database.conn.close()
+
+
+@dataclass
+class Writing:
+    """One transaction of a Runs."""
+
+    runs: Runs
+
+    def __enter__(self) -> None:
+        self.runs.database.conn.__enter__()
+
+    def __exit__(self, kind, error, trace_back) -> None:
+        try:
+            self.runs.database.conn.__exit__(kind, error, trace_back)
+        except sqlite3.Error as refusal:
+            raise unusable(self.runs.path, refusal) from None
+        if isinstance(error, sqlite3.Error):
+            raise unusable(self.runs.path, error) from None
+
+
+def open_runs(path: str | os.PathLike) -> Runs:
+    """The runs of a database file, made when there is none. Raises StoreError when it cannot be used."""
+    path = Path(path)
+    if path.is_dir():
+        raise StoreError(f"{path} is a folder, not a run database; name a file with --db")
+    return Runs(path, open_database(path))
+
+
+def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:
+    """Metrics as rows."""
+    return [{"run": run, "name": name, **asdict(each)} for name, each in metrics.items()]
+
+
+def row_of(row: dict[str, Any], metrics: dict[str, Measured]) -> Row:
+    """A Row from the database's row."""
+    plain = {key: row[key] for key in row if key not in ("process", "process_started", "parameters", "unmet")}
+    return Row(**plain, parameters=json.loads(row["parameters"]), unmet=json.loads(row["unmet"]), metrics=metrics)
+
+
+def is_alive(process: int, started: float) -> bool:
+    """Whether the process that began a run still lives; a number can be given to another process later."""
+    try:
+        found = psutil.Process(process)
+        return found.status() != psutil.STATUS_ZOMBIE and abs(found.create_time() - started) < CLOCK_SLACK
+    except psutil.NoSuchProcess:
+        return False

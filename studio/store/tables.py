@@ -1,0 +1,108 @@
+"""Tables of runs.db, and opening it.
+
+    scenarios   hash → document            what was run, by content
+    runs        run → scenario, parent, seed, status, ...
+    metrics     run, name → value, unit, goal
+    events      run → time, text, vehicle
+    traces      run → one Parquet file with a column per channel
+
+SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
+"""
+
+import sqlite3
+from pathlib import Path
+
+from sqlite_utils import Database
+
+from studio.errors import Problem, StoreError
+
+LAYOUT = 1
+
+TABLES = {
+    "scenarios": ({"hash": str, "title": str, "document": str, "map_digest": str}, "hash", ()),
+    "runs": (
+        {
+            "run": int,
+            "scenario": str,
+            "scenario_hash": str,
+            "parent": int,
+            "seed": int,
+            "status": str,
+            "error": str,
+            "state_hash": str,
+            "code_version": str,
+            "created": str,
+            "sim_time_s": float,
+            "wall_time_s": float,
+            "parameters": str,
+            "unmet": str,
+            "process": int,
+            "process_started": float,
+        },
+        "run",
+        (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
+    ),
+    "metrics": ({"run": int, "name": str, "value": float, "unit": str, "goal": str}, ("run", "name"), (("run", "runs", "run"),)),
+    "events": ({"run": int, "time": float, "text": str, "vehicle": str}, None, (("run", "runs", "run"),)),
+    "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
+}  # fmt: skip
+
+
+def open_database(path: Path) -> Database:
+    """The database in a file, made when there is none. Raises StoreError when it cannot be used."""
+    try:
+        connection = sqlite3.connect(path, timeout=30.0, check_same_thread=False)
+        return prepared(Database(connection), path)
+    except sqlite3.Error as error:
+        raise unusable(path, error) from None
+
+
+def prepared(database: Database, path: Path) -> Database:
+    """With its tables, in WAL mode, writable."""
+    layout = database.execute("pragma user_version").fetchone()[0]
+    if layout > LAYOUT:
+        raise StoreError(
+            f"{path} was written by a newer studio.",
+            [Problem(str(path), "has an unknown layout", str(layout), f"≤ {LAYOUT}", "update the studio, or use --db")],
+        )
+    if layout == 0:
+        refuse_foreign(database, path)
+        make_tables(database)
+    database.execute("pragma foreign_keys = on")
+    database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
+    database.execute("commit")
+    return database
+
+
+def refuse_foreign(database: Database, path: Path) -> None:
+    """A database that holds other tables belongs to somebody else."""
+    foreign = sorted(set(database.table_names()) - set(TABLES))
+    if foreign:
+        raise StoreError(
+            f"{path} is not a run database.",
+            [Problem(str(path), "holds other tables", ", ".join(foreign[:5]), remedy="name another file with --db")],
+        )
+
+
+def make_tables(database: Database) -> None:
+    """Tables and indices of this layout."""
+    database.enable_wal()
+    with database.conn:
+        for name, (columns, key, foreign) in TABLES.items():
+            database[name].create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
+        database["events"].create_index(["run"], if_not_exists=True)
+        database["runs"].create_index(["scenario"], if_not_exists=True)
+        database.execute(f"pragma user_version = {LAYOUT}")
+
+
+def unusable(path: Path, error: sqlite3.Error) -> StoreError:
+    """What to tell about a file that SQLite refuses."""
+    text = str(error)
+    remedy = "name another file with --db"
+    if "not a database" in text:
+        return StoreError(f"{path} is not a database.", [Problem(str(path), "is no SQLite file", remedy=remedy)])
+    if "readonly" in text:
+        return StoreError(f"{path} is read-only.", [Problem(str(path), "cannot be written", remedy=f"make it writable, or {remedy}")])
+    if "unable to open" in text:
+        return StoreError(f"{path} cannot be opened.", [Problem(str(path), text, remedy="make its folder, or " + remedy)])
+    return StoreError(f"{path} cannot be used.", [Problem(str(path), text, remedy=remedy)])

@@ -1,0 +1,70 @@
+"""Traces as one Parquet file per run: a column per channel with its unit, readable by pandas, polars and MATLAB."""
+
+import io
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from studio.errors import UnknownError, nearest
+from studio.execution.record import Record
+from studio.world.channel import BY_NAME
+
+UNIT, LABEL = b"unit", b"label"
+
+
+def write(record: Record) -> bytes:
+    """The record's channels; floats keep all their bits."""
+    columns = {"time": record.time} | {name: record.trace(name) for name in record.names()}
+    fields = [field("time", "s", "Time")]
+    for name in record.names():
+        channel = BY_NAME[name.partition(".")[2]]
+        fields.append(field(name, channel.unit, channel.label))
+    table = pa.table(list(columns.values()), schema=pa.schema(fields))
+    buffer = io.BytesIO()
+    pq.write_table(table, buffer, compression="zstd", use_dictionary=False, use_byte_stream_split=True)
+    return buffer.getvalue()
+
+
+def field(name: str, unit: str, label: str) -> pa.Field:
+    """A column of float64 with unit and label."""
+    return pa.field(name, pa.float64(), metadata={UNIT: unit.encode(), LABEL: label.encode()})
+
+
+def channels(parquet: bytes) -> list[dict[str, str]]:
+    """Name, unit and label of every column but the time."""
+    schema = pq.read_schema(io.BytesIO(parquet))
+    return [
+        {"name": each.name, "unit": each.metadata[UNIT].decode(), "label": each.metadata[LABEL].decode()}
+        for each in schema
+        if each.name != "time"
+    ]
+
+
+def read(parquet: bytes, names: list[str]) -> dict[str, np.ndarray]:
+    """Time and the named columns; raises UnknownError with the nearest name."""
+    present = {each["name"] for each in channels(parquet)}
+    for name in names:
+        if name not in present:
+            raise UnknownError(f"This run has no channel {name!r}; {nearest(name, present)}")
+    table = pq.read_table(io.BytesIO(parquet), columns=["time", *names])
+    return {name: table[name].to_numpy() for name in table.column_names}
+
+
+def decimate(columns: dict[str, np.ndarray], points: int) -> dict[str, np.ndarray]:
+    """At most about `points` rows: of every bin the rows of each column's least and greatest value are kept.
+
+    A peak that lasts one sample is still in the picture.
+    """
+    count = columns["time"].size
+    if count <= points:
+        return columns
+    bins = np.array_split(np.arange(count), max(points // (2 * max(len(columns) - 1, 1)), 2))
+    kept = {0, count - 1}
+    for each in bins:
+        for name, values in columns.items():
+            part = values[each]
+            if name != "time" and np.isfinite(part).any():
+                kept |= {int(each[np.nanargmin(part)]), int(each[np.nanargmax(part)])}
+    order = np.array(sorted(kept))
+    return {name: values[order] for name, values in columns.items()}

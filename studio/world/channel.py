@@ -1,0 +1,48 @@
+"""Channels: what can be recorded of a vehicle, with unit and label."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.world import World
+
+
+class Channel(NamedTuple):
+    """One quantity of one vehicle over time: where its row stands."""
+
+    name: str
+    unit: str
+    label: str
+    part: str  # array of the world: "state", "mind", "command", "sensor"
+    row: int
+
+
+CHANNELS = (
+    Channel("x", "m", "East position", "state", X),
+    Channel("y", "m", "North position", "state", Y),
+    Channel("heading", "rad", "Heading", "state", PSI),
+    Channel("speed", "m/s", "Speed", "state", V_X),
+    Channel("acceleration", "m/s²", "Acceleration", "state", A_X),
+    Channel("lateral_acceleration", "m/s²", "Lateral acceleration", "state", A_Y),
+    Channel("yaw_rate", "rad/s", "Yaw rate", "state", YAW_RATE),
+    Channel("steering", "rad", "Road wheel angle", "state", DELTA),
+    Channel("station", "m", "Distance along the route", "mind", STATION),
+    Channel("lateral_offset", "m", "Offset from the path", "mind", OFFSET),
+    Channel("gap", "m", "Gap to the car ahead", "mind", GAP),
+    Channel("ahead_speed", "m/s", "Speed of the car ahead", "mind", AHEAD_SPEED),
+    Channel("desired_speed", "m/s", "Permitted speed", "mind", V_DESIRED),
+    Channel("requested_acceleration", "m/s²", "Requested acceleration", "command", U),
+    Channel("measured_range", "m", "Range of the front sensor", "sensor", RANGE),
+)
+TIME_GAP = Channel("time_gap", "s", "Time gap to the car ahead", "derived", -1)
+BY_NAME = {channel.name: channel for channel in (*CHANNELS, TIME_GAP)}
+
+
+def sample(world: World, columns: np.ndarray) -> np.ndarray:
+    """All channels of some vehicles now, float64[channel, vehicle]."""
+    v, n = world.vehicles, world.size
+    slot = (max(world.clock.k - 1, 0) % RING) * n
+    parts = {"state": v.state, "mind": v.mind, "sensor": world.units.sensors, "command": v.commands}
+    start = {"command": slot}
+    return np.array([parts[c.part][c.row, columns + start.get(c.part, 0)] for c in CHANNELS])
