@@ -63,12 +63,12 @@ def smoothed(points: np.ndarray, *, spacing: float, wavelength: float, corridor:
     stiffness = (wavelength / (2.0 * np.pi * spacing)) ** 6
     weight = (corridor.min() / corridor) ** 2
     weight[[0, -1]] = 1e6
-    for _ in range(60):
+    for _ in range(40):
         curve = whittaker(points, weight, stiffness)
         excess = np.hypot(*(curve - points)) / corridor
         if excess.max() <= 1.0:
             break
-        weight *= np.where(widened(excess, round(wavelength / 4.0 / spacing)) > 0.95, 1.6, 1.0)
+        weight *= np.where(widened(excess, round(wavelength / 4.0 / spacing)) > 0.95, 2.0, 1.0)
     return curve
 
 

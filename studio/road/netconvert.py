@@ -26,7 +26,7 @@ OPTIONS = (
     # the speed through a junction follows from the path's curvature, not from netconvert's guess
     *("--junctions.limit-turn-speed", "-1", "--no-turnarounds.except-deadend", "true"),
     *("--osm.turn-lanes", "true", "--osm.lane-access", "true", "--keep-edges.by-vclass", "passenger"),
-    *("--remove-edges.isolated", "true", "--output.street-names", "true", "--tls.default-type", "static"),
+    *("--output.street-names", "true", "--tls.default-type", "static"),
     *("--offset.disable-normalization", "true", "--xml-validation", "never", "--precision", "3"),
 )
 DIRECTIONS = {
@@ -46,16 +46,19 @@ class Net:
     signalled: frozenset[int]
 
 
-def convert(xml: str, projection: str, *, left_hand: bool = False) -> Net:
-    """Runs netconvert on clean OSM XML and reads its network.
+def convert(xml: str, projection: str, *, source: Path, left_hand: bool = False) -> Net:
+    """Runs netconvert on clean OSM XML and reads its network; `source` is the map that messages name.
 
     Raises:
         MapError: netconvert refuses the map, or finds no roads in it.
     """
     with tempfile.TemporaryDirectory(prefix="studio-map-") as folder:
-        source, target = Path(folder, "map.osm.xml"), Path(folder, "map.net.xml")
-        source.write_text(xml, encoding="utf-8")
-        run(source, target, projection, left_hand=left_hand)
+        clean, target = Path(folder, "map.osm.xml"), Path(folder, "map.net.xml")
+        clean.write_text(xml, encoding="utf-8")
+        try:
+            run(clean, target, projection, left_hand=left_hand)
+        except MapError as error:
+            raise MapError(f"{source}: {error.message}") from None
         return parse(ElementTree.parse(target).getroot())
 
 

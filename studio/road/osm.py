@@ -21,6 +21,7 @@ from studio.errors import MapError
 FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf"}
 LARGEST = 512 * 2**20  # [B] more than any city district; a bomb ends here
 REACH = 600.0  # [m] how far arms are kept beyond the mapped core
+MOST_LANES = 16  # of one way; more is a slip of the mapper
 CAR_WAYS = {
     *("motorway", "motorway_link", "trunk", "trunk_link", "primary", "primary_link", "secondary", "secondary_link"),
     *("tertiary", "tertiary_link", "unclassified", "residential", "living_street"),
@@ -177,7 +178,7 @@ def survey(path: Path, data: bytes) -> Survey:
         tagged = osmium.filter.EmptyTagFilter()
         for thing in file.with_locations().with_areas().with_filter(tagged):
             note(found, thing)
-    except RuntimeError as error:
+    except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
     if not found.ways:
         raise MapError(f"{path}: there are no roads for cars in this map")
@@ -341,5 +342,11 @@ def member(of: tuple[str, int, str]) -> str:
 
 
 def way_tags(way: Way) -> dict[str, str]:
+    """The tags of a way as netconvert shall read them: with a usual limit if none is mapped, without absurd lanes."""
     usual = USUAL_LIMIT.get(way.tags["highway"])
-    return way.tags if usual is None or "maxspeed" in way.tags else {**way.tags, "maxspeed": str(usual)}
+    kept = {key: value for key, value in way.tags.items() if not (key.startswith("lanes") and is_absurd(value))}
+    return kept if usual is None or "maxspeed" in kept else {**kept, "maxspeed": str(usual)}
+
+
+def is_absurd(lanes: str) -> bool:
+    return lanes.isdigit() and not 0 < int(lanes) <= MOST_LANES

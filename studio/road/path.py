@@ -24,6 +24,9 @@ CHANGE_CORRIDOR = 0.8  # [m] in a lane change
 WAVELENGTH = 24.0  # [m] shorter waves are corners of the map, not bends of the road
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
+SHARPEST = 0.15  # [1/m] curvature that a car still drives with ease; its full lock is about 0.18
+ROOM = (1.3, 2.5)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next
+ROOM_REACH = 10.0  # [m] before and behind the bend
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
 
@@ -174,19 +177,32 @@ def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
 
 
 def smooth(draft: Draft) -> np.ndarray:
-    """The fine curve of a draft, a point every `GRAIN` metres."""
+    """The fine curve of a draft, a point every `GRAIN` metres; where it would be too sharp to drive, it gets room."""
     rough, corridor = joined(draft)
     own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
     s = np.linspace(0.0, own[-1], fine.shape[1])
     corridor = np.interp(s, own, corridor)
-    return curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
+    for room in (*ROOM, np.inf):
+        line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
+        sharp = np.abs(curvature_of(line)) > SHARPEST
+        if room == np.inf or not sharp.any():
+            return line
+        corridor = np.where(curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor)
+
+
+def curvature_of(line: np.ndarray) -> np.ndarray:
+    """Curvature at every point [1/m]."""
+    return np.gradient(heading_of(line), curve.stations(line))
+
+
+def heading_of(line: np.ndarray) -> np.ndarray:
+    """Direction at every point [rad], without jumps."""
+    return np.unwrap(np.arctan2(np.gradient(line[1]), np.gradient(line[0])))
 
 
 def sampled(fine: np.ndarray) -> np.ndarray:
     """Points exactly one metre of arc apart, with heading and curvature of the fine curve."""
-    s = curve.stations(fine)
-    heading = np.unwrap(np.arctan2(np.gradient(fine[1]), np.gradient(fine[0])))
-    curvature = np.gradient(heading, s)
+    s, heading, curvature = curve.stations(fine), heading_of(fine), curvature_of(fine)
     at = np.arange(0.0, np.floor(s[-1] / PATH_SPACING) + 1.0) * PATH_SPACING
     points = np.zeros((PATH_ROWS, len(at)))
     for row, values in ((PATH_X, fine[0]), (PATH_Y, fine[1]), (PATH_HEADING, heading), (PATH_CURVATURE, curvature)):

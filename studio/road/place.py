@@ -69,7 +69,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, prog
     if not ways:
         raise MapError(f"{path}: there are no roads for cars within the part that is kept; try a larger radius")
     progress("building lanes and junctions")
-    net = netconvert.convert(osm.clean_xml(found, bend.rounded(ways, box, ids)), box.projection)
+    net = netconvert.convert(osm.clean_xml(found, bend.rounded(ways, box, ids)), box.projection, source=path)
     progress("placing signals and scenery")
     lights = signals(net.lanes, net.roads, net.connections, net.signalled)
     return Network(

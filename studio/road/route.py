@@ -108,10 +108,11 @@ def check(network: Network, roads: Sequence[str], start_lane: int | None) -> Non
 
 
 def onward(network: Network) -> dict[int, list[Connection]]:
-    """The connections that leave each lane."""
+    """The connections that leave each lane; turning back where a road ends is not driven."""
     exits = defaultdict(list)
     for connection in network.connections:
-        exits[connection.from_lane].append(connection)
+        if connection.direction != "turn":
+            exits[connection.from_lane].append(connection)
     return exits
 
 

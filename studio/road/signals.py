@@ -173,9 +173,14 @@ def plan(approaches: dict[str, Approach], against: dict[str, set[str]]) -> tuple
             phases[road] = Phase(programme, number * slot, slot - ALL_RED_TIME)
     for road in approaches:
         if road not in phases:
-            phases[road] = follow(approaches[road], phases) or Phase(len(phases) + len(groups), 0.0,
-                                                                    cycle - CROSSING_RED_TIME)  # fmt: skip
+            alone = Phase(programmes(phases), 0.0, cycle - CROSSING_RED_TIME)
+            phases[road] = follow(approaches[road], phases) or alone
     return phases, cycle
+
+
+def programmes(phases: dict[str, Phase]) -> int:
+    """How many programmes there are."""
+    return max((phase.programme + 1 for phase in phases.values()), default=0)
 
 
 def follow(approach: Approach, phases: dict[str, Phase]) -> Phase | None:
