@@ -16,6 +16,7 @@ import classes from "./Shell.module.css";
 export function Shell() {
   const [help, setHelp] = useState(false);
   const navigate = useNavigate();
+  const studio = useLocation().pathname.startsWith("/studio");
   useShortcuts({
     "?": () => setHelp(true),
     "g s": () => navigate({ to: "/" }),
@@ -30,7 +31,7 @@ export function Shell() {
         <Places />
       </main>
       <Keys opened={help} onClose={() => setHelp(false)} />
-      <Notifications position="bottom-right" limit={4} className={classes.notices} />
+      <Notifications position="bottom-right" limit={2} className={classes.notices} data-studio={studio || undefined} />
     </div>
   );
 }

@@ -51,13 +51,19 @@ function series({ label, color, dashed }: Line): uPlot.Series {
   };
 }
 
+/** In a low chart the unit stands at the ticks, which saves the line of the label. */
+const withSecond = (_chart: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${tick} s`);
+
+/** Below this height [px] a chart is low. */
+const LOW = 120;
+
 /** What the chart tells and remembers outside of React's rendering. */
 interface Memory {
   zoomed: boolean;
   onCursor: (index: number | null) => void;
 }
 
-function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolean, memory: Memory): Omit<uPlot.Options, "width" | "height"> {
+function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolean, memory: Memory, low: boolean): Omit<uPlot.Options, "width" | "height"> {
   const ink = dark ? INK.dark : INK.light;
   const axis = { stroke: ink.text, font: FONT, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false }, labelFont: FONT, labelSize: 16, labelGap: 0 };
   return {
@@ -69,7 +75,7 @@ function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolea
       y: { range: (_u, low, high) => padded(low, high) },
     },
     axes: [
-      { ...axis, size: 24, label: "Time [s]", space: 60 },
+      { ...axis, size: 24, space: 60, ...(low ? { values: withSecond } : { label: "Time [s]" }) },
       { ...axis, size: AXIS_WIDTH - 16, label: withUnit(title, unit), space: 28 },
     ],
     series: [{ label: "Time" }, ...lines.map(series)],
@@ -115,7 +121,7 @@ export function TimeChart(props: Props) {
     const element = host.current;
     if (!element) return;
     const size = () => ({ width: Math.max(element.clientWidth, 50), height: Math.max(element.clientHeight, 60) });
-    const made = new uPlot({ ...options(props, dark, memory.current), ...size() }, data as uPlot.AlignedData, element);
+    const made = new uPlot({ ...options(props, dark, memory.current, element.clientHeight < LOW), ...size() }, data as uPlot.AlignedData, element);
     chart.current = made;
     const observer = new ResizeObserver(() => made.setSize(size()));
     observer.observe(element);

@@ -2,6 +2,7 @@
 
 import { fromSet, same, valueAt } from "./form";
 import type { Goal, Json, Trace } from "./run";
+import { isTree } from "./schema";
 
 export interface ParameterDifference {
   path: string;
@@ -28,7 +29,7 @@ export interface MetricDifference {
  */
 export function differing(rows: readonly ParameterDifference[], a: Json | undefined, b: Json | undefined): ParameterDifference[] {
   const inOne = new Map(rows.map(({ path, unit }) => [path, unit] as const));
-  const single = new Set(rows.flatMap((row) => [row.a, row.b].flatMap((side) => Object.keys(fromSet({ [row.path]: side })))));
+  const single = new Set(rows.flatMap(leaves));
   const found = [...single].map((path) => ({
     path,
     a: valueAt(a, path) ?? rowValue(rows, path, "a"),
@@ -36,6 +37,12 @@ export function differing(rows: readonly ParameterDifference[], a: Json | undefi
     unit: inOne.get(path) ?? "",
   }));
   return found.filter((row) => !same(row.a, row.b));
+}
+
+/** The paths of single values that a row speaks of: those of its objects, or its own. */
+function leaves({ path, a, b }: ParameterDifference): string[] {
+  const trees = [a, b].filter(isTree);
+  return trees.length === 0 ? [path] : trees.flatMap((tree) => Object.keys(fromSet({ [path]: tree })));
 }
 
 const rowValue = (rows: readonly ParameterDifference[], path: string, side: "a" | "b"): Json => rows.find((row) => row.path === path)?.[side] ?? null;

@@ -14,6 +14,8 @@ export interface Column {
   unit: string;
   /** The full name, for the tooltip. */
   name: string;
+  /** Numbers stand on the right, so that their digits can be compared. */
+  numeric: boolean;
   value: (run: Run) => Json | undefined;
 }
 
@@ -28,6 +30,7 @@ export function parameterColumns(runs: readonly Run[], units: Record<string, str
     title: words(short[path] ?? path),
     unit: unitAt(units, path),
     name: path,
+    numeric: [...set.values()].every((changes) => changes[path] === undefined || typeof changes[path] === "number"),
     value: ({ run }) => set.get(run)?.[path],
   }));
 }
@@ -41,6 +44,7 @@ export function metricColumns(runs: readonly Run[]): Column[] {
     title: words(name),
     unit,
     name,
+    numeric: true,
     value: ({ metrics }) => metrics[name]?.value,
   }));
 }

@@ -9,8 +9,8 @@ export function ProblemText({ problem, withPlace = true }: { problem: Problem; w
       {withPlace && problem.where ? <b>{problem.where}: </b> : null}
       {problem.what}
       {problem.value ? ` (got ${problem.value})` : ""}
-      {problem.allowed ? `. Allowed: ${problem.allowed}` : ""}
-      {problem.remedy ? `. ${problem.remedy}` : ""}
+      {problem.allowed ? `; allowed: ${problem.allowed}` : ""}
+      {problem.remedy ? `; ${problem.remedy}` : ""}
     </Text>
   );
 }

@@ -47,6 +47,7 @@ export function SchemaForm({ sections, open, onOpen, ...shared }: Props) {
 const ACCORDION = {
   control: { paddingLeft: 10, paddingRight: 8, minHeight: 34 },
   label: { paddingTop: 6, paddingBottom: 6, fontWeight: 600, fontSize: 13 },
+  chevron: { marginRight: 6, width: 14 },
   content: { padding: "0 4px 8px 4px" },
 };
 

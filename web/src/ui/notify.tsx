@@ -18,5 +18,5 @@ export function notifyError(error: Error & { problems?: Problem[] }): void {
 
 /** Tell that something has happened. */
 export function notify(title: string, message: ReactNode, color = "teal"): void {
-  notifications.show({ color, title, message, autoClose: 10000, withBorder: true });
+  notifications.show({ color, title, message, autoClose: 6000, withBorder: true });
 }

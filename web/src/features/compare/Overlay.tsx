@@ -31,7 +31,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
   if (all.length === 0) return <Empty icon="chart" title="No traces">Neither run recorded anything.</Empty>;
   return (
     <section className={classes.card} aria-label="Charts of both runs" data-testid="compare-charts">
-      <Group gap="md" mb={4}>
+      <Group gap="md" mb={4} className={classes.over}>
         <h2>Over time</h2>
         <Vehicles all={all} hidden={hidden} onHidden={setHidden} />
       </Group>

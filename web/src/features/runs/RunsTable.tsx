@@ -18,13 +18,13 @@ const ROW_HEIGHT = 33;
 
 /** What every run has, whatever was set or measured. */
 const FIXED: Column[] = [
-  { id: "run", group: "run", title: "Run", unit: "", name: "Number of the run", value: ({ run }) => run },
-  { id: "scenario", group: "run", title: "Scenario", unit: "", name: "Scenario", value: ({ scenario }) => scenario },
-  { id: "status", group: "run", title: "Status", unit: "", name: "Status", value: ({ status }) => status },
-  { id: "parent", group: "run", title: "Parent", unit: "", name: "The run it descends from", value: ({ parent }) => parent },
-  { id: "created", group: "run", title: "Created", unit: "", name: "When it was started", value: ({ created }) => created },
-  { id: "seed", group: "run", title: "Seed", unit: "", name: "Seed of the random numbers", value: ({ seed }) => seed },
-  { id: "sim_time", group: "run", title: "Simulated", unit: "s", name: "Simulated time", value: ({ sim_time_s }) => sim_time_s },
+  { id: "run", group: "run", title: "Run", unit: "", name: "Number of the run", numeric: false, value: ({ run }) => run },
+  { id: "scenario", group: "run", title: "Scenario", unit: "", name: "Scenario", numeric: false, value: ({ scenario }) => scenario },
+  { id: "status", group: "run", title: "Status", unit: "", name: "Status", numeric: false, value: ({ status }) => status },
+  { id: "parent", group: "run", title: "Parent", unit: "", name: "The run it descends from", numeric: false, value: ({ parent }) => parent },
+  { id: "created", group: "run", title: "Created", unit: "", name: "When it was started", numeric: false, value: ({ created }) => created },
+  { id: "seed", group: "run", title: "Seed", unit: "", name: "Seed of the random numbers", numeric: true, value: ({ seed }) => seed },
+  { id: "sim_time", group: "run", title: "Simulated", unit: "s", name: "Simulated time", numeric: true, value: ({ sim_time_s }) => sim_time_s },
 ];
 
 /** These say what a row is, so they stay even when all rows agree. */
@@ -154,7 +154,7 @@ const ARIA_SORT = { asc: "ascending", desc: "descending" } as const;
 
 function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
   return (
-    <th scope="col" title={column.name} data-numeric={isNumeric(column) || undefined} data-sticky={column.id === "run" || undefined} aria-sort={direction ? ARIA_SORT[direction] : "none"}>
+    <th scope="col" title={column.name} data-numeric={column.numeric || undefined} data-sticky={column.id === "run" || undefined} aria-sort={direction ? ARIA_SORT[direction] : "none"}>
       <button type="button" className={classes.sort} onClick={onSort}>
         {withUnit(column.title, column.unit)}
         {direction ? <Icon name={direction === "asc" ? "up" : "down"} size={12} /> : null}
@@ -162,8 +162,6 @@ function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
     </th>
   );
 }
-
-const isNumeric = ({ id, group }: Column): boolean => group === "metrics" || id === "seed" || id === "sim_time";
 
 interface RowProps {
   run: Run;
@@ -188,7 +186,7 @@ function RunRow({ run, columns, selected, onToggle }: RowProps) {
         <Checkbox size="xs" checked={selected} onChange={onToggle} aria-label={`Select run ${run.run} to compare`} data-testid={`select-${run.run}`} />
       </td>
       {columns.map((column) => (
-        <td key={column.id} data-numeric={isNumeric(column) || undefined} data-sticky={column.id === "run" || undefined}>
+        <td key={column.id} data-numeric={column.numeric || undefined} data-sticky={column.id === "run" || undefined}>
           <Cell column={column} run={run} />
         </td>
       ))}

@@ -71,7 +71,7 @@ function History({ scenario, shown }: { scenario: string; shown: number | undefi
           disabled={selected.length !== 2}
           onClick={() => navigate({ to: "/compare", search: { a, b } })}
         >
-          {selected.length === 2 ? `Compare #${a} and #${b}` : "Select two to compare"}
+          {selected.length === 2 ? `Compare #${a} and #${b}` : `Compare (${selected.length} of 2)`}
         </Button>
         <Link to="/runs" search={{ scenario }} className={classes.all}>
           All runs

@@ -1,0 +1,48 @@
+"""Build hook: makes the page (web/) part of the package, as studio/_web."""
+
+import importlib.util
+import os
+from pathlib import Path
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+
+def load_bundle(root: str):
+    """web/bundle.py as a module; None in a tree without the page's sources."""
+    path = Path(root) / "web" / "bundle.py"
+    if not path.is_file():
+        return None
+    spec = importlib.util.spec_from_file_location("studio_web_bundle", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class WebHook(BuildHookInterface):
+    """Builds the page when its sources changed; STUDIO_SKIP_WEB=1 leaves it out."""
+
+    PLUGIN_NAME = "custom"
+
+    def wanted(self):
+        """The builder, when there is something to build."""
+        bundle = load_bundle(self.root)
+        if bundle is None or os.environ.get("STUDIO_SKIP_WEB") == "1" or bundle.current():
+            return None
+        return bundle
+
+    def dependencies(self):
+        """Node as a wheel, but only when it is needed and not there: it is 60 MB."""
+        bundle = self.wanted()
+        return [bundle.NODE_WHEEL] if bundle and bundle.system_node() is None else []
+
+    def initialize(self, version, build_data):
+        """Called before the package is put together."""
+        bundle = self.wanted()
+        if bundle is None:
+            self.app.display_info("studio/_web is up to date, or left out on request")
+            return
+        self.app.display_info("building the page (npm) ...")
+        try:
+            bundle.build()
+        except bundle.BundleError as error:
+            self.app.abort(str(error))

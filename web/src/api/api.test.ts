@@ -1,0 +1,115 @@
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { get, post, Refusal, Unreachable } from "./client";
+import { Feed, type LiveState, reduce } from "./live";
+
+afterEach(() => vi.unstubAllGlobals());
+const answer = (status: number, body: unknown) => vi.stubGlobal("fetch", vi.fn(async () => new Response(JSON.stringify(body), { status })));
+
+describe("requests", () => {
+  it("give back what the server says", async () => {
+    answer(200, { version: "1" });
+    expect(await get("/api/info")).toEqual({ version: "1" });
+  });
+
+  it("send JSON", async () => {
+    answer(201, { run: 3 });
+    await post("/api/live", { scenario: "a" });
+    expect(vi.mocked(fetch).mock.lastCall?.[1]).toMatchObject({ method: "POST", body: '{"scenario":"a"}' });
+  });
+
+  it("fail with the message and problems of a refusal", async () => {
+    const problem = { where: "radio.delay", what: "is too large", value: "7", allowed: "", remedy: "" };
+    answer(422, { message: "No.", problems: [problem] });
+    const error = await post("/api/live").catch((caught) => caught);
+    expect(error).toBeInstanceOf(Refusal);
+    expect(error).toMatchObject({ message: "No.", problems: [problem], status: 422 });
+  });
+
+  it("tell by the status what has no message", async () => {
+    answer(500, "oops");
+    expect(await get("/api/info").catch((caught) => caught.message)).toBe("The server answered 500.");
+  });
+
+  it("tell a server that is gone, also behind a proxy", async () => {
+    vi.stubGlobal("fetch", vi.fn(async () => Promise.reject(new TypeError("network"))));
+    expect(await get("/api/info").catch((caught) => caught)).toBeInstanceOf(Unreachable);
+    answer(502, "bad gateway");
+    expect(await get("/api/info").catch((caught) => caught)).toBeInstanceOf(Unreachable);
+  });
+});
+
+/** A socket that is opened, fed and closed by the test. */
+class FakeSocket {
+  static all: FakeSocket[] = [];
+  onopen?: () => void;
+  onmessage?: (event: { data: string }) => void;
+  onclose?: () => void;
+  constructor(readonly url: string) {
+    FakeSocket.all.push(this);
+  }
+  close() {
+    this.onclose?.();
+  }
+  say(message: unknown) {
+    this.onmessage?.({ data: JSON.stringify(message) });
+  }
+}
+
+const state = (status: string, time = 1) => ({ type: "state", run: 5, status, time, duration_s: 60, pace: 1, real_time_factor: 0.9, tick: 50 });
+
+describe("the feed of a live run", () => {
+  const opened = (): [Feed, FakeSocket] => {
+    FakeSocket.all = [];
+    vi.stubGlobal("WebSocket", FakeSocket);
+    const feed = new Feed(5);
+    feed.open();
+    const socket = FakeSocket.all[0] as FakeSocket;
+    socket.onopen?.();
+    return [feed, socket];
+  };
+
+  it("gathers state, samples and events, and tells its readers", () => {
+    const [feed, socket] = opened();
+    const listener = vi.fn();
+    feed.subscribe(listener);
+    socket.say(state("running"));
+    socket.say({ type: "samples", time: [0, 0.02], channels: { "leader.speed": [1, 2] } });
+    socket.say({ type: "event", time: 0.5, text: "brakes", vehicle: "leader" });
+    expect(socket.url).toMatch(/^ws:.*\/api\/live\/5\/socket$/);
+    expect(feed.read()).toMatchObject({ status: "running", time: 1, real_time_factor: 0.9, samples: { time: [0, 0.02] }, events: [{ time: 0.5, text: "brakes", vehicle: "leader" }] });
+    expect(listener).toHaveBeenCalledTimes(3);
+  });
+
+  it("says that it is cut off, opens again, and forgets what will be sent again", () => {
+    vi.useFakeTimers();
+    const [feed, socket] = opened();
+    socket.say(state("running"));
+    socket.say({ type: "samples", time: [0], channels: { a: [1] } });
+    socket.close();
+    expect(feed.read().connected).toBe(false);
+    vi.advanceTimersByTime(2000);
+    const again = FakeSocket.all[1] as FakeSocket;
+    again.onopen?.();
+    expect(feed.read()).toMatchObject({ connected: true, status: "running", samples: { time: [] } });
+    feed.close();
+    vi.advanceTimersByTime(5000);
+    expect(FakeSocket.all).toHaveLength(2);
+    vi.useRealTimers();
+  });
+
+  it("does not open again after the end", () => {
+    vi.useFakeTimers();
+    const [feed, socket] = opened();
+    socket.say({ type: "end", run: 5, status: "failed", error: "Traceback" });
+    socket.close();
+    vi.advanceTimersByTime(5000);
+    expect(feed.read()).toMatchObject({ status: "failed", error: "Traceback", connected: true });
+    expect(FakeSocket.all).toHaveLength(1);
+    vi.useRealTimers();
+  });
+
+  it("ignores a message that it does not know", () => {
+    const before = { status: "running" } as LiveState;
+    expect(reduce(before, { type: "later" } as never)).toBe(before);
+  });
+});

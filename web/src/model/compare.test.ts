@@ -1,0 +1,59 @@
+import { describe, expect, it } from "vitest";
+import { differing, merge, type MetricDifference, tally, verdict } from "./compare";
+
+const metric = (part: Partial<MetricDifference>): MetricDifference => ({ name: "gap", unit: "m", goal: "higher", a: 1, b: 2, difference: 1, relative: 1, better: "b", ...part });
+
+describe("the verdict on B", () => {
+  it.each([
+    [{ better: "b" }, "better"],
+    [{ better: "a" }, "worse"],
+    [{ better: "same" }, "same"],
+    [{ goal: null, better: null }, "no goal"],
+    [{ b: null, better: null }, "missing"],
+    [{ a: null, better: null }, "missing"],
+  ] as [Partial<MetricDifference>, string][])("%o is %s", (part, expected) => {
+    expect(verdict(metric(part))).toBe(expected);
+  });
+
+  it("is counted", () => {
+    expect(tally([metric({}), metric({}), metric({ better: "a" })])).toEqual({ better: 2, worse: 1, same: 0, "no goal": 0, missing: 0 });
+  });
+});
+
+describe("differing parameters", () => {
+  const row = { path: "radio.delay", a: null, b: 0.1, unit: "s" };
+
+  it("show what stands in the document where a run set nothing", () => {
+    expect(differing([row], { radio: { delay: 0.02 } }, { radio: { delay: 0.1 } })).toEqual([{ ...row, a: 0.02 }]);
+  });
+
+  it("leave out what is equal in fact", () => {
+    expect(differing([row], { radio: { delay: 0.1 } }, { radio: { delay: 0.1 } })).toEqual([]);
+  });
+
+  it("lay out an exchanged application", () => {
+    const swapped = { path: "p", a: null, b: { headway: 1, gain: 2 }, unit: "" };
+    expect(differing([swapped], { p: { headway: 1 } }, { p: { headway: 1, gain: 2 } })).toEqual([{ path: "p.gain", a: null, b: 2, unit: "" }]);
+  });
+
+  it("work without documents", () => {
+    expect(differing([row], undefined, undefined)).toEqual([row]);
+  });
+});
+
+describe("two traces on one axis", () => {
+  const trace = (time: number[], values: (number | null)[]) => ({ time, channels: { "leader.speed": { unit: "m/s", values } } });
+
+  it("keep gaps as null, and are undefined where only the other has a sample", () => {
+    const merged = merge(trace([0, 1, 2], [1, null, 3]), trace([0, 1.5], [5, 6]), ["leader.speed"]);
+    expect(merged).toEqual([
+      [0, 1, 1.5, 2],
+      [1, null, undefined, 3],
+      [5, undefined, 6, undefined],
+    ]);
+  });
+
+  it("have empty columns for a channel that one of them lacks", () => {
+    expect(merge(trace([0], [1]), { time: [0], channels: {} }, ["leader.speed"])).toEqual([[0], [1], [undefined]]);
+  });
+});

@@ -1,0 +1,121 @@
+import { describe, expect, it } from "vitest";
+import { applications, document, source } from "../test/scenario";
+import { changedIn, exchanged, exchangesOf, type Field, fieldsOf, fromSet, matching, placed, sections, toSet, unitAt, unitsOf, valueAt, withChange } from "./form";
+
+const field = (path: string, changes = {}): Field => {
+  const found = fieldsOf(sections(source(changes))).find((one) => one.path === path);
+  if (!found) throw new Error(`no field ${path}`);
+  return found;
+};
+const paths = (changes = {}) => fieldsOf(sections(source(changes))).map(({ path }) => path);
+
+describe("the form", () => {
+  it("has one section per part, what is tuned most first, and none for empty or other places", () => {
+    expect(sections(source()).map(({ path }) => path)).toEqual(["applications", "radio", "vehicles", "triggers"]);
+  });
+
+  it("gives a number its unit, its range and its words", () => {
+    expect(field("radio.delay")).toMatchObject({ label: "Delay", unit: "s", minimum: 0, maximum: 1, kind: "number", value: 0.02, changed: false });
+    expect(field("radio.delay").allowed).toBe("at least 0, at most 1 s");
+    expect(field("radio.loss")).toMatchObject({ unit: "", allowed: "at least 0, below 1" });
+  });
+
+  it("knows choices, colours, lists and what may be empty", () => {
+    expect(field("vehicles.leader.model")).toMatchObject({ kind: "choice", choices: ["bmw_320i", "ford_escort"] });
+    expect(field("vehicles.leader.colour").kind).toBe("colour");
+    expect(field("applications.platoon.vehicles").kind).toBe("list");
+    expect(field("vehicles.leader.position.along")).toMatchObject({ kind: "number", nullable: true, value: null });
+    expect(field("radio.delay").nullable).toBe(false);
+  });
+
+  it("chooses the variant that a constant names, and shows no constant", () => {
+    expect(paths()).toContain("triggers.0.width");
+    expect(paths()).not.toContain("triggers.0.duration");
+    expect(paths()).not.toContain("triggers.0.maneuver");
+  });
+
+  it("names entries by their keys and properties by their titles", () => {
+    const vehicles = sections(source()).find(({ path }) => path === "vehicles");
+    expect(vehicles?.sections[0]?.title).toBe("Leader");
+    expect(vehicles?.sections[0]?.sections[0]?.title).toBe("Start");
+  });
+
+  it("marks what is changed and counts it", () => {
+    const changed = sections(source({ "radio.delay": 0.3 }));
+    expect(field("radio.delay", { "radio.delay": 0.3 })).toMatchObject({ value: 0.3, initial: 0.02, changed: true });
+    expect(changed.map(changedIn)).toEqual([0, 1, 0, 0]);
+  });
+
+  it("takes back a change that sets what the document says", () => {
+    const once = withChange({}, field("radio.delay"), 0.3);
+    expect(once).toEqual({ "radio.delay": 0.3 });
+    expect(withChange(once, field("radio.delay"), 0.02)).toEqual({});
+  });
+});
+
+describe("exchanging an application", () => {
+  const [exchange] = exchangesOf(sections(source()));
+  const acc = applications[1];
+  if (!exchange || !acc) throw new Error("the fixture has an application to exchange");
+  const before = { "applications.platoon.parameters.headway": 0.9, "applications.platoon.parameters.k_p": 0.5, "radio.delay": 0.1 };
+  const after = exchanged(before, exchange, acc);
+
+  it("finds the select of its group", () => {
+    expect(exchange).toMatchObject({ path: "applications.platoon.application", group: "platoon", initial: "cacc" });
+  });
+
+  it("keeps parameters that the new one has too and drops the others", () => {
+    expect(after).toEqual({ "applications.platoon.parameters.headway": 0.9, "radio.delay": 0.1, "applications.platoon.application": "acc" });
+  });
+
+  it("shows the new one's parameters, with its defaults where the document has none", () => {
+    expect(paths(after)).toContain("applications.platoon.parameters.gap_gain");
+    expect(paths(after)).not.toContain("applications.platoon.parameters.k_p");
+    expect(field("applications.platoon.parameters.gap_gain", after).value).toBe(0.1);
+  });
+
+  it("sends the complete parameters, so that none of the old one's remain", () => {
+    expect(toSet(after, sections(source(after)))).toEqual({
+      "radio.delay": 0.1,
+      "applications.platoon.application": "acc",
+      "applications.platoon.parameters": { headway: 0.9, gap_gain: 0.1 },
+    });
+  });
+
+  it("comes back from what was sent", () => {
+    const again = fromSet(toSet(after, sections(source(after))));
+    expect(fieldsOf(sections(source(again))).filter(({ changed }) => changed).map(({ path }) => path)).toEqual(["applications.platoon.parameters.headway", "radio.delay"]);
+  });
+
+  it("is no change when it goes back", () => {
+    const cacc = applications[0];
+    expect(cacc && exchanged(after, exchange, cacc)).toEqual({ "applications.platoon.parameters.headway": 0.9, "radio.delay": 0.1 });
+  });
+});
+
+describe("search and problems", () => {
+  it("finds fields by path, label and description, all words at once", () => {
+    expect(fieldsOf(matching(sections(source()), "radio sender")).map(({ path }) => path)).toEqual(["radio.delay"]);
+    expect(matching(sections(source()), "nothing like this")).toEqual([]);
+  });
+
+  it("puts a problem at its field, and one of nowhere at the top", () => {
+    const problem = { what: "x", value: "", allowed: "", remedy: "" };
+    const map = placed([{ ...problem, where: "file.yaml.radio.delay" }, { ...problem, where: "radio.loss" }, { ...problem, where: "map.osm" }], paths());
+    expect([...map.keys()]).toEqual(["radio.delay", "radio.loss", ""]);
+  });
+});
+
+describe("units and values by path", () => {
+  it("finds the unit of an exchanged application's parameter by its name", () => {
+    const units = unitsOf(source());
+    expect(unitAt(units, "radio.delay")).toBe("s");
+    expect(unitAt(units, "applications.platoon.parameters.gap_gain")).toBe("1/s");
+    expect(unitAt(units, "radio.unknown")).toBe("");
+  });
+
+  it("reads through objects and lists", () => {
+    expect(valueAt(document, "triggers.0.width")).toBe(2);
+    expect(valueAt(document, "radio.nothing.deeper")).toBeUndefined();
+  });
+});

@@ -1,0 +1,74 @@
+import { describe, expect, it } from "vitest";
+import { finished } from "../test/scenario";
+import { filtered, metricColumns, parameterColumns, sorted, varies } from "./table";
+
+const gap = (value: number | null) => ({ minimum_gap: { value, unit: "m", goal: "higher" as const } });
+const runs = [
+  finished({ run: 1, metrics: gap(3), parameters: { "radio.delay": 0.1 } }),
+  finished({ run: 2, metrics: gap(null), parameters: { "radio.delay": 0.2 }, status: "failed", error: "ZeroDivisionError" }),
+  finished({ run: 3, metrics: gap(-1), parameters: { "radio.delay": 0.1 }, seed: 7 }),
+  finished({ run: 4, metrics: gap(Number.NaN) }),
+];
+const numbers = (all: readonly { run: number }[]) => all.map(({ run }) => run);
+const [gapColumn] = metricColumns(runs);
+const [delayColumn] = parameterColumns(runs, { "radio.delay": "s" });
+if (!gapColumn || !delayColumn) throw new Error("the fixture has both columns");
+
+describe("columns", () => {
+  it("carry names and units", () => {
+    expect(gapColumn).toMatchObject({ title: "Minimum gap", unit: "m", numeric: true });
+    expect(delayColumn).toMatchObject({ title: "Delay", unit: "s", name: "radio.delay", numeric: true });
+  });
+
+  it("say more of the path where the last part is not enough", () => {
+    const two = [finished({ parameters: { "radio.delay": 1, "front.delay": 2, "radio.loss": 0 } })];
+    expect(parameterColumns(two, {}).map(({ title }) => title)).toEqual(["Front delay", "Radio delay", "Loss"]);
+  });
+
+  it("lay out the parameters of an exchanged application", () => {
+    const swapped = [finished({ parameters: { "applications.platoon.parameters": { headway: 1, name: "x" } } })];
+    expect(parameterColumns(swapped, {}).map(({ name, numeric }) => [name, numeric])).toEqual([
+      ["applications.platoon.parameters.headway", true],
+      ["applications.platoon.parameters.name", false],
+    ]);
+  });
+
+  it("vary when one run has a value that another has not", () => {
+    expect(varies(delayColumn, runs)).toBe(true);
+    expect(varies(delayColumn, [runs[0], runs[2]] as typeof runs)).toBe(false);
+    expect(varies(delayColumn, [runs[0], runs[3]] as typeof runs)).toBe(true);
+    expect(varies(delayColumn, [])).toBe(false);
+  });
+});
+
+describe("sorting", () => {
+  it("puts what is missing last, up and down", () => {
+    expect(numbers(sorted(runs, gapColumn.value, false))).toEqual([3, 1, 2, 4]);
+    expect(numbers(sorted(runs, gapColumn.value, true))).toEqual([1, 3, 2, 4]);
+  });
+
+  it("keeps the order of equals and leaves the input alone", () => {
+    expect(numbers(sorted(runs, delayColumn.value, false))).toEqual([1, 3, 2, 4]);
+    expect(numbers(runs)).toEqual([1, 2, 3, 4]);
+  });
+
+  it("reads numbers in text as numbers", () => {
+    const named = ["run10", "run9"].map((scenario, index) => finished({ run: index, scenario }));
+    expect(sorted(named, ({ scenario }) => scenario, false).map(({ scenario }) => scenario)).toEqual(["run9", "run10"]);
+  });
+});
+
+describe("the filter", () => {
+  it.each([
+    ["failed", [2]],
+    ["zerodivision", [2]],
+    ["#3", [3]],
+    ["seed=7", [3]],
+    ["delay=0.1", [1, 3]],
+    ["delay=0.1 seed=7", [3]],
+    ["  ", [1, 2, 3, 4]],
+    ["nothing", []],
+  ])("%s", (query, expected) => {
+    expect(numbers(filtered(runs, query))).toEqual(expected);
+  });
+});

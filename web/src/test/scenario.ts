@@ -1,0 +1,101 @@
+/** A small scenario with everything that a schema made by pydantic can hold. */
+
+import type { Application, Source } from "../model/form";
+import type { Run, Tree } from "../model/run";
+import type { Schema } from "../model/schema";
+
+export const schema: Schema = {
+  $defs: {
+    Application: {
+      type: "object",
+      title: "Application",
+      properties: {
+        application: { type: "string", title: "Application" },
+        vehicles: { type: "array", items: { type: "string" }, title: "On these vehicles" },
+        parameters: { type: "object", title: "Parameters" },
+      },
+    },
+    Radio: {
+      type: "object",
+      title: "Radio",
+      properties: {
+        delay: { type: "number", title: "Delay", description: "sender to receiver", unit: "s", minimum: 0, maximum: 1 },
+        loss: { type: "number", title: "Loss rate", unit: "1", minimum: 0, exclusiveMaximum: 1 },
+      },
+    },
+    Place: {
+      type: "object",
+      title: "Place",
+      properties: { along: { anyOf: [{ type: "number", minimum: 0 }, { type: "null" }], unit: "m", default: null, title: "Along" } },
+    },
+    Vehicle: {
+      type: "object",
+      title: "Vehicle",
+      properties: {
+        position: { $ref: "#/$defs/Place", title: "Start" },
+        model: { type: "string", enum: ["bmw_320i", "ford_escort"], title: "Model" },
+        colour: { type: "string", title: "Colour" },
+      },
+    },
+    Brake: { type: "object", properties: { maneuver: { const: "brake" }, duration: { type: "number", unit: "s" } } },
+    Swerve: { type: "object", properties: { maneuver: { const: "swerve" }, width: { type: "number", unit: "m" } } },
+  },
+  type: "object",
+  properties: {
+    title: { type: "string" },
+    seed: { type: "integer" },
+    radio: { $ref: "#/$defs/Radio", title: "Radio" },
+    vehicles: { type: "object", additionalProperties: { $ref: "#/$defs/Vehicle" }, title: "Vehicles" },
+    applications: { type: "object", additionalProperties: { $ref: "#/$defs/Application" }, title: "Applications" },
+    triggers: { type: "array", items: { oneOf: [{ $ref: "#/$defs/Brake" }, { $ref: "#/$defs/Swerve" }] } },
+    goals: { type: "object", additionalProperties: { type: "object" }, title: "Goals" },
+  },
+};
+
+export const document: Tree = {
+  title: "Test",
+  seed: 1,
+  radio: { delay: 0.02, loss: 0.01 },
+  vehicles: { leader: { position: { along: null }, model: "bmw_320i", colour: "#2f6fde" } },
+  applications: { platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6, k_p: 0.2 } } },
+  triggers: [{ maneuver: "swerve", width: 2 }],
+  goals: {},
+};
+
+const headway = { type: "number", title: "Time headway", unit: "s", minimum: 0.1, maximum: 5 };
+
+export const applications: Application[] = [
+  {
+    name: "cacc",
+    title: "Cooperative",
+    description: "by radio",
+    parameters: { type: "object", properties: { headway: { ...headway, default: 0.6 }, k_p: { type: "number", unit: "1/s²", default: 0.2 } } },
+  },
+  {
+    name: "acc",
+    title: "Alone",
+    description: "by radar",
+    parameters: { type: "object", properties: { headway: { ...headway, default: 1.2 }, gap_gain: { type: "number", unit: "1/s", default: 0.1 } } },
+  },
+];
+
+export const source = (changes: Source["changes"] = {}): Source => ({ document, schema, applications, changes });
+
+/** A finished run, with whatever is to be different. */
+export const finished = (part: Partial<Run>): Run => ({
+  run: 1,
+  scenario: "test",
+  scenario_hash: "",
+  parent: null,
+  seed: 1,
+  status: "done",
+  error: null,
+  state_hash: null,
+  code_version: "",
+  created: "2026-01-01T00:00:00Z",
+  sim_time_s: 60,
+  wall_time_s: 1,
+  parameters: {},
+  metrics: {},
+  ...part,
+});

@@ -1,0 +1,129 @@
+import { MantineProvider } from "@mantine/core";
+import { act, type ReactNode } from "react";
+import { createRoot, type Root } from "react-dom/client";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { sections } from "../model/form";
+import { applications, source } from "../test/scenario";
+import { Failure } from "./State";
+import { SchemaForm } from "./SchemaForm";
+import { dispatch } from "./shortcut";
+import { lastLine } from "./StatusBadge";
+
+let host: HTMLElement;
+let root: Root;
+beforeEach(() => {
+  host = document.body.appendChild(document.createElement("div"));
+  root = createRoot(host);
+});
+afterEach(() => {
+  act(() => root.unmount());
+  host.remove();
+});
+const render = (node: ReactNode) => act(() => root.render(<MantineProvider env="test">{node}</MantineProvider>));
+const byTestId = (id: string) => host.querySelector<HTMLInputElement>(`[data-testid="${id}"]`);
+
+/** Type into an input the way React notices. */
+function type(input: HTMLInputElement | HTMLSelectElement, value: string) {
+  const prototype = input instanceof HTMLSelectElement ? HTMLSelectElement.prototype : HTMLInputElement.prototype;
+  Object.getOwnPropertyDescriptor(prototype, "value")?.set?.call(input, value);
+  act(() => void input.dispatchEvent(new Event(input instanceof HTMLSelectElement ? "change" : "input", { bubbles: true })));
+}
+
+describe("the schema form", () => {
+  const onChange = vi.fn();
+  const onExchange = vi.fn();
+  const show = (changes = {}, problems = new Map()) =>
+    render(
+      <SchemaForm sections={sections(source(changes))} applications={applications} problems={problems} open={["applications", "radio"]} expanded={false} onOpen={() => {}} onChange={onChange} onExchange={onExchange} />,
+    );
+
+  it("has a labelled input for a setting, with its unit beside", () => {
+    show();
+    const input = byTestId("param-radio.delay");
+    expect(input?.value).toBe("0.02");
+    expect(host.querySelector(`label[for="${input?.id}"]`)?.textContent).toBe("Delay");
+    expect(input?.closest("[class*=row]")?.textContent).toContain("s");
+  });
+
+  it("tells a changed number as a number", () => {
+    show();
+    type(byTestId("param-radio.delay") as HTMLInputElement, "0.5");
+    expect(onChange.mock.lastCall?.[0].path).toBe("radio.delay");
+    expect(onChange.mock.lastCall?.[1]).toBe(0.5);
+  });
+
+  it("does not clamp what is out of range, and marks it", () => {
+    show({ "radio.delay": 7 });
+    expect(byTestId("param-radio.delay")?.value).toBe("7");
+    expect(byTestId("param-radio.delay")?.getAttribute("aria-invalid")).toBe("true");
+  });
+
+  it("offers the way back for a change", () => {
+    show({ "radio.delay": 0.5 });
+    const reset = host.querySelector<HTMLElement>('[aria-label="Reset Delay to 0.02"]');
+    act(() => reset?.click());
+    expect(onChange.mock.lastCall?.[1]).toBe(0.02);
+  });
+
+  it("exchanges an application", () => {
+    show();
+    type(byTestId("application-platoon") as unknown as HTMLSelectElement, "acc");
+    expect(onExchange.mock.lastCall?.[1]).toBe("acc");
+  });
+
+  it("shows a problem at its field", () => {
+    show({}, new Map([["radio.delay", [{ where: "radio.delay", what: "is too large", value: "7", allowed: "0 to 1 s", remedy: "take less" }]]]));
+    expect(host.querySelector('[role="alert"]')?.textContent).toBe("is too large (got 7); allowed: 0 to 1 s; take less");
+  });
+});
+
+describe("a failure", () => {
+  it("tells the message and every problem", () => {
+    const error = Object.assign(new Error("There is no run 99."), { problems: [{ where: "run", what: "unknown", value: "99", allowed: "", remedy: "see runs" }] });
+    render(<Failure error={error} />);
+    expect(host.textContent).toContain("There is no run 99.");
+    expect(host.textContent).toContain("run: unknown (got 99); see runs");
+  });
+
+  it("of a run is told by the last line of its traceback", () => {
+    expect(lastLine("Traceback\n  File\nZeroDivisionError: division by zero\n")).toBe("ZeroDivisionError: division by zero");
+  });
+});
+
+describe("shortcuts", () => {
+  const press = (key: string, target: EventTarget = document.body, init: KeyboardEventInit = {}) => {
+    const event = new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true, ...init });
+    target.dispatchEvent(event);
+    return event;
+  };
+  const listen = (handlers: Record<string, () => void>) => {
+    const listener = (event: KeyboardEvent) => dispatch(event, handlers, event.timeStamp);
+    window.addEventListener("keydown", listener);
+    return () => window.removeEventListener("keydown", listener);
+  };
+
+  it("work for one key, and for two in a row", async () => {
+    const [one, pair, alone] = [vi.fn(), vi.fn(), vi.fn()];
+    const stop = listen({ ".": one, "g r": pair, r: alone });
+    press(".");
+    await Promise.resolve();
+    press("g");
+    await Promise.resolve();
+    press("r");
+    await Promise.resolve();
+    stop();
+    expect([one.mock.calls.length, pair.mock.calls.length, alone.mock.calls.length]).toEqual([1, 1, 0]);
+  });
+
+  it("are silent while one types, and with a modifier", () => {
+    const handler = vi.fn();
+    const stop = listen({ ".": handler, " ": handler });
+    const input = host.appendChild(document.createElement("input"));
+    const button = host.appendChild(document.createElement("button"));
+    press(".", input);
+    press(" ", button);
+    press(".", document.body, { ctrlKey: true });
+    stop();
+    expect(handler).not.toHaveBeenCalled();
+  });
+});
