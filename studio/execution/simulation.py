@@ -125,6 +125,15 @@ class Simulation:
             links=link_ages(self),
         )
 
+    def record_of(self, samples: list[int]) -> Record:
+        """A record of some samples only, by their numbers."""
+        return Record(
+            time=np.array([self.recorder.times[i] for i in samples]),
+            values=np.moveaxis(np.array([self.recorder.samples[i] for i in samples]), 0, -1),
+            vehicles=tuple(self.setting.names[column] for column in self.recorder.columns),
+            happenings=(),
+        )
+
 
 def chains(setting: Setting) -> tuple[Chain, ...]:
     """Groups in which everybody listens to the vehicle ahead of it in the list."""

@@ -1,1 +1,1 @@
-""
+"""The server: page, REST, live runs, and the scene, on one origin."""

@@ -1,8 +1,8 @@
 """Only pages of this server may talk to it: requests from a foreign origin or under a foreign name get 403.
 
-Two attacks are meant. A page from elsewhere, open in the same browser, calls http://127.0.0.1: its Origin is
-another than the Host that it calls. A page from elsewhere lets its own name point to 127.0.0.1 (DNS rebinding):
-Origin and Host agree, but the name is not one of ours.
+Two attacks are meant. A page from elsewhere, open in the same browser, calls http://127.0.0.1: its Origin
+is another than the Host that it calls. A page from elsewhere lets its own name point to 127.0.0.1 (DNS
+rebinding): Origin and Host agree, but the name is not one of ours.
 """
 
 import ipaddress
@@ -39,7 +39,7 @@ class SameOrigin:
         return await _refuse(scope, problem, send)
 
     def problem(self, scope: Scope) -> Problem | None:
-        """What is wrong with the origin of a request; None if it is ours, or a program's rather than a page's."""
+        """What is wrong with the origin of a request; None if it is ours, or a program's."""
         host = _header(scope, b"host")
         secure = scope.get("scheme") in ("https", "wss")
         called = _place(f"{'https' if secure else 'http'}://{host}")

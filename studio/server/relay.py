@@ -1,6 +1,6 @@
 """The scene on our own origin: the client's page at /scene/, and its WebSocket relayed to the viser server.
 
-The viser server listens on 127.0.0.1 only and asks nobody who they are; the browser never talks to it directly.
+The viser server listens on 127.0.0.1 only and asks nobody who they are: browsers never talk to it directly.
 """
 
 import asyncio

@@ -20,7 +20,7 @@ from studio.assess.metric import Measured
 from studio.errors import StoreError, UnknownError
 from studio.execution.record import Happening, Record
 from studio.store import trace
-from studio.store.tables import open_database, unusable
+from studio.store.tables import open_database, reopen_database, unusable
 
 CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
 
@@ -204,6 +204,11 @@ def open_runs(path: str | os.PathLike) -> Runs:
     if path.is_dir():
         raise StoreError(f"{path} is a folder, not a run database; name a file with --db")
     return Runs(path, open_database(path))
+
+
+def reopen_runs(path: Path) -> Runs:
+    """Another connection to a database that `open_runs` has opened before, for one request."""
+    return Runs(path, reopen_database(path))
 
 
 def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:

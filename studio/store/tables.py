@@ -57,6 +57,16 @@ def open_database(path: Path) -> Database:
         raise unusable(path, error) from None
 
 
+def reopen_database(path: Path) -> Database:
+    """Another connection to a file that has been opened before: no look at its layout, no waiting for writers."""
+    try:
+        connection = sqlite3.connect(path, timeout=30.0, check_same_thread=False)
+        connection.execute("pragma foreign_keys = on")
+        return Database(connection)
+    except sqlite3.Error as error:
+        raise unusable(path, error) from None
+
+
 def prepared(database: Database, path: Path) -> Database:
     """With its tables, in WAL mode, writable."""
     layout = database.execute("pragma user_version").fetchone()[0]

@@ -1,0 +1,78 @@
+"""The application: wiring only."""
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+
+from studio.errors import Problem, ServerError, StoreError, StudioError, UnknownError
+from studio.server import page, relay, routes
+from studio.server.desk import Desk
+from studio.server.origin import SameOrigin
+
+TITLE = "Cooperative ADAS Studio"
+
+
+def create_app(desk: Desk, *, host: str = "127.0.0.1") -> FastAPI:
+    """The server of one desk."""
+    app = FastAPI(title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan)
+    app.state.desk = desk
+    app.add_exception_handler(StudioError, refused)
+    app.add_exception_handler(RequestValidationError, misread)
+    app.include_router(routes.router)
+    app.include_router(relay.router(lambda: desk.stage.scene.port))
+    app.include_router(page.router)
+    app.add_middleware(SameOrigin, host=host)
+    return app
+
+
+@asynccontextmanager
+async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+    """The process for the first run gets ready while the page is already served; at the end all processes end."""
+    desk: Desk = app.state.desk
+    ready = asyncio.create_task(asyncio.to_thread(make_ready, desk))
+    yield
+    await ready
+    await asyncio.to_thread(desk.lives.close)
+    await asyncio.to_thread(desk.stage.scene.stop)
+
+
+def make_ready(desk: Desk) -> None:
+    """Worker first: it compiles while the scene is made."""
+    desk.lives.make_ready()
+    desk.stage  # noqa: B018 - made by being looked at
+
+
+def status_of(error: StudioError) -> int:
+    """HTTP status of an error."""
+    if isinstance(error, UnknownError):
+        return 404
+    if isinstance(error, StoreError):
+        return 500
+    return 409 if isinstance(error, ServerError) and "is over" in error.message else 422
+
+
+async def refused(request: Request, error: StudioError) -> JSONResponse:
+    """Our errors as JSON."""
+    return JSONResponse(error.as_json(), status_code=status_of(error))
+
+
+async def misread(request: Request, error: RequestValidationError) -> JSONResponse:
+    """FastAPI's findings about a request, in the same form."""
+    problems = [
+        Problem(".".join(map(str, each["loc"])), each["msg"], str(each.get("input", ""))[:80]) for each in error.errors()
+    ]
+    return JSONResponse(StudioError("The request cannot be read.", problems).as_json(), status_code=422)
+
+
+def description() -> dict[str, Any]:
+    """The OpenAPI description; its version is left out, so that it changes with the routes only."""
+    app = create_app(Desk(db=Path("runs.db"), scenarios=Path("scenarios"), applications=None))
+    app.version = "1"
+    return app.openapi()

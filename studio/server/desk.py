@@ -1,0 +1,100 @@
+"""What the routes work with: where scenarios and runs are, the live runs, the stage."""
+
+import threading
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from studio import job
+from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
+from studio.execution.loop import FASTEST, SLOWEST
+from studio.job import Loaded
+from studio.road.network import ATTRIBUTION
+from studio.server.live import Lives, LiveRun
+from studio.server.stage import Stage
+from studio.server.worker import Order, pace_factor
+from studio.store.runs import Runs, reopen_runs
+
+
+@dataclass
+class Desk:
+    """One server's work: paths, live runs, stage."""
+
+    db: Path
+    scenarios: Path
+    applications: Path | None
+
+    @cached_property
+    def stage(self) -> Stage:
+        """The scene, made when it is first wanted."""
+        with self._lock:
+            return Stage()
+
+    @cached_property
+    def lives(self) -> Lives:
+        """The live runs."""
+        first = next(iter(self.files().values()), None)
+        return Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
+
+    def __post_init__(self) -> None:
+        self._lock = threading.Lock()
+
+    def on_frame(self, live: LiveRun, poses, lights) -> None:
+        """Frames go to the stage."""
+        self.stage.on_frame(live, poses, lights)
+
+    def files(self) -> dict[str, Path]:
+        """Scenario files by id."""
+        return {path.stem: path for path in sorted(self.scenarios.glob("*.yaml"))}
+
+    def file(self, scenario: str) -> Path:
+        """The file of a scenario; raises UnknownError."""
+        files = self.files()
+        if scenario not in files:
+            raise UnknownError(
+                f"There is no scenario {scenario!r}.",
+                [Problem("scenario", "does not exist", scenario, remedy=nearest(scenario, files))],
+            )
+        return files[scenario]
+
+    def load(self, scenario: str, changes: dict[str, Any] | None = None) -> Loaded:
+        """A scenario with changes."""
+        return job.load(self.file(scenario), changes)
+
+    def row(self, scenario: str) -> dict[str, Any]:
+        """A scenario for the list; one that cannot be read says why."""
+        row = {"id": scenario, "title": scenario, "description": "", "vehicles": 0, "duration_s": 0.0}
+        try:
+            found = self.load(scenario).scenario
+        except StudioError as error:
+            return row | {"attribution": "", "problem": str(error)}
+        return row | {
+            "title": found.title,
+            "description": found.description.strip(),
+            "vehicles": len(found.vehicles) + found.traffic.count,
+            "duration_s": found.clock.duration,
+            "attribution": ATTRIBUTION,
+            "problem": None,
+        }
+
+    def runs(self) -> Runs:
+        """The run database, for one request."""
+        return reopen_runs(self.db)
+
+    def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
+              pace: float | str, paused: bool) -> LiveRun:  # fmt: skip
+        """Starts a run in a process of its own; what is wrong with it is told before."""
+        loaded = job.seeded(self.load(scenario, changes), seed)
+        check_pace(pace)
+        order = Order(loaded.path, loaded.changes, seed, parent, pace_factor(pace), paused, self.db)
+        return self.lives.start(order, scenario, loaded.document)
+
+
+def check_pace(pace: float | str) -> None:
+    """Raises ServerError for a pace that nobody can watch."""
+    if pace != "fast" and not SLOWEST <= pace <= FASTEST:
+        raise ServerError(
+            "The pace is out of range.",
+            [Problem("pace", "is out of range", str(pace), f'{SLOWEST} to {FASTEST} times real time, or "fast"')],
+        )

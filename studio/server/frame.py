@@ -1,0 +1,61 @@
+"""What the eye gets of a world: poses of the vehicles as the scene wants them, and the lights."""
+
+import numpy as np
+
+from studio.scene import pose
+from studio.scene.fleet import Look
+from studio.scene.vehicle import Dimensions
+from studio.world.build import Setting, vehicles_of
+from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.world import Vehicles
+
+JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way
+MOTION = (pose.X, pose.Y, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEEL_ANGLE)
+
+HEIGHT = 1.43  # [m] of the drawn body; the dynamics have no use for it
+
+def poses(vehicles: Vehicles) -> np.ndarray:
+    """float32[POSE_ROWS, vehicle] of the vehicles now; body angles follow the load transfer."""
+    state, parameter = vehicles.state, vehicles.parameter
+    n = state.shape[1]
+    rows = np.zeros((pose.POSE_ROWS, n), np.float32)
+    rows[pose.X], rows[pose.Y], rows[pose.YAW] = state[X], state[Y], state[PSI]
+    rows[pose.ROLL] = parameter[ROLL_COMPLIANCE] * state[TRANSFER_Y]
+    rows[pose.PITCH] = -parameter[PITCH_COMPLIANCE] * state[TRANSFER_X]
+    rows[pose.STEER] = state[DELTA]
+    rows[pose.WHEEL_ANGLE] = vehicles.wheels[ROTATION, 2 * n : 3 * n]
+    rows[pose.VISIBLE] = state[ACTIVE]
+    return rows
+
+
+def blend(before: np.ndarray, after: np.ndarray, share: float) -> np.ndarray:
+    """Poses between two ticks, for motion slower than real time."""
+    between = after.copy()
+    near = np.hypot(after[pose.X] - before[pose.X], after[pose.Y] - before[pose.Y]) < JUMP
+    for row in MOTION:
+        between[row, near] += np.float32(share - 1.0) * (after[row, near] - before[row, near])
+    return between
+
+
+def standing(setting: Setting) -> np.ndarray:
+    """Poses of the vehicles at their start."""
+    return poses(vehicles_of(list(setting.cars)))
+
+
+def looks(setting: Setting) -> list[Look]:
+    """How the vehicles look, in the order of their columns."""
+    parameter = vehicles_of(list(setting.cars)).parameter
+    return [Look(car.name, car.colour, dimensions(parameter[:, v])) for v, car in enumerate(setting.cars)]
+
+
+def dimensions(p: np.ndarray) -> Dimensions:
+    """Outer dimensions from a column of parameters."""
+    return Dimensions(
+        length=float(p[LENGTH]),
+        width=float(p[WIDTH]),
+        height=HEIGHT,
+        wheelbase=float(p[L_F] + p[L_R]),
+        track=float(p[TRACK_F]),
+        wheel_radius=float(p[RADIUS]),
+        front_axle=float(p[L_F]),
+    )

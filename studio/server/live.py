@@ -1,0 +1,263 @@
+"""Live runs as the server sees them: a process each, what it has told so far, and who listens.
+
+    Lives.start   takes the process that waits ready, gives it its order, starts the next one
+    LiveRun       orders to one process; its news go to all listeners
+"""
+
+import asyncio
+import multiprocessing
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import inf, isfinite
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from studio.errors import Problem, ServerError, UnknownError
+from studio.server import worker
+from studio.server.worker import Order
+
+START_PATIENCE = 120.0  # [s] the first start compiles
+MOST_LIVE = 8  # processes at a time
+END_PATIENCE = 3.0  # [s] for a process to save and end
+spawn = multiprocessing.get_context("spawn")
+
+
+def plain(values: np.ndarray) -> list[float | None]:
+    """Numbers for JSON: what is not finite becomes null."""
+    return [value if isfinite(value) else None for value in values.tolist()]
+
+
+@dataclass
+class Process:
+    """A worker process and the server's end of its pipe."""
+
+    process: Any
+    pipe: Connection
+
+    @classmethod
+    def begin(cls, first: Path | None, applications: Path | None) -> "Process":
+        """Starts one; it gets ready by itself."""
+        ours, theirs = spawn.Pipe()
+        process = spawn.Process(target=worker.main, args=(theirs, first, applications), daemon=True)
+        process.start()
+        theirs.close()
+        return cls(process, ours)
+
+    def end(self) -> None:
+        """Ends it, kindly first."""
+        self.pipe.close()
+        self.process.join(END_PATIENCE)
+        if self.process.is_alive():
+            self.process.kill()
+
+
+@dataclass
+class LiveRun:
+    """One live run. `status` is starting, running, paused, done, stopped or failed."""
+
+    run: int
+    scenario: str
+    duration: float
+    process: Process
+    on_frame: Callable[["LiveRun", np.ndarray, np.ndarray], None]
+    document: dict[str, Any]
+    changes: dict[str, Any]
+    status: str = "starting"
+    time: float = 0.0
+    pace: float = 1.0
+    real_time_factor: float = 0.0
+    error: str | None = None
+    times: list[float] = field(default_factory=list)
+    samples: dict[str, list[float | None]] = field(default_factory=dict)
+    events: list[dict[str, Any]] = field(default_factory=list)
+    frame: tuple[np.ndarray, np.ndarray] | None = None
+    listeners: set["Listener"] = field(default_factory=set)
+    lock: threading.RLock = field(default_factory=threading.RLock)
+
+    def listen(self) -> None:
+        """Reads the process's news until it ends; runs in a thread of its own."""
+        try:
+            while True:
+                word, *values = self.process.pipe.recv()
+                getattr(self, f"on_{word}_news")(*values)
+                if word == "end":
+                    break
+        except (EOFError, OSError):
+            self.process.process.join(END_PATIENCE)
+            self.on_end_news("failed", f"The process of this run ended with code {self.process.process.exitcode}.")
+        self.process.end()
+
+    def on_frame_news(self, when: float, poses: np.ndarray, lights: np.ndarray) -> None:
+        """A picture for the scene."""
+        self.frame = (poses, lights)
+        self.on_frame(self, poses, lights)
+
+    def on_samples_news(self, times: np.ndarray, values: dict[str, np.ndarray]) -> None:
+        """New points of the live charts."""
+        news = {name: plain(each) for name, each in values.items()}
+        with self.lock:
+            self.times += times.tolist()
+            for name, each in news.items():
+                self.samples.setdefault(name, []).extend(each)
+            self.tell({"type": "samples", "time": times.tolist(), "channels": news})
+
+    def on_event_news(self, when: float, text: str, vehicle: str) -> None:
+        """Something happened."""
+        event = {"type": "event", "time": when, "text": text, "vehicle": vehicle}
+        with self.lock:
+            self.events.append(event)
+            self.tell(event)
+
+    def on_state_news(self, status: str, when: float, pace: float, real_time_factor: float) -> None:
+        """Where the run is."""
+        with self.lock:
+            over = status not in ("running", "paused")
+            self.status = self.status if over else status  # it is over when it has been saved
+            self.time, self.pace, self.real_time_factor = when, pace, real_time_factor
+            self.tell(self.state())
+
+    def on_end_news(self, status: str, error: str | None) -> None:
+        """The run is over and saved."""
+        with self.lock:
+            self.status, self.error = status, error
+            self.tell(self.state())
+            self.tell({"type": "end", "run": self.run, "status": status, "error": error})
+
+    def state(self) -> dict[str, Any]:
+        """The state message."""
+        return self.as_json() | {"type": "state", "real_time_factor": self.real_time_factor}
+
+    def as_json(self) -> dict[str, Any]:
+        """A row of the list of live runs."""
+        pace = "fast" if self.pace == inf else self.pace
+        return {"run": self.run, "scenario": self.scenario, "status": self.status, "time": round(self.time, 6),
+                "pace": pace, "duration_s": self.duration}  # fmt: skip
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has ended."""
+        return self.status in ("done", "stopped", "failed")
+
+    def order(self, *words: Any) -> None:
+        """Gives an order; raises ServerError when the run is over."""
+        if self.is_over:
+            raise ServerError(f"Run {self.run} is over.", [Problem("run", "is over", self.status, "a run that is going on")])
+        try:
+            self.process.pipe.send(words)
+        except OSError:
+            raise ServerError(f"The process of run {self.run} has ended.") from None
+
+    def join(self, listener: "Listener") -> None:
+        """A new listener first gets everything so far."""
+        with self.lock:
+            listener.put({"type": "samples", "time": list(self.times), "channels": {k: list(v) for k, v in self.samples.items()}})
+            for event in self.events:
+                listener.put(event)
+            listener.put(self.state())
+            if self.is_over:
+                listener.put({"type": "end", "run": self.run, "status": self.status, "error": self.error})
+            self.listeners.add(listener)
+
+    def leave(self, listener: "Listener") -> None:
+        """No more news for this one."""
+        with self.lock:
+            self.listeners.discard(listener)
+
+    def tell(self, message: dict[str, Any]) -> None:
+        """A message to all listeners."""
+        for listener in self.listeners:
+            listener.put(message)
+
+
+class Listener:
+    """A queue of messages in the server's event loop; a listener that sleeps too long is cut off."""
+
+    CAPACITY = 2000
+
+    def __init__(self) -> None:
+        self.loop = asyncio.get_running_loop()
+        self.queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
+
+    def put(self, message: dict[str, Any]) -> None:
+        """From any thread."""
+        if self.queue.qsize() < self.CAPACITY and not self.loop.is_closed():
+            self.loop.call_soon_threadsafe(self.queue.put_nowait, message)
+
+
+class Lives:
+    """All live runs, and the process that waits for the next one."""
+
+    def __init__(self, *, db: Path, first: Path | None, applications: Path | None,
+                 on_frame: Callable[[LiveRun, np.ndarray, np.ndarray], None]) -> None:  # fmt: skip
+        self.db, self.first, self.applications, self.on_frame = db, first, applications, on_frame
+        self.runs: dict[int, LiveRun] = {}
+        self.spare: Process | None = None
+        self.lock = threading.Lock()
+
+    def make_ready(self) -> None:
+        """Starts the process for the next run, unless it waits already."""
+        with self.lock:
+            if self.spare is None or not self.spare.process.is_alive():
+                self.spare = Process.begin(self.first, self.applications)
+
+    def take(self) -> Process:
+        """The process that waits."""
+        self.make_ready()
+        with self.lock:
+            process, self.spare = self.spare, None
+        return process
+
+    def start(self, order: Order, scenario: str, document: dict[str, Any]) -> LiveRun:
+        """Starts a run; returns when its row stands. Raises what the process refuses, or ServerError."""
+        if sum(not live.is_over for live in self.runs.values()) >= MOST_LIVE:
+            raise ServerError(
+                "Too many runs are going on.", [Problem("live runs", "are as many as may be", "", f"{MOST_LIVE} at a time", "stop one")]
+            )
+        process = self.take()
+        number, duration = begun(process, order)
+        live = LiveRun(number, scenario, duration, process, self.on_frame, document, order.changes, pace=order.pace)
+        self.runs[number] = live
+        threading.Thread(target=live.listen, name=f"run {number}", daemon=True).start()
+        threading.Timer(1.0, self.make_ready).start()  # not while the new run draws its first breath
+        return live
+
+    def find(self, run: int) -> LiveRun:
+        """A live run; raises UnknownError."""
+        if run not in self.runs:
+            known = ", ".join(map(str, sorted(self.runs))) or "there is none"
+            raise UnknownError(f"Run {run} is not a live run of this server.", [Problem("run", "is not live", str(run), known)])
+        return self.runs[run]
+
+    def close(self) -> None:
+        """Stops all runs and ends all processes."""
+        for live in self.runs.values():
+            if not live.is_over:
+                live.order("stop")
+        deadline = time.monotonic() + END_PATIENCE
+        while any(not live.is_over for live in self.runs.values()) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        with self.lock:
+            if self.spare:
+                self.spare.end()
+
+
+def begun(process: Process, order: Order) -> tuple[int, float]:
+    """Gives the order and waits for the answer: the run's number and duration."""
+    process.pipe.send(("start", order))
+    while process.pipe.poll(START_PATIENCE):
+        try:
+            word, *values = process.pipe.recv()
+        except EOFError:
+            break
+        if word == "refused":
+            process.end()
+            raise values[0]
+        if word == "begun":
+            return values[0], values[1]
+    process.end()
+    raise ServerError(f"The process of the run did not start (code {process.process.exitcode}).")

@@ -1,0 +1,215 @@
+"""REST under /api. Every route calls the function that the command line calls too."""
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query, Request, WebSocket
+from starlette.websockets import WebSocketDisconnect
+
+from studio import job
+from studio.application import registry
+from studio.errors import Problem, ScenarioError, StudioError, UnknownError
+from studio.road.network import ATTRIBUTION
+from studio.scenario.schema import Scenario
+from studio.server import answer
+from studio.server.desk import Desk, check_pace
+from studio.server.live import Listener, plain
+from studio.server.worker import pace_factor
+from studio.store import trace
+from studio.store.comparison import compare as compare_runs
+
+REFUSALS = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
+router = APIRouter(prefix="/api", responses=REFUSALS)
+
+
+def desk_of(request: Request) -> Desk:
+    """The desk of this server."""
+    return request.app.state.desk
+
+
+AtDesk = Annotated[Desk, Depends(desk_of)]
+
+
+@router.get("/info")
+def info(desk: AtDesk) -> answer.Info:
+    """About this server."""
+    code = job.code_version()
+    return answer.Info(version=code.partition("+")[0], code_version=code, db=str(desk.db), scenarios_folder=str(desk.scenarios))
+
+
+@router.get("/scenarios")
+def scenarios(desk: AtDesk) -> list[answer.ScenarioRow]:
+    """The scenario files of the folder."""
+    return [answer.ScenarioRow(**desk.row(each)) for each in desk.files()]
+
+
+@router.get("/scenarios/{scenario}")
+def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
+    """A scenario with all defaults filled in, and the schema of its form."""
+    loaded = desk.load(scenario)
+    return answer.ScenarioDetail(
+        id=scenario,
+        title=loaded.scenario.title,
+        description=loaded.scenario.description.strip(),
+        attribution=ATTRIBUTION,
+        scenario_hash=job.scenario_hash(loaded, job.prepare(loaded)),
+        document=loaded.document,
+        schema=Scenario.model_json_schema(),
+    )
+
+
+@router.post("/scenarios/{scenario}/check")
+def check(scenario: str, changes: answer.Changes, desk: AtDesk) -> answer.Check:
+    """Whether changes make a valid scenario."""
+    try:
+        return answer.Check(ok=True, problems=[], document=desk.load(scenario, changes.set).document)
+    except ScenarioError as error:
+        document = desk.load(scenario).document
+        return answer.Check(ok=False, problems=error.as_json()["problems"], document=document)
+
+
+@router.get("/applications")
+def applications() -> list[answer.Application]:
+    """The registered applications with the schemas of their parameters."""
+    return [answer.Application(**each.as_json()) for each in registry.known().values()]
+
+
+@router.get("/runs")
+def runs(desk: AtDesk, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.Run]:  # fmt: skip
+    """Runs, newest first."""
+    where, values = ("scenario = ?", [scenario]) if scenario else ("1", [])
+    return [answer.Run(**row.as_json()) for row in desk.runs().select(where=where, values=values, limit=limit)]
+
+
+@router.post("/runs", status_code=202)
+def start_run(new: answer.NewRun, desk: AtDesk) -> answer.Started:
+    """Starts a run as fast as possible, watched by nobody; its row tells when it is done."""
+    live = desk.start(new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace="fast", paused=False)
+    return answer.Started(run=live.run)
+
+
+@router.get("/runs/{run}")
+def run(run: int, desk: AtDesk) -> answer.RunDetail:
+    """One run with its scenario, channels and events."""
+    kept = desk.runs()
+    row = kept.find(run)
+    events = [vars(event) for event in kept.events(run)]
+    return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events)
+
+
+@router.get("/runs/{run}/trace")
+def run_trace(
+    run: int,
+    desk: AtDesk,
+    channels: Annotated[str, Query(description="names, separated by commas")],
+    points: Annotated[int, Query(ge=2, le=1_000_000, description="about as many rows are returned; extremes are kept")] = 2000,
+) -> answer.Trace:
+    """Selected channels of a run."""
+    names = [name.strip() for name in channels.split(",") if name.strip()]
+    kept = desk.runs()
+    units = {each["name"]: each["unit"] for each in kept.channels(run)}
+    columns = trace.decimate(kept.trace(run, names), points)
+    values = {name: answer.TraceColumn(unit=units[name], values=plain(columns[name])) for name in names}
+    return answer.Trace(time=columns["time"].tolist(), channels=values)
+
+
+@router.get("/compare")
+def compare(a: int, b: int, desk: AtDesk) -> answer.Comparison:
+    """Two runs side by side."""
+    return answer.Comparison(**compare_runs(desk.runs(), a, b))
+
+
+@router.get("/live")
+def live_runs(desk: AtDesk) -> list[answer.Live]:
+    """Live runs of this server, newest first."""
+    return [answer.Live(**live.as_json()) for _, live in sorted(desk.lives.runs.items(), reverse=True)]
+
+
+@router.post("/live", status_code=201)
+def start_live(new: answer.NewLiveRun, desk: AtDesk) -> answer.Live:
+    """Starts a live run in a process of its own."""
+    live = desk.start(
+        new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace=new.pace, paused=new.paused
+    )
+    return answer.Live(**live.as_json())
+
+
+@router.get("/live/{run}")
+def live_run(run: int, desk: AtDesk) -> answer.Live:
+    """A live run now."""
+    return answer.Live(**desk.lives.find(run).as_json())
+
+
+@router.post("/live/{run}/pause")
+def pause(run: int, desk: AtDesk) -> answer.Live:
+    """Stands still after the present tick."""
+    return ordered(desk, run, "pause")
+
+
+@router.post("/live/{run}/resume")
+def resume(run: int, desk: AtDesk) -> answer.Live:
+    """Goes on."""
+    return ordered(desk, run, "resume")
+
+
+@router.post("/live/{run}/step")
+def step(run: int, desk: AtDesk) -> answer.Live:
+    """Goes on by one tick and stands still."""
+    return ordered(desk, run, "step")
+
+
+@router.post("/live/{run}/stop")
+def stop(run: int, desk: AtDesk) -> answer.Live:
+    """Ends the run; what was recorded is kept."""
+    return ordered(desk, run, "stop")
+
+
+@router.post("/live/{run}/pace")
+def pace(run: int, new: answer.NewPace, desk: AtDesk) -> answer.Live:
+    """Changes how fast it goes."""
+    check_pace(new.pace)
+    return ordered(desk, run, "pace", pace_factor(new.pace))
+
+
+def ordered(desk: Desk, run: int, *words: Any) -> answer.Live:
+    """Gives an order to a live run."""
+    live = desk.lives.find(run)
+    live.order(*words)
+    return answer.Live(**live.as_json())
+
+
+@router.websocket("/live/{run}/socket")
+async def socket(browser: WebSocket, run: int) -> None:
+    """News of a live run: everything so far, then as it comes."""
+    try:
+        live = browser.app.state.desk.lives.find(run)
+    except UnknownError as error:
+        await browser.accept()
+        await browser.send_json({"type": "refused", **error.as_json()})
+        await browser.close()
+        return
+    await browser.accept()
+    listener = Listener()
+    live.join(listener)
+    try:
+        while True:
+            message = await listener.queue.get()
+            await browser.send_json(message)
+            if message["type"] == "end":
+                await browser.close()
+                return
+    except (WebSocketDisconnect, RuntimeError):
+        return  # the page has gone
+    finally:
+        live.leave(listener)
+
+
+@router.post("/scene")
+def scene(wanted: answer.OnStage, desk: AtDesk) -> answer.SceneCast:
+    """Chooses what the scene shows."""
+    if wanted.run is not None:
+        live = desk.lives.find(wanted.run)
+        loaded = desk.load(live.scenario, live.changes)
+        return answer.SceneCast(**desk.stage.show(job.seeded(loaded, live.document["seed"]), live))
+    if wanted.scenario is None:
+        raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])
+    return answer.SceneCast(**desk.stage.show(desk.load(wanted.scenario, wanted.set)))

@@ -1,0 +1,59 @@
+"""The stage: what the scene shows now. A scenario as it would start, or a live run; the last choice counts."""
+
+import threading
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from studio.job import Loaded, prepare
+from studio.scene.projection import Scene
+from studio.server.frame import looks, standing
+from studio.server.live import LiveRun
+from studio.world.build import Setting
+
+
+@dataclass
+class Stage:
+    """Owns the scene. `showing` is the live run whose frames are drawn."""
+
+    scene: Scene = field(default_factory=Scene)
+    showing: LiveRun | None = None
+    city: str = ""
+    cast: tuple = ()
+    lock: threading.RLock = field(default_factory=threading.RLock)
+
+    def show(self, loaded: Loaded, live: LiveRun | None = None) -> dict[str, Any]:
+        """Shows a scenario at its start, or the live run that it became; returns who is to be seen."""
+        prepared = prepare(loaded)
+        with self.lock:
+            self.set_up(prepared)
+            self.showing = live
+            poses, lights = live.frame if live and live.frame else (standing(prepared), None)
+            self.scene.update(poses)
+            if lights is not None:
+                self.scene.show_signals(lights)
+        return described(prepared)
+
+    def set_up(self, prepared: Setting) -> None:
+        """City and vehicles, as far as they are others than before."""
+        if self.city != prepared.network.digest:
+            self.scene.show_city(prepared.network)
+            self.city = prepared.network.digest
+        cast = tuple(looks(prepared))
+        if self.cast != cast:
+            self.scene.show_vehicles(cast)
+            self.cast = cast
+
+    def on_frame(self, live: LiveRun, poses: np.ndarray, lights: np.ndarray) -> None:
+        """A frame of some live run; drawn when it is the one that is shown."""
+        if live is self.showing:
+            with self.lock:
+                self.scene.update(poses)
+                self.scene.show_signals(lights)
+
+
+def described(prepared: Setting) -> dict[str, Any]:
+    """Who is to be seen, for the page."""
+    vehicles = [{"name": car.name, "index": i, "color": car.colour} for i, car in enumerate(prepared.cars)]
+    return {"vehicles": vehicles, "attribution": prepared.network.attribution}

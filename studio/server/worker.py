@@ -1,0 +1,226 @@
+"""The process of one live run: it simulates, paces itself, and tells the server what happens.
+
+Orders come in and news go out over one pipe, as tuples that begin with a word:
+
+    in    start, pause, resume, step, pace, stop
+    out   ready, begun | refused, frame, samples, event, state, end
+
+The process is started before it is needed, so that everything is imported and compiled when somebody clicks on run.
+It runs one run and ends; whatever goes wrong in it ends that run and nothing else.
+"""
+
+import signal
+import time
+import traceback
+from dataclasses import dataclass, field
+from math import inf
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from studio import job
+from studio.application.registry import load_folder
+from studio.errors import StudioError
+from studio.execution.loop import Pace
+from studio.execution.simulation import Simulation, simulation
+from studio.server.frame import blend, poses
+from studio.store.runs import open_runs
+
+FRAME_PERIOD = 0.02  # [s] of real time between two frames for the eye
+NEWS_PERIOD = 0.1  # [s] of real time between two reports of state and samples
+SAMPLE_PERIOD = 0.1  # [s] of simulated time between two samples of the live charts
+BATCH = 0.015  # [s] of real time that is simulated before orders are looked at again
+IDLE = 0.5  # [s] between two looks for orders while paused
+LIVE_CHANNELS = ("speed", "gap", "acceleration", "time_gap")
+
+
+@dataclass(frozen=True)
+class Order:
+    """What to run: scenario file, changes by path, seed, parent, pace, and where to keep it."""
+
+    path: Path
+    changes: dict[str, Any]
+    seed: int | None
+    parent: int | None
+    pace: float
+    paused: bool
+    db: Path
+
+
+@dataclass
+class Live:
+    """A run that somebody watches."""
+
+    simulation: Simulation
+    pipe: Connection
+    pace: Pace
+    paused: bool
+    told: int = 0
+    sampled: int = 0
+    last_frame: float = 0.0
+    last_news: float = 0.0
+    busy_since: tuple[float, float] = (0.0, 0.0)
+    before: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    after: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    advanced: float = 0.0
+
+    def run(self) -> None:
+        """Until the run is over."""
+        self.before = self.after = poses(self.simulation.world.vehicles)
+        self.pace.restart(self.simulation.time)
+        self.news(force=True)
+        while not self.simulation.is_over:
+            self.orders()
+            if not self.paused:
+                self.work()
+            self.show()
+            self.news()
+        self.show(force=True)
+        self.news(force=True)
+
+    def orders(self) -> None:
+        """Takes the orders that have come; waits for one while there is nothing to do."""
+        wait = IDLE if self.paused else min(self.pace.wait(self.due), FRAME_PERIOD)
+        while self.pipe.poll(wait):
+            self.obey(*self.pipe.recv())
+            wait = 0.0
+
+    @property
+    def due(self) -> float:
+        """Simulated time of the next tick."""
+        return self.simulation.time + self.simulation.world.clock.tick
+
+    def obey(self, order: str, *values: Any) -> None:
+        """One order."""
+        if order == "stop":
+            self.simulation.stop()
+        elif order == "pause":
+            self.paused = True
+        elif order == "resume":
+            self.paused = False
+        elif order == "step":
+            self.paused = True
+            self.tick()
+        elif order == "pace":
+            self.pace.factor = values[0]
+        self.pace.restart(self.simulation.time)
+        self.news(force=True)
+
+    def work(self) -> None:
+        """Ticks that are due, for a little while."""
+        until = time.perf_counter() + BATCH
+        while not self.simulation.is_over and self.pace.wait(self.due) <= 0.0 and time.perf_counter() < until:
+            self.tick()
+
+    def tick(self) -> None:
+        """One tick; remembers the poses before and after it."""
+        self.simulation.advance()
+        self.before, self.after = self.after, poses(self.simulation.world.vehicles)
+        self.advanced = time.perf_counter()
+
+    def show(self, force: bool = False) -> None:
+        """A frame for the eye; between two ticks when the pace is slower than real time."""
+        now = time.perf_counter()
+        if not force and (now - self.last_frame < 0.9 * FRAME_PERIOD or (self.paused and self.last_frame > self.advanced)):
+            return
+        share = 1.0
+        if not self.paused and self.pace.factor < 1.0:
+            share = min((now - self.advanced) * self.pace.factor / self.simulation.world.clock.tick, 1.0)
+        seen = blend(self.before, self.after, share) if share < 1.0 else self.after
+        self.pipe.send(("frame", self.simulation.time, seen, self.simulation.world.roads.shown.astype(np.int8)))
+        self.last_frame = now
+
+    def news(self, force: bool = False) -> None:
+        """State, new samples and new events."""
+        now = time.perf_counter()
+        if not force and now - self.last_news < NEWS_PERIOD:
+            return
+        self.send_events()
+        self.send_samples()
+        self.pipe.send(("state", self.status, self.simulation.time, self.pace.factor, self.real_time_factor(now)))
+        self.last_news = now
+
+    @property
+    def status(self) -> str:
+        """What the run is doing."""
+        if self.simulation.is_over:
+            return self.simulation.status
+        return "paused" if self.paused else "running"
+
+    def real_time_factor(self, now: float) -> float:
+        """Simulated over real seconds since the last report."""
+        (real, simulated), self.busy_since = self.busy_since, (now, self.simulation.time)
+        return (self.simulation.time - simulated) / max(now - real, 1e-6) if real else 0.0
+
+    def send_events(self) -> None:
+        """Happenings that have not been told."""
+        happenings = self.simulation.happenings
+        for each in happenings[self.told :]:
+            self.pipe.send(("event", each.time, each.text, each.vehicle))
+        self.told = len(happenings)
+
+    def send_samples(self) -> None:
+        """Samples of the live channels that have not been sent, at the charts' period."""
+        recorder = self.simulation.recorder
+        thin = max(round(SAMPLE_PERIOD / (recorder.every * self.simulation.world.clock.tick)), 1)
+        fresh = [i for i in range(self.sampled, len(recorder.times)) if i % thin == 0]
+        self.sampled = len(recorder.times)
+        if fresh:
+            record = self.simulation.record_of(fresh)
+            values = {f"{v}.{q}": record.trace(f"{v}.{q}") for v in record.vehicles for q in LIVE_CHANNELS}
+            self.pipe.send(("samples", record.time, values))
+
+
+def main(pipe: Connection, first: Path | None, applications: Path | None) -> None:
+    """The process: gets ready, waits for its order, runs it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server decides when a run ends
+    try:
+        if applications:
+            load_folder(applications)
+        warm(first)
+        pipe.send(("ready",))
+        order, *values = pipe.recv()
+        if order == "start":
+            start(pipe, *values)
+    except (EOFError, OSError):
+        return  # the server is gone
+
+
+def warm(path: Path | None) -> None:
+    """Goes through everything once: map, machine code. What is wrong with the scenario is told when it is started."""
+    if path is None:
+        return
+    try:
+        simulation(job.prepare(job.load(path))).advance()
+    except StudioError:
+        return
+
+
+def start(pipe: Connection, order: Order) -> None:
+    """Loads, runs and saves. Input that is refused leaves no row."""
+    try:
+        loaded = job.seeded(job.load(order.path, order.changes), order.seed)
+        prepared = job.prepare(loaded)
+        runs = open_runs(order.db)
+        number = job.begin(loaded, prepared, runs, order.parent)
+    except StudioError as error:
+        pipe.send(("refused", error))
+        return
+    pipe.send(("begun", number, loaded.document["clock"]["duration"]))
+    try:
+        current = simulation(prepared)
+        Live(current, pipe, Pace(order.pace), order.paused).run()
+        job.save(number, job.outcome(loaded, current), runs)
+        pipe.send(("end", current.status, current.error))
+    except (EOFError, OSError):
+        runs.end(number, "killed", "The server ended before the run did.")
+    except Exception:
+        runs.end(number, "failed", traceback.format_exc())
+        pipe.send(("end", "failed", traceback.format_exc()))
+
+
+def pace_factor(pace: float | str) -> float:
+    """Simulated over real seconds; "fast" is without limit."""
+    return inf if pace == "fast" else float(pace)
