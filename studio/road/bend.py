@@ -60,7 +60,10 @@ def neighbours(ways: list[Way]) -> tuple[dict[int, set[int]], dict[int, set[int]
 
 
 def is_one_way(way: Way) -> bool:
-    return way.tags.get("oneway") in ("yes", "true", "1") or way.tags.get("junction") in ("roundabout", "circular")
+    return way.tags.get("oneway") in ("yes", "true", "1") or way.tags.get("junction") in (
+        "roundabout",
+        "circular",
+    )
 
 
 def bent(way: Way, places, ahead, behind, box: Box, new_id: Iterator[int]) -> Way:
@@ -124,7 +127,10 @@ def hermite(a: Point, b: Point, start: Point, end: Point) -> np.ndarray:
     u = np.linspace(0.0, 1.0, count + 2)[1:-1]
     p, q, s, t = (vector[:, None] for vector in (a, b, start * far, end * far))
     return (
-        (2 * u**3 - 3 * u**2 + 1) * p + (u**3 - 2 * u**2 + u) * s + (3 * u**2 - 2 * u**3) * q + (u**3 - u**2) * t
+        (2 * u**3 - 3 * u**2 + 1) * p
+        + (u**3 - 2 * u**2 + u) * s
+        + (3 * u**2 - 2 * u**3) * q
+        + (u**3 - u**2) * t
     )
 
 

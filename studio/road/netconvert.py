@@ -68,9 +68,13 @@ def run(source: Path, target: Path, projection: str, *, left_hand: bool) -> None
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=PATIENCE)
     except subprocess.TimeoutExpired:
-        raise MapError(f"the map took longer than {PATIENCE:.0f} s to import; cut out a smaller place") from None
+        raise MapError(
+            f"the map took longer than {PATIENCE:.0f} s to import; cut out a smaller place"
+        ) from None
     if done.returncode or not target.exists():
-        reason = next((line for line in done.stderr.splitlines() if line.startswith("Error")), "no reason given")
+        reason = next(
+            (line for line in done.stderr.splitlines() if line.startswith("Error")), "no reason given"
+        )
         raise MapError(f"the roads of the map cannot be built: {reason}")
 
 

@@ -23,7 +23,16 @@ LARGEST = 512 * 2**20  # [B] more than any city district; a bomb ends here
 REACH = 600.0  # [m] how far arms are kept beyond the mapped core
 MOST_LANES = 16  # of one way; more is a slip of the mapper
 CAR_WAYS = {
-    *("motorway", "motorway_link", "trunk", "trunk_link", "primary", "primary_link", "secondary", "secondary_link"),
+    *(
+        "motorway",
+        "motorway_link",
+        "trunk",
+        "trunk_link",
+        "primary",
+        "primary_link",
+        "secondary",
+        "secondary_link",
+    ),
     *("tertiary", "tertiary_link", "unclassified", "residential", "living_street"),
 }
 # [km/h] where no limit is mapped, the usual one in town for the kind of road; motorways keep netconvert's
@@ -163,7 +172,9 @@ def check_xml(path: Path, data: bytes) -> None:
     if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         raise MapError(f"{path}: this is not an OpenStreetMap XML file")
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
-        raise MapError(f"{path}: XML with a document type or entities is refused; export the map again without them")
+        raise MapError(
+            f"{path}: XML with a document type or entities is refused; export the map again without them"
+        )
 
 
 # -- the survey -----------------------------------------------------------------------------------------------------
@@ -303,6 +314,8 @@ def visible(a: tuple[float, float], b: tuple[float, float], box: Box) -> tuple[f
 
 
 def between(way: Way, i: int, fraction: float) -> tuple[float, float]:
+    if fraction in (0.0, 1.0):
+        return way.points[i + int(fraction)]
     (lon_a, lat_a), (lon_b, lat_b) = way.points[i], way.points[i + 1]
     return lon_a + fraction * (lon_b - lon_a), lat_a + fraction * (lat_b - lat_a)
 
@@ -344,7 +357,9 @@ def member(of: tuple[str, int, str]) -> str:
 def way_tags(way: Way) -> dict[str, str]:
     """The tags of a way as netconvert shall read them: with a usual limit if none is mapped, without absurd lanes."""
     usual = USUAL_LIMIT.get(way.tags["highway"])
-    kept = {key: value for key, value in way.tags.items() if not (key.startswith("lanes") and is_absurd(value))}
+    kept = {
+        key: value for key, value in way.tags.items() if not (key.startswith("lanes") and is_absurd(value))
+    }
     return kept if usual is None or "maxspeed" in kept else {**kept, "maxspeed": str(usual)}
 
 

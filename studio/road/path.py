@@ -187,7 +187,9 @@ def smooth(draft: Draft) -> np.ndarray:
         sharp = np.abs(curvature_of(line)) > SHARPEST
         if room == np.inf or not sharp.any():
             return line
-        corridor = np.where(curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor)
+        corridor = np.where(
+            curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor
+        )
 
 
 def curvature_of(line: np.ndarray) -> np.ndarray:
@@ -203,9 +205,14 @@ def heading_of(line: np.ndarray) -> np.ndarray:
 def sampled(fine: np.ndarray) -> np.ndarray:
     """Points exactly one metre of arc apart, with heading and curvature of the fine curve."""
     s, heading, curvature = curve.stations(fine), heading_of(fine), curvature_of(fine)
-    at = np.arange(0.0, np.floor(s[-1] / PATH_SPACING) + 1.0) * PATH_SPACING
+    at = np.arange(0.0, np.floor(s[-1] / PATH_SPACING + 1e-6) + 1.0) * PATH_SPACING
     points = np.zeros((PATH_ROWS, len(at)))
-    for row, values in ((PATH_X, fine[0]), (PATH_Y, fine[1]), (PATH_HEADING, heading), (PATH_CURVATURE, curvature)):
+    for row, values in (
+        (PATH_X, fine[0]),
+        (PATH_Y, fine[1]),
+        (PATH_HEADING, heading),
+        (PATH_CURVATURE, curvature),
+    ):
         points[row] = np.interp(at, s, values)
     return points
 
@@ -230,7 +237,9 @@ def limits(draft: Draft, points: np.ndarray) -> np.ndarray:
     return np.array(draft.limits)[np.clip(np.searchsorted(starts, at, side="right") - 1, 0, None)]
 
 
-def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float) -> np.ndarray:
+def speeds(
+    curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float
+) -> np.ndarray:
     """The speed for every point: the limit, what the bend allows, and what can be slowed down from in time [m/s]."""
     bend = np.sqrt(lateral_acceleration / np.maximum(np.abs(curvature), 1e-6))
     speed = np.maximum(np.minimum(limit, bend), LOWEST_SPEED)

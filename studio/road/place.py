@@ -17,12 +17,24 @@ from studio.road.network import ATTRIBUTION, Connection, Network
 from studio.road.scenery import scenery
 from studio.road.signals import Signals, signals
 
-IMPORTER = ("bend.py", "curve.py", "netconvert.py", "network.py", "osm.py", "place.py", "scenery.py", "signals.py")
+IMPORTER = (
+    "bend.py",
+    "curve.py",
+    "netconvert.py",
+    "network.py",
+    "osm.py",
+    "place.py",
+    "scenery.py",
+    "signals.py",
+)
 SHORTEST_RADIUS = 50.0  # [m]
 
 
 def load(
-    path: str | os.PathLike, *, radius: float | None = None, progress: Callable[[str], None] = lambda text: None
+    path: str | os.PathLike,
+    *,
+    radius: float | None = None,
+    progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
     """The roads and the scenery of a map file (.osm, .osm.gz, .osm.pbf).
 
@@ -67,7 +79,9 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, prog
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
     if not ways:
-        raise MapError(f"{path}: there are no roads for cars within the part that is kept; try a larger radius")
+        raise MapError(
+            f"{path}: there are no roads for cars within the part that is kept; try a larger radius"
+        )
     progress("building lanes and junctions")
     net = netconvert.convert(osm.clean_xml(found, bend.rounded(ways, box, ids)), box.projection, source=path)
     progress("placing signals and scenery")

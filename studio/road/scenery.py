@@ -26,13 +26,19 @@ def scenery(found: Survey, box: Box) -> Scenery:
     shapes = [(shape, polygon(shape, box)) for shape in found.shapes]
     shapes = [(shape, form) for shape, form in shapes if not form.is_empty and form.intersects(bounds)]
     return Scenery(
-        buildings=tuple(buildings(shapes, bounds)), areas=tuple(areas(shapes, bounds)), trees=trees(found, box)
+        buildings=tuple(buildings(shapes, bounds)),
+        areas=tuple(areas(shapes, bounds)),
+        trees=trees(found, box),
     )
 
 
 def polygon(shape: Shape, box: Box) -> shapely.Geometry:
     rings = [box.local(*np.array(ring).T[::-1]).T for ring in shape.rings]
-    form = shapely.Polygon(rings[0], [ring for ring in rings[1:] if len(ring) > 3]) if len(rings[0]) > 3 else None
+    form = (
+        shapely.Polygon(rings[0], [ring for ring in rings[1:] if len(ring) > 3])
+        if len(rings[0]) > 3
+        else None
+    )
     return shapely.make_valid(form) if form is not None else shapely.Polygon()
 
 

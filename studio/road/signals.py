@@ -10,7 +10,7 @@ starts at one stop line reach the next one at green.
 """
 
 from collections import defaultdict
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -55,7 +55,13 @@ class Signals:
     def state(self, link: int, t: float) -> int:
         """What the link shows at time t [s]."""
         return signal_state(
-            t, self.cycle[link], self.offset[link], self.first[link], self.count[link], self.phase_end, self.phase_state
+            t,
+            self.cycle[link],
+            self.offset[link],
+            self.first[link],
+            self.count[link],
+            self.phase_end,
+            self.phase_state,
         )
 
 
@@ -243,7 +249,11 @@ def reaches_out(wave, phases: dict[str, Phase], offset: dict[int, float]) -> boo
 def arrays(approaches, against, phases, offset, cycle: float, lanes) -> Signals:
     links = [(road, lane) for road, approach in approaches.items() for lane in approach.lanes]
     ends = np.array([lanes[lane].centre[:, -1] for _, lane in links]).reshape(-1, 2).T
-    steps = np.array([lanes[lane].centre[:, -1] - lanes[lane].centre[:, -2] for _, lane in links]).reshape(-1, 2).T
+    steps = (
+        np.array([lanes[lane].centre[:, -1] - lanes[lane].centre[:, -2] for _, lane in links])
+        .reshape(-1, 2)
+        .T
+    )
     own = [phases[road] for road, _ in links]
     pairs = [
         (i, j)
@@ -271,9 +281,3 @@ def arrays(approaches, against, phases, offset, cycle: float, lanes) -> Signals:
 def ends_of(phase: Phase, cycle: float) -> tuple[float, float, float, float]:
     """Ends of red-amber, green, amber and red within the cycle [s]."""
     return RED_AMBER_TIME, phase.duration - AMBER_TIME, phase.duration, cycle
-
-
-def no_signals() -> Signals:
-    """A place without traffic lights."""
-    empty = {field.name: np.empty(0, dtype=np.int64) for field in fields(Signals)}
-    return Signals(**{**empty, "conflicts": np.empty((2, 0), dtype=np.int64)})

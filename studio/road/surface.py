@@ -14,7 +14,14 @@ from studio.road import curve
 from studio.road.network import Building, Lane, Network
 from studio.road.scenery import polygons
 
-GROUND, GREEN, WATER, ROAD, MARKING, SHADOW = -0.18, -0.12, -0.06, 0.0, 0.06, 0.12  # [m] heights of the layers
+GROUND, GREEN, WATER, ROAD, MARKING, SHADOW = (
+    -0.18,
+    -0.12,
+    -0.06,
+    0.0,
+    0.06,
+    0.12,
+)  # [m] heights of the layers
 SUN = (-0.45, 0.35, -0.82)  # the direction its light goes: a forenoon sun in the south-east, 55° high
 GROUND_MARGIN = 400.0  # [m] of ground around the map
 LINE_WIDTH = 0.12  # [m] of lane markings in town (RMS: 0.12)
@@ -91,11 +98,15 @@ def without_slits(polygon: shapely.Polygon) -> shapely.Polygon:
 
 
 def junction_form(network: Network) -> shapely.Geometry:
-    return shapely.union_all([shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions])
+    return shapely.union_all(
+        [shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions]
+    )
 
 
 def strip(centre: np.ndarray, width: float) -> shapely.Geometry:
-    return shapely.LineString(centre.T).buffer(width / 2.0, cap_style="flat", join_style="mitre", mitre_limit=2.0)
+    return shapely.LineString(centre.T).buffer(
+        width / 2.0, cap_style="flat", join_style="mitre", mitre_limit=2.0
+    )
 
 
 def road_mesh(network: Network) -> Mesh:
@@ -156,7 +167,10 @@ def loose_ends(network: Network) -> Iterator[list[shapely.Geometry]]:
         if not lane.internal:
             starts = [] if lane.id in fed else [lane.centre[:, :2]]
             ends = [] if lane.id in feeding else [lane.centre[:, -2:]]
-            yield [across(points, at, lane.width) for points, at in [*((p, 0) for p in starts), *((p, 1) for p in ends)]]
+            yield [
+                across(points, at, lane.width)
+                for points, at in [*((p, 0) for p in starts), *((p, 1) for p in ends)]
+            ]
 
 
 def across(points: np.ndarray, at: int, width: float) -> shapely.Geometry:
@@ -189,7 +203,8 @@ def building_meshes(network: Network) -> dict[str, Mesh]:
     """The same by mapped colour ("#rrggbb"); "" holds those without one."""
     colours = sorted({building.colour for building in network.scenery.buildings})
     return {
-        colour: merged([solid(b) for b in network.scenery.buildings if b.colour == colour]) for colour in colours
+        colour: merged([solid(b) for b in network.scenery.buildings if b.colour == colour])
+        for colour in colours
     }
 
 
@@ -222,7 +237,10 @@ def shadow_mesh(network: Network, sun: tuple[float, float, float] = SUN) -> Mesh
         sun: the direction that light travels, a unit vector that points down.
     """
     footprints = [footprint(building) for building in network.scenery.buildings]
-    casts = [cast(form, building, sun) for form, building in zip(footprints, network.scenery.buildings, strict=True)]
+    casts = [
+        cast(form, building, sun)
+        for form, building in zip(footprints, network.scenery.buildings, strict=True)
+    ]
     standing = [form for form, b in zip(footprints, network.scenery.buildings, strict=True) if b.base == 0.0]
     return flat(shapely.union_all(casts).difference(shapely.union_all(standing)), SHADOW)
 
@@ -247,7 +265,9 @@ def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, flo
 def ground_mesh(network: Network) -> Mesh:
     """The plain that the map lies on."""
     x0, y0, x1, y1 = network.bounds
-    return flat(shapely.box(x0 - GROUND_MARGIN, y0 - GROUND_MARGIN, x1 + GROUND_MARGIN, y1 + GROUND_MARGIN), GROUND)
+    return flat(
+        shapely.box(x0 - GROUND_MARGIN, y0 - GROUND_MARGIN, x1 + GROUND_MARGIN, y1 + GROUND_MARGIN), GROUND
+    )
 
 
 def area_meshes(network: Network) -> dict[str, Mesh]:
@@ -257,4 +277,6 @@ def area_meshes(network: Network) -> dict[str, Mesh]:
 
 def area_form(network: Network, kind: str) -> shapely.Geometry:
     areas = [area for area in network.scenery.areas if area.kind == kind]
-    return shapely.union_all([shapely.Polygon(area.outline.T, [hole.T for hole in area.holes]) for area in areas])
+    return shapely.union_all(
+        [shapely.Polygon(area.outline.T, [hole.T for hole in area.holes]) for area in areas]
+    )
