@@ -43,6 +43,7 @@ def staked(way: Way, box: Box, new_id: Iterator[int]) -> Way:
 
 
 def local_places(ways: list[Way], box: Box) -> dict[int, Point]:
+    """Every node of the ways in local metres."""
     nodes = {node: point for way in ways for node, point in zip(way.nodes, way.points, strict=True)}
     longitude, latitude = np.array(list(nodes.values())).T
     return dict(zip(nodes, box.local(latitude, longitude).T, strict=True))
@@ -60,6 +61,7 @@ def neighbours(ways: list[Way]) -> tuple[dict[int, set[int]], dict[int, set[int]
 
 
 def is_one_way(way: Way) -> bool:
+    """Whether a way is driven in its own direction only."""
     return way.tags.get("oneway") in ("yes", "true", "1") or way.tags.get("junction") in (
         "roundabout",
         "circular",
@@ -67,6 +69,7 @@ def is_one_way(way: Way) -> bool:
 
 
 def bent(way: Way, places, ahead, behind, box: Box, new_id: Iterator[int]) -> Way:
+    """One way with curves in its bends."""
     line = [places[node] for node in way.nodes]
     before = straightest(places, behind[way.nodes[0]], way.nodes[1], way.nodes[0])
     after = straightest(places, ahead[way.nodes[-1]], way.nodes[-2], way.nodes[-1])
@@ -101,6 +104,7 @@ def tangents_of(line: list[Point], before: Point | None, after: Point | None) ->
 
 
 def tangent(a: Point | None, b: Point, c: Point | None) -> tuple[Point, Point]:
+    """Directions in which the curve arrives at b and leaves it."""
     arriving = unit(b - a) if a is not None else None
     leaving = unit(c - b) if c is not None else None
     if arriving is None or leaving is None:
@@ -115,6 +119,7 @@ def tangent(a: Point | None, b: Point, c: Point | None) -> tuple[Point, Point]:
 
 
 def unit(direction: Point) -> Point:
+    """The direction with length 1."""
     return direction / max(1e-9, float(np.hypot(*direction)))
 
 
@@ -135,4 +140,5 @@ def hermite(a: Point, b: Point, start: Point, end: Point) -> np.ndarray:
 
 
 def angle(a: Point, b: Point) -> float:
+    """The angle between two directions [rad]."""
     return abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))

@@ -63,6 +63,7 @@ def convert(xml: str, projection: str, *, source: Path, left_hand: bool = False)
 
 
 def run(source: Path, target: Path, projection: str, *, left_hand: bool) -> None:
+    """Lets netconvert turn the file `source` into the network file `target`."""
     command = [str(NETCONVERT), "--osm-files", str(source), "-o", str(target), "--proj", projection, *OPTIONS]
     command += ["--lefthand", "true"] if left_hand else []
     try:
@@ -91,6 +92,7 @@ def parse(root: ElementTree.Element) -> Net:
 
 
 def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Road]) -> None:
+    """Adds a road and its lanes; crossings and footways are left out."""
     if edge.get("function") not in (None, "normal", "internal"):
         return
     internal = edge.get("function") == "internal"
@@ -111,6 +113,7 @@ def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Roa
 
 
 def read_lane(element: ElementTree.Element, number: int, road: str, *, internal: bool) -> Lane:
+    """The lane of one `<lane>`."""
     centre = shape(element.get("shape"))
     return Lane(
         id=number,
@@ -133,6 +136,7 @@ def shape(text: str) -> np.ndarray:
 
 
 def is_surface(junction: ElementTree.Element) -> bool:
+    """Whether a junction covers ground."""
     return len((junction.get("shape") or "").split()) > 2
 
 
@@ -160,6 +164,7 @@ class Step:
 
 
 def tuple_of(lane: str) -> tuple[str, int]:
+    """Road and index from a lane's name."""
     road, _, index = lane.rpartition("_")
     return road, int(index)
 

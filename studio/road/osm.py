@@ -126,7 +126,7 @@ class Survey:
     mapped: Box | None = None
 
 
-# -- the file -------------------------------------------------------------------------------------------------------
+# -- the file --------------------------------------------------------------------------------------
 
 
 def file_format(path: Path) -> str:
@@ -158,6 +158,7 @@ def read(path: Path) -> bytes:
 
 
 def unpack(path: Path) -> bytes:
+    """The content of the file, no more of it than `LARGEST`."""
     opener = gzip.open if path.name.lower().endswith(".gz") else open
     with opener(path, "rb") as file:
         data = file.read(LARGEST + 1)
@@ -167,6 +168,7 @@ def unpack(path: Path) -> bytes:
 
 
 def check_xml(path: Path, data: bytes) -> None:
+    """Refuses what is empty, no XML, or tries more than plain elements."""
     if not data.strip():
         raise MapError(f"{path}: the map file is empty")
     if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
@@ -177,7 +179,7 @@ def check_xml(path: Path, data: bytes) -> None:
         )
 
 
-# -- the survey -----------------------------------------------------------------------------------------------------
+# -- the survey ------------------------------------------------------------------------------------
 
 
 def survey(path: Path, data: bytes) -> Survey:
@@ -197,12 +199,14 @@ def survey(path: Path, data: bytes) -> Survey:
 
 
 def mapped_box(box) -> Box | None:
+    """The box that the file's `<bounds>` names, if it has one."""
     if not box.valid():
         return None
     return Box(box.bottom_left.lat, box.bottom_left.lon, box.top_right.lat, box.top_right.lon)
 
 
 def note(found: Survey, thing) -> None:
+    """Notes what is used of a node, way, area or relation."""
     if thing.is_node():
         note_node(found, thing)
     elif thing.is_way():
@@ -215,6 +219,7 @@ def note(found: Survey, thing) -> None:
 
 
 def note_node(found: Survey, node) -> None:
+    """Notes a tagged node: signals and trees."""
     place = (node.lon, node.lat)
     found.places.append(place)
     found.nodes[node.id] = dict(node.tags)
@@ -223,6 +228,7 @@ def note_node(found: Survey, node) -> None:
 
 
 def note_way(found: Survey, way) -> None:
+    """Notes a way for cars; nodes that the file lacks are left out."""
     known = [node for node in way.nodes if node.location.valid()]
     if not known:
         return
@@ -233,6 +239,7 @@ def note_way(found: Survey, way) -> None:
 
 
 def is_car_way(tags) -> bool:
+    """Whether everyone may drive a car there."""
     return (
         tags.get("highway") in CAR_WAYS
         and tags.get("area") != "yes"
@@ -242,6 +249,7 @@ def is_car_way(tags) -> bool:
 
 
 def note_area(found: Survey, area) -> None:
+    """Notes a building, green or water."""
     if area_kind(area.tags):
         for ring in area.outer_rings():
             rings = [ring, *area.inner_rings(ring)]
@@ -259,7 +267,7 @@ def area_kind(tags) -> str:
     return "green" if any(tags.get(key) in kinds for key, kinds in GREEN.items()) else ""
 
 
-# -- the part to keep -----------------------------------------------------------------------------------------------
+# -- the part to keep ------------------------------------------------------------------------------
 
 
 def clip_box(found: Survey, *, radius: float | None) -> Box:
@@ -272,6 +280,7 @@ def clip_box(found: Survey, *, radius: float | None) -> Box:
 
 
 def core_box(places: list[tuple[float, float]]) -> Box:
+    """The box that holds nearly all places."""
     (west, south), (east, north) = np.percentile(np.array(places), [2, 98], axis=0)
     return Box(float(south), float(west), float(north), float(east))
 
@@ -314,13 +323,14 @@ def visible(a: tuple[float, float], b: tuple[float, float], box: Box) -> tuple[f
 
 
 def between(way: Way, i: int, fraction: float) -> tuple[float, float]:
+    """The point a fraction along the segment that starts at node i."""
     if fraction in (0.0, 1.0):
         return way.points[i + int(fraction)]
     (lon_a, lat_a), (lon_b, lat_b) = way.points[i], way.points[i + 1]
     return lon_a + fraction * (lon_b - lon_a), lat_a + fraction * (lat_b - lat_a)
 
 
-# -- the clean file for netconvert ----------------------------------------------------------------------------------
+# -- the clean file for netconvert -----------------------------------------------------------------
 
 
 def clean_xml(found: Survey, ways: list[Way]) -> str:
@@ -341,15 +351,18 @@ def clean_xml(found: Survey, ways: list[Way]) -> str:
 
 
 def element(name: str, attributes: dict, content: list[str]) -> list[str]:
+    """The lines of an XML element."""
     text = " ".join(f'{key}="{value}"' for key, value in attributes.items())
     return [f"<{name} {text}>", *content, f"</{name}>"]
 
 
 def tags(of: dict[str, str]) -> list[str]:
+    """`<tag>` elements."""
     return [f"<tag k={quoteattr(key)} v={quoteattr(value)}/>" for key, value in of.items()]
 
 
 def member(of: tuple[str, int, str]) -> str:
+    """A `<member>` element of a turn restriction."""
     kind, ref, role = of
     return f'<member type="{ {"n": "node", "w": "way"}[kind] }" ref="{ref}" role={quoteattr(role)}/>'
 
@@ -364,4 +377,5 @@ def way_tags(way: Way) -> dict[str, str]:
 
 
 def is_absurd(lanes: str) -> bool:
+    """Whether a number of lanes cannot be meant."""
     return lanes.isdigit() and not 0 < int(lanes) <= MOST_LANES

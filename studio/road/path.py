@@ -107,7 +107,7 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
     )
 
 
-# -- the rough line -------------------------------------------------------------------------------------------------
+# -- the rough line --------------------------------------------------------------------------------
 
 
 def drafted(network: Network, lane_path: LanePath) -> Draft:
@@ -173,7 +173,7 @@ def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
     return points[:, kept], corridor[kept]
 
 
-# -- the smooth line ------------------------------------------------------------------------------------------------
+# -- the smooth line -------------------------------------------------------------------------------
 
 
 def smooth(draft: Draft) -> np.ndarray:
@@ -248,7 +248,7 @@ def speeds(
     return speed
 
 
-# -- on the path ----------------------------------------------------------------------------------------------------
+# -- on the path -----------------------------------------------------------------------------------
 
 
 @compiled

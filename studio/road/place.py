@@ -59,6 +59,7 @@ def load(
 
 
 def name_of(path: Path) -> str:
+    """The map's name: its file without endings."""
     return path.name.split(".osm")[0]
 
 
@@ -102,14 +103,16 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, prog
 
 
 def linked(connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:
+    """The connections with the signal that each starts at."""
     link = {lane: number for number, lane in enumerate(lights.link_lane.tolist())}
     return tuple(replace(connection, link=link.get(connection.from_lane, -1)) for connection in connections)
 
 
-# -- kept on disk ---------------------------------------------------------------------------------------------------
+# -- kept on disk ----------------------------------------------------------------------------------
 
 
 def kept_at(digest: str) -> Path:
+    """The file that keeps the network of this digest."""
     return cache_root() / "maps" / f"{digest}.pickle"
 
 

@@ -54,6 +54,7 @@ def arms(network: Network) -> Arms:
 
 
 def bearing(network: Network, road: str, end: int) -> float:
+    """Direction from the map's centre to the start (0) or end (-1) of a road [rad]."""
     x, y = network.lanes_of(road)[0].centre[:, end]
     return float(np.arctan2(y, x) % (2.0 * np.pi))
 
@@ -90,6 +91,7 @@ def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = 
 
 
 def check(network: Network, roads: Sequence[str], start_lane: int | None) -> None:
+    """Refuses roads and lanes that are not on the map."""
     known = [road.id for road in network.roads.values() if not road.internal]
     if not roads:
         raise RouteError("a route needs at least one road")
@@ -158,6 +160,7 @@ def changes(network: Network, lane: Lane) -> list[tuple[float, tuple[int, ...]]]
 
 
 def no_way(network: Network, roads: tuple[str, ...], reached: int) -> RouteError:
+    """The error that names the pair of roads without a way, and where one can go instead."""
     start, end = roads[reached - 1], roads[reached]
     exits = onward(network)
     following = {network.lanes[c.to_lane].road for lane in network.roads[start].lanes for c in exits[lane]}

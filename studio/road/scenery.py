@@ -33,6 +33,7 @@ def scenery(found: Survey, box: Box) -> Scenery:
 
 
 def polygon(shape: Shape, box: Box) -> shapely.Geometry:
+    """A mapped shape in local metres, mended if its ring crosses itself."""
     rings = [box.local(*np.array(ring).T[::-1]).T for ring in shape.rings]
     form = (
         shapely.Polygon(rings[0], [ring for ring in rings[1:] if len(ring) > 3])
@@ -61,10 +62,11 @@ def rings(form: shapely.Polygon) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
     return ring(form.exterior.coords), tuple(ring(hole.coords) for hole in form.interiors)
 
 
-# -- buildings ------------------------------------------------------------------------------------------------------
+# -- buildings -------------------------------------------------------------------------------------
 
 
 def buildings(shapes, bounds) -> Iterator[Building]:
+    """What is drawn of buildings and their parts."""
     parts = [(shape, form) for shape, form in shapes if area_kind(shape.tags) == "part"]
     tree = shapely.STRtree([form for _, form in parts])
     for shape, form in shapes:
@@ -81,6 +83,7 @@ def is_told_by_parts(form: shapely.Geometry, tree: shapely.STRtree) -> bool:
 
 
 def prisms(shape: Shape, form: shapely.Geometry) -> Iterator[Building]:
+    """The solids of one mapped building or part."""
     height, base = extent(shape.tags)
     for one in polygons(form):
         outline, holes = rings(one)
@@ -108,6 +111,7 @@ def metres(text: str) -> float:
 
 
 def levels(text: str) -> float:
+    """Height of a mapped number of floors [m]."""
     return metres(text) * LEVEL
 
 
@@ -121,10 +125,11 @@ def colour(tags: dict[str, str]) -> str:
     return COLOURS.get(text, "")
 
 
-# -- ground ---------------------------------------------------------------------------------------------------------
+# -- ground ----------------------------------------------------------------------------------------
 
 
 def areas(shapes, bounds) -> Iterator[Area]:
+    """Green and water, cut at the bounds."""
     for shape, form in shapes:
         kind = area_kind(shape.tags)
         if kind in ("green", "water"):
@@ -133,6 +138,7 @@ def areas(shapes, bounds) -> Iterator[Area]:
 
 
 def trees(found: Survey, box: Box) -> np.ndarray:
+    """Positions of the trees within the box, float64[2, n]."""
     if not found.trees:
         return np.empty((2, 0))
     x0, y0, x1, y1 = box.bounds()

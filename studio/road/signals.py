@@ -103,10 +103,11 @@ def signals(lanes, roads, connections, signalled: frozenset[int]) -> Signals:
     return arrays(approaches, against, phases, offsets(approaches, phases), cycle, lanes)
 
 
-# -- who goes where -------------------------------------------------------------------------------------------------
+# -- who goes where --------------------------------------------------------------------------------
 
 
 def approaches_of(lanes, roads, connections, signalled: frozenset[int]) -> dict[str, Approach]:
+    """The approaches by road id, in order."""
     onward = defaultdict(list)
     for connection in connections:
         onward[connection.from_lane].append(connection)
@@ -164,7 +165,7 @@ def crossings(lanes) -> dict[int, set[int]]:
     return crossed
 
 
-# -- when they go ---------------------------------------------------------------------------------------------------
+# -- when they go ----------------------------------------------------------------------------------
 
 
 def plan(approaches: dict[str, Approach], against: dict[str, set[str]]) -> tuple[dict[str, Phase], float]:
@@ -239,14 +240,16 @@ def offsets(approaches: dict[str, Approach], phases: dict[str, Phase]) -> dict[i
 
 
 def reaches_out(wave, phases: dict[str, Phase], offset: dict[int, float]) -> bool:
+    """Whether a wave leads from a programme with an offset to one without."""
     _, _, start, end = wave
     return phases[start].programme in offset and phases[end].programme not in offset
 
 
-# -- as arrays ------------------------------------------------------------------------------------------------------
+# -- as arrays -------------------------------------------------------------------------------------
 
 
 def arrays(approaches, against, phases, offset, cycle: float, lanes) -> Signals:
+    """The programmes as the arrays that the simulation reads."""
     links = [(road, lane) for road, approach in approaches.items() for lane in approach.lanes]
     ends = np.array([lanes[lane].centre[:, -1] for _, lane in links]).reshape(-1, 2).T
     steps = (

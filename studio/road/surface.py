@@ -64,6 +64,7 @@ def flat(form: shapely.Geometry, z: float, *, up: bool = True) -> Mesh:
 
 
 def triangulated(polygon: shapely.Polygon, z: float) -> Mesh:
+    """A polygon as triangles at height z [m]."""
     rings = [np.array(ring.coords)[:-1, :2] for ring in (polygon.exterior, *polygon.interiors)]
     points = np.concatenate(rings)
     ends = np.cumsum([len(ring) for ring in rings]).astype(np.uint32)
@@ -73,6 +74,7 @@ def triangulated(polygon: shapely.Polygon, z: float) -> Mesh:
 
 
 def facing_up(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """The triangles with their corners counter-clockwise seen from above."""
     a, b, c = points[faces[:, 0]], points[faces[:, 1]], points[faces[:, 2]]
     ab, ac = b - a, c - a
     clockwise = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] < 0.0
@@ -80,7 +82,7 @@ def facing_up(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return faces
 
 
-# -- road -----------------------------------------------------------------------------------------------------------
+# -- road ------------------------------------------------------------------------------------------
 
 
 def road_form(network: Network) -> shapely.Geometry:
@@ -98,12 +100,14 @@ def without_slits(polygon: shapely.Polygon) -> shapely.Polygon:
 
 
 def junction_form(network: Network) -> shapely.Geometry:
+    """The ground of all junctions."""
     return shapely.union_all(
         [shapely.make_valid(shapely.Polygon(junction.T)) for junction in network.junctions]
     )
 
 
 def strip(centre: np.ndarray, width: float) -> shapely.Geometry:
+    """A band of this width [m] along a line."""
     return shapely.LineString(centre.T).buffer(
         width / 2.0, cap_style="flat", join_style="mitre", mitre_limit=2.0
     )
@@ -131,6 +135,7 @@ def beside(lane: Lane, offset: float) -> shapely.LineString:
 
 
 def road_lines(network: Network, road: str) -> Iterator[shapely.Geometry]:
+    """The dashes between the lanes of a road."""
     for lane in network.lanes_of(road)[:-1]:
         yield from dashes(beside(lane, lane.width / 2.0))
 
@@ -161,6 +166,7 @@ def edge_lines(network: Network, form: shapely.Geometry) -> shapely.Geometry:
 
 
 def loose_ends(network: Network) -> Iterator[list[shapely.Geometry]]:
+    """Bars over the ends of lanes where the map is cut."""
     fed = {connection.to_lane for connection in network.connections}
     feeding = {connection.from_lane for connection in network.connections}
     for lane in network.lanes:
@@ -191,7 +197,7 @@ def stop_line(network: Network, link: int) -> shapely.Geometry:
     return strip(np.column_stack([middle - left, middle + left]), STOP_LINE_WIDTH)
 
 
-# -- buildings ------------------------------------------------------------------------------------------------------
+# -- buildings -------------------------------------------------------------------------------------
 
 
 def building_mesh(network: Network) -> Mesh:
@@ -209,10 +215,12 @@ def building_meshes(network: Network) -> dict[str, Mesh]:
 
 
 def footprint(building: Building) -> shapely.Polygon:
+    """The ground that a building stands on, or hangs over."""
     return shapely.Polygon(building.outline.T, [hole.T for hole in building.holes])
 
 
 def solid(building: Building) -> Mesh:
+    """One building: roof, walls, and an underside where it hangs in the air."""
     roof = flat(footprint(building), building.height)
     floor = [flat(footprint(building), building.base, up=False)] if building.base > 0.0 else []
     sides = [walls(ring, building.base, building.height) for ring in (building.outline, *building.holes)]
@@ -259,7 +267,7 @@ def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, flo
     return shapely.union_all([*ends, *(quad for quad in swept if quad.area > 0.0)])
 
 
-# -- ground ---------------------------------------------------------------------------------------------------------
+# -- ground ----------------------------------------------------------------------------------------
 
 
 def ground_mesh(network: Network) -> Mesh:
@@ -276,6 +284,7 @@ def area_meshes(network: Network) -> dict[str, Mesh]:
 
 
 def area_form(network: Network, kind: str) -> shapely.Geometry:
+    """All areas of a kind as one shape."""
     areas = [area for area in network.scenery.areas if area.kind == kind]
     return shapely.union_all(
         [shapely.Polygon(area.outline.T, [hole.T for hole in area.holes]) for area in areas]

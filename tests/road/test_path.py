@@ -101,7 +101,7 @@ def test_stations_tell_the_roads_in_order(place, routes, paths):
         assert starts[0] == pytest.approx(0.0, abs=1e-6) and starts == sorted(starts)
 
 
-# -- closed forms -----------------------------------------------------------------------------------------------------
+# -- closed forms ----------------------------------------------------------------------------------
 
 
 def test_a_straight_lane_is_a_straight_path(straight):
@@ -165,7 +165,7 @@ def test_smoothing_leaves_straight_lines_and_keeps_the_corridor():
     ) == pytest.approx(line)
 
 
-# -- on the path ------------------------------------------------------------------------------------------------------
+# -- on the path -----------------------------------------------------------------------------------
 
 
 @given(st.floats(1.0, 220.0), st.floats(-3.0, 3.0), st.floats(-4.5, 4.5), st.sampled_from([0, 37]))
