@@ -16,6 +16,8 @@
   document.hasFocus = () => true;
 
   const VEHICLES = "/vehicles/shadows"; // instance i is vehicle i
+  // flat layers carry their light in their colours
+  const LEVEL = ["/city/ground", "/city/green", "/city/water", "/city/road", "/city/markings"];
   const HIDDEN_BELOW = -100;
   const CHASE = { distance: 13, polar: 1.28, height: 1.1 };
   const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
@@ -159,6 +161,7 @@
     scene.traverse((object) => {
       if (object.isLight) dim(object);
     });
+    for (const layer of LEVEL) client().nodeRefFromName[layer]?.traverse((object) => object.material?.color.setScalar(daylight()));
     if (scene.fog) tint(scene.fog);
     client().requestRender?.();
   }
@@ -169,9 +172,11 @@
     material.color.setRGB(...(view.dark ? [0.05, 0.075, 0.13] : [1, 1, 1]));
   }
 
+  const daylight = () => (view.dark ? 0.34 : 1);
+
   function dim(light) {
     light.userData.day ??= light.intensity;
-    light.intensity = light.userData.day * (view.dark ? 0.34 : 1);
+    light.intensity = light.userData.day * daylight();
   }
 
   function tint(fog) {

@@ -100,7 +100,7 @@ def upward(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 
 def facade(*, size: int = 64) -> bytes:
-    """A PNG of one bay of one floor: a window in its frame, a sill, a storey line; white where the wall's colour shows."""
+    """A PNG of one bay of one floor: a window with frame and sill; white where the wall's colour shows."""
     u, v = np.meshgrid((np.arange(size) + 0.5) / size, 1.0 - (np.arange(size) + 0.5) / size)
     image = np.full((size, size, 3), 250, np.uint8)
     image[v < 0.035] = 216

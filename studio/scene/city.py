@@ -1,4 +1,4 @@
-"""A map as a city: ground, green and water, streets with their markings, buildings, trees, masts, and one shadow."""
+"""A map as a city: ground, green, water, streets and markings, buildings, trees, masts, and shadows."""
 
 from dataclasses import dataclass
 
@@ -6,10 +6,10 @@ import numpy as np
 
 from studio.road import surface as roads
 from studio.road.network import Network
-from studio.scene import building, signal, tree
+from studio.scene import building, signal
 from studio.scene.colour import linear
 from studio.scene.glb import Material, glb
-from studio.scene.light import SKY_RADIUS, SUN
+from studio.scene.light import SKY_RADIUS, SUN, on_level_ground
 from studio.scene.shape import Surface, surface
 
 # Flat layers lie some centimetres apart, so that they do not flicker through each other from afar [m].
@@ -36,9 +36,9 @@ class Layer:
 def layers(network: Network) -> list[Layer]:
     """Everything of the city that never moves, from the ground up."""
     return [
-        Layer("ground", glb(ground(), Material(roughness=1.0)), GROUND),
+        Layer("ground", glb(ground(), Material(unlit=True)), GROUND),
         *_areas(network),
-        _flat("road", roads.road_mesh(network), ROAD, roughness=0.92),
+        _flat("road", roads.road_mesh(network), ROAD),
         _flat("markings", roads.marking_mesh(network), MARKING),
         *_buildings(network),
         *_masts(network),
@@ -56,12 +56,12 @@ def ground(*, radius: float = SKY_RADIUS) -> Surface:
     after = (here + 1) % 48
     faces = [np.stack([i + here, o + here, o + after], 1) for i, o in ((0, 48), (48, 96))]
     faces.append(np.stack([48 + here, 96 + after, 48 + after], 1))
-    return surface(vertices, np.concatenate(faces), COLOURS["ground"])
+    return surface(vertices, np.concatenate(faces), on_level_ground(COLOURS["ground"]))
 
 
-def _flat(name: str, mesh, height: float, *, roughness: float = 1.0) -> Layer:
-    flat = surface(_level(mesh.vertices), mesh.faces, COLOURS[name])
-    return Layer(name, glb(flat, Material(roughness=roughness)), height)
+def _flat(name: str, mesh: roads.Mesh, height: float) -> Layer:
+    flat = surface(_level(mesh.vertices), mesh.faces, on_level_ground(COLOURS[name]))
+    return Layer(name, glb(flat, Material(unlit=True)), height)
 
 
 def _level(vertices: np.ndarray) -> np.ndarray:
@@ -100,13 +100,3 @@ def _masts(network: Network) -> list[Layer]:
     if len(network.signals) == 0:
         return []
     return [Layer("masts", glb(signal.masts(network), Material(roughness=0.6)))]
-
-
-def tree_mesh() -> bytes:
-    """One tree, to be shown many times."""
-    return glb(tree.tree(), Material(roughness=1.0))
-
-
-def tree_shadow() -> bytes:
-    """The shadow of one tree."""
-    return glb(tree.shadow(), Material(unlit=True, blend=True))

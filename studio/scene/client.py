@@ -1,4 +1,4 @@
-"""The viser client as the studio serves it: viser's own single file with our style and our bridge in its head."""
+"""The viser client as the studio serves it: viser's own file with our style and bridge in its head."""
 
 from functools import cache
 from pathlib import Path

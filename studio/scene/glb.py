@@ -1,4 +1,4 @@
-"""Surfaces as binary glTF 2.0, the one format in which viser lets a mesh have a gloss and a colour per vertex."""
+"""Surfaces as binary glTF 2.0: the way to give viser a mesh with gloss and a colour per vertex."""
 
 import json
 import struct
@@ -15,7 +15,7 @@ VERTICES, INDICES = 34962, 34963
 
 @dataclass(frozen=True)
 class Material:
-    """How a surface takes the light: roughness 0 (mirror) .. 1 (chalk); unlit shows its colours as they are."""
+    """How a surface takes light: roughness 0 (mirror) .. 1 (chalk); unlit shows its colours as they are."""
 
     roughness: float = 1.0
     unlit: bool = False

@@ -1,4 +1,4 @@
-"""Light and sky: one sun, an even sky light and haze; no environment map, so that the shading is plain and quick."""
+"""Light and sky: one sun, the light of the sky, haze; no environment map: the shading is plain and quick."""
 
 import numpy as np
 import viser
@@ -12,6 +12,8 @@ from studio.scene.shape import surface as painted
 # direction towards the sun, unit vector in the local east-north-up frame
 SUN = -np.array(surface.SUN) / np.linalg.norm(surface.SUN)
 
+SUNLIGHT, SUN_STRENGTH = "#fff0d8", 2.8
+SKYLIGHT, GROUNDLIGHT, SKY_STRENGTH = "#dbe8f7", "#77705f", 2.1
 HAZE = "#c3d4e2"
 HAZE_NEAR, HAZE_FAR = 350.0, 2600.0
 SKY_RADIUS = 3000.0
@@ -36,13 +38,22 @@ def light(server: viser.ViserServer) -> None:
     # a hemisphere light shines from its position: at the origin it would have no direction
     up = {"position": (0.0, 0.0, 100.0)}
     scene.add_light_hemisphere(
-        "/light/sky", sky_color=rgb8("#dbe8f7"), ground_color=rgb8("#77705f"), intensity=2.1, **up
+        "/light/sky", sky_color=rgb8(SKYLIGHT), ground_color=rgb8(GROUNDLIGHT), intensity=SKY_STRENGTH, **up
     )
     scene.add_light_directional(
-        "/light/sun", color=rgb8("#fff0d8"), intensity=2.8, position=tuple(SUN * 500.0)
+        "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
     )
     scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
     scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
+
+
+def on_level_ground(colour: str) -> np.ndarray:
+    """What a matt, level surface of this colour sends to the eye, linear: Lambert's law for sun and sky.
+
+    The ground fills most of the picture, and all of it is lit alike: computed once here, not for every pixel.
+    """
+    sun = linear(SUNLIGHT) * SUN_STRENGTH * SUN[2]
+    return linear(colour) * (sun + linear(SKYLIGHT) * SKY_STRENGTH) / np.pi
 
 
 def sky(*, radius: float = SKY_RADIUS) -> Surface:

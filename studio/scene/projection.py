@@ -10,7 +10,7 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
-from studio.scene.light import SKY_RADIUS, SUN, light
+from studio.scene.light import SKY_RADIUS, light
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
@@ -42,7 +42,7 @@ class Scene:
         with self._lock, self._server.atomic():
             self._clear_city()
             self._city = [self._add(layer) for layer in layers]
-            self._city += self._add_trees(network)
+            self._city += tree.plant(self._server, network, foot=city.GREEN, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._look_at(reach=_reach(network))
 
@@ -57,26 +57,6 @@ class Scene:
         return self._server.scene.add_glb(
             f"/city/{layer.name}", layer.data, position=place, cast_shadow=False, receive_shadow=False
         )
-
-    def _add_trees(self, network: Network) -> list[viser.SceneNodeHandle]:
-        spots = tree.places(network)
-        if spots.shape[1] == 0:
-            return []
-        scales, turns = tree.sizes(spots.shape[1])
-        options = {"batched_scales": scales, "lod": "off", "cast_shadow": False, "receive_shadow": False}
-        add = self._server.scene.add_batched_glb
-        # the crown's middle is some 5.5 m up, and its shadow lies where the sun throws it
-        thrown = spots.T - 5.5 * scales[:, 2:] * SUN[:2] / SUN[2]
-        return [
-            add("/city/trees", city.tree_mesh(), turns, _lifted(spots.T, city.GREEN), **options),
-            add(
-                "/city/tree_shadows",
-                city.tree_shadow(),
-                _still(len(turns)),
-                _lifted(thrown, city.TREE_SHADOW),
-                **options,
-            ),
-        ]
 
     def _look_at(self, *, reach: float) -> None:
         """The overview: from the south, high enough to see the whole."""
@@ -122,14 +102,6 @@ def _free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
-
-
-def _lifted(spots: np.ndarray, height: float) -> np.ndarray:
-    return np.column_stack([spots, np.full(len(spots), height)]).astype(np.float32)
-
-
-def _still(count: int) -> np.ndarray:
-    return np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (count, 1))
 
 
 def _reach(network: Network) -> float:

@@ -1,7 +1,7 @@
 """Surfaces: triangles with a colour at every vertex, and the few ways in which we make them.
 
-Vertices are shared where the surface is smooth and doubled where it has an edge, because the renderer computes
-a vertex normal as the mean of the faces that share the vertex.
+Vertices are shared where the surface is smooth and doubled where it has an edge, because the renderer
+computes a vertex normal as the mean of the faces that share the vertex.
 """
 
 from collections.abc import Iterable, Sequence
@@ -14,7 +14,7 @@ from studio.scene.colour import linear
 
 @dataclass(frozen=True)
 class Surface:
-    """Triangles: vertices float32[n, 3] [m], faces uint32[m, 3], colors float32[n, 3 or 4] (linear light, opacity)."""
+    """Triangles: vertices float32[n, 3] [m], faces uint32[m, 3], colors float32[n, 3 | 4] (linear, alpha)."""
 
     vertices: np.ndarray
     faces: np.ndarray
@@ -75,10 +75,10 @@ def edged(mesh: Surface) -> Surface:
 
 
 def grid(points: np.ndarray, kinds: np.ndarray, palette: Sequence[str]) -> Surface:
-    """A net of quads through points [rows, columns, 3]; kinds [rows-1, columns-1] picks each quad's colour.
+    """A net of quads through points [rows, columns, 3]; kinds [rows-1, columns-1] picks the colours.
 
-    Smooth among neighbours of one kind, a hard edge between two kinds. Outside is where columns turn into rows
-    by the right-hand rule.
+    Smooth among neighbours of one kind, a hard edge between two kinds. Outside is where columns turn into
+    rows by the right-hand rule.
     """
     rows, columns = points.shape[:2]
     corner = np.arange(rows * columns).reshape(rows, columns)

@@ -1,4 +1,4 @@
-"""Traffic lights: a mast at the kerb of every approach, an arm with a head above every lane, and the lit lamps."""
+"""Traffic lights: a mast at the kerb of every approach, a head above every lane, and the lit lamps."""
 
 from collections import defaultdict
 

@@ -2,14 +2,19 @@
 
 import numpy as np
 import shapely
+import viser
 
 from studio.road.network import Network
 from studio.scene.colour import linear
+from studio.scene.glb import Material, glb
+from studio.scene.light import SUN
 from studio.scene.shape import Surface, ball, cylinder, joined, surface
 
 MOST = 2000
 SPACING = 9.0  # [m] at the closest
 CLEARANCE = 3.5  # [m] from the edge of a lane to a trunk
+CROWN_HEIGHT = 5.5  # [m] of the middle of the crown, whose shadow falls
+FAR = ((90.0, 0.35),)  # beyond 90 m, a third of the triangles will do
 TRUNK, CROWN, CROWN_TOP = "#6b5846", "#5f7f47", "#77965a"
 
 
@@ -21,7 +26,7 @@ def tree() -> Surface:
 
 
 def shadow(*, darkness: float = 0.34) -> Surface:
-    """The shadow of the crown, a soft round patch in the plane z = 0 about the tree's foot, thrown by the sun."""
+    """The shadow of a crown: a soft round patch in the plane z = 0."""
     angle = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
     rings = [np.column_stack([r * np.cos(angle), r * np.sin(angle), 0 * angle]) for r in (1.5, 2.9)]
     here = np.arange(16)
@@ -89,3 +94,27 @@ def sizes(count: int) -> tuple[np.ndarray, np.ndarray]:
     half = chance.uniform(0.0, np.pi, count)
     turns = np.stack([np.cos(half), 0 * half, 0 * half, np.sin(half)], axis=1)
     return scale.astype(np.float32), turns.astype(np.float32)
+
+
+def plant(
+    server: viser.ViserServer, network: Network, *, foot: float, shade: float
+) -> list[viser.SceneNodeHandle]:
+    """Put the trees of a network and their shadows on the server, at the heights `foot` and `shade` [m]."""
+    spots = places(network).T
+    if len(spots) == 0:
+        return []
+    scales, turns = sizes(len(spots))
+    thrown = spots - CROWN_HEIGHT * scales[:, 2:] * SUN[:2] / SUN[2]
+    crowns = glb(tree(), Material())
+    patches = glb(shadow(), Material(unlit=True, blend=True))
+    level = np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (len(spots), 1))
+    options = {"batched_scales": scales, "cast_shadow": False, "receive_shadow": False}
+    add = server.scene.add_batched_glb
+    return [
+        add("/city/trees", crowns, turns, _at_height(spots, foot), lod=FAR, **options),
+        add("/city/tree_shadows", patches, level, _at_height(thrown, shade), lod="off", **options),
+    ]
+
+
+def _at_height(spots: np.ndarray, height: float) -> np.ndarray:
+    return np.column_stack([spots, np.full(len(spots), height)]).astype(np.float32)

@@ -1,4 +1,4 @@
-"""Procedural cars: a body lofted from cross-sections, wheels turned on a lathe, and the soft shadow below.
+"""Procedural cars: a body lofted from sections, wheels turned on a lathe, and the soft shadow below.
 
 Everything is made from Dimensions; there are no asset files. The origin lies on the road below the vehicle's
 reference point, x forward, y left, z up (ISO 8855).
@@ -14,7 +14,7 @@ from studio.scene.shape import Surface, ball, box, fan, grid, joined, lathe, sur
 
 @dataclass(frozen=True)
 class Dimensions:
-    """Outer dimensions of a car [m]; front_axle is the distance from the reference point to the front axle."""
+    """Outer dimensions of a car [m]; front_axle: how far the front axle is from the reference point."""
 
     length: float = 4.30
     width: float = 1.80
@@ -27,7 +27,7 @@ class Dimensions:
 
     @property
     def centre(self) -> float:
-        """x of the middle of the body [m]; the overhang in front of the axle is a little shorter than behind it."""
+        """x of the middle of the body [m]; cars reach a little less far before the axles than behind."""
         overhang = self.length - self.wheelbase
         return self.front_axle + 0.49 * overhang - self.length / 2.0
 
@@ -40,11 +40,11 @@ class Dimensions:
 # what a quad of the body is made of
 PAINT, TRIM, GLASS, HEADLIGHT, TAILLIGHT, GRILLE, PLATE = range(7)
 GLASS_COLOUR = "#1a232c"
-PARTS = ["", "#15171a", GLASS_COLOUR, "#eef3f6", "#a80d12", "#0c0d0f", "#e8e8e2"]
+PARTS = ["", "#15171a", GLASS_COLOUR, "#eef3f6", "#c8101a", "#0c0d0f", "#e8e8e2"]
 TYRE, RIM, GAP = range(3)
 WHEEL_COLOURS = ["#17181a", "#b9bec4", "#2a2c2f"]
 
-# The outline of the reference car (1.45 m high, 1.80 m wide) over the share of the length, 0 = rear, 1 = front.
+# The outline of the reference car (1.45 m high, 1.80 m wide) over the share of its length from the rear.
 # Drawn by eye to look like a compact hatchback: height of the deck (boot, sill of the windows, bonnet) [m],
 # height of the underside [m], and half width as a share of half the width.
 DECK = PchipInterpolator(
@@ -70,6 +70,15 @@ ROOF = PchipInterpolator(
 CABIN_WIDTH = PchipInterpolator([0.055, 0.16, 0.35, 0.6, 0.745], [0.80, 0.90, 0.935, 0.925, 0.82])
 TUMBLEHOME = 0.42
 
+# where the sections of the hull are: share of the length, and around a wheel arch the share of its radius
+TAIL = np.array([0.0, 0.003, 0.008, 0.016, 0.03, 0.05, 0.08, 0.12])
+NOSE = np.array([0.9, 0.93, 0.945, 0.958, 0.97, 0.979, 0.987, 0.993, 0.997, 1.0])
+STATIONS = np.concatenate([TAIL, np.array([0.3, 0.4, 0.5, 0.6, 0.7, 0.745, 0.78]), NOSE])
+REACH = np.array([0.0, 0.2, 0.4, 0.6, 0.78, 0.9, 0.97, 1.0, 1.004])
+REAR_WINDOW = np.array([0.055, 0.07, 0.085, 0.12, 0.155, 0.175])
+SIDES = np.array([0.20, 0.235, 0.28, 0.34, 0.405, 0.42, 0.48, 0.53, 0.56])
+WINDSCREEN = np.array([0.58, 0.62, 0.66, 0.70, 0.725, 0.735, 0.745])
+CABIN_STATIONS = np.concatenate([REAR_WINDOW, SIDES, WINDSCREEN])
 LEVELS = np.array([0.0, 0.14, 0.34, 0.54, 0.70, 0.86, 1.0])
 REFERENCE_HEIGHT = 1.45
 
@@ -99,50 +108,9 @@ def _share(size: Dimensions, x: float) -> float:
 
 
 def _hull_stations(size: Dimensions) -> np.ndarray:
-    shape = [
-        0.0,
-        0.003,
-        0.008,
-        0.016,
-        0.03,
-        0.05,
-        0.08,
-        0.12,
-        0.3,
-        0.4,
-        0.5,
-        0.6,
-        0.7,
-        0.745,
-        0.78,
-        0.9,
-        0.93,
-    ]
-    nose = [0.945, 0.958, 0.97, 0.979, 0.987, 0.993, 0.997, 1.0]
-    arches = [
-        _share(size, axle) + reach * _arch(size) / size.length
-        for axle in size.axles
-        for reach in (
-            -1.004,
-            -1.0,
-            -0.97,
-            -0.9,
-            -0.78,
-            -0.6,
-            -0.4,
-            -0.2,
-            0.0,
-            0.2,
-            0.4,
-            0.6,
-            0.78,
-            0.9,
-            0.97,
-            1.0,
-            1.004,
-        )
-    ]
-    stations = np.unique(np.round([*shape, *nose, *arches], 5))
+    reach = REACH * _arch(size) / size.length
+    arches = [_share(size, axle) + side * reach for axle in size.axles for side in (-1.0, 1.0)]
+    stations = np.unique(np.round(np.concatenate([STATIONS, *arches]), 5))
     return stations[(stations >= 0.0) & (stations <= 1.0)]
 
 
@@ -173,7 +141,7 @@ def _hull_ring(size: Dimensions, s: float) -> np.ndarray:
     side = np.concatenate(
         [
             [[0.0, low], [0.5 * y[0], low], [0.94 * y[0], low]],
-            np.stack([y, z], 1)[:],
+            np.stack([y, z], 1),
             np.stack([edge * top[:, 0], deck + rounding * (top[:, 1] - 1.0)], 1),
         ]
     )
@@ -181,7 +149,7 @@ def _hull_ring(size: Dimensions, s: float) -> np.ndarray:
 
 
 def _mirrored_ring(x: float, side: np.ndarray) -> np.ndarray:
-    """A closed ring from the left half of a section (y, z), from the bottom up and down again on the right."""
+    """A closed ring from the left half of a section (y, z): up on the left, down on the right."""
     right = side[-2:0:-1] * [-1.0, 1.0]
     section = np.concatenate([side, right, side[:1]])
     return np.column_stack([np.full(len(section), x), section])
@@ -205,35 +173,10 @@ def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
 
 
 def cabin(size: Dimensions, palette: list[str]) -> Surface:
-    """The part above the window line: windscreen, side and rear windows in glass, pillars and roof in paint."""
-    stations = np.array(
-        [
-            0.055,
-            0.07,
-            0.085,
-            0.12,
-            0.155,
-            0.175,
-            0.20,
-            0.235,
-            0.28,
-            0.34,
-            0.405,
-            0.42,
-            0.48,
-            0.53,
-            0.56,
-            0.58,
-            0.62,
-            0.66,
-            0.70,
-            0.725,
-            0.735,
-            0.745,
-        ]
-    )
-    rings = np.stack([_cabin_ring(size, s) for s in stations])
-    return joined([grid(rings, _cabin_kinds(stations, rings.shape[1]), palette), *_lids(rings, palette)])
+    """The part above the window line: windows in glass, pillars and roof in paint."""
+    rings = np.stack([_cabin_ring(size, s) for s in CABIN_STATIONS])
+    kinds = _cabin_kinds(CABIN_STATIONS, rings.shape[1])
+    return joined([grid(rings, kinds, palette), *_lids(rings, palette)])
 
 
 def _cabin_ring(size: Dimensions, s: float) -> np.ndarray:
@@ -247,7 +190,7 @@ def _cabin_ring(size: Dimensions, s: float) -> np.ndarray:
     wall = np.stack([base - TUMBLEHOME * (levels - sill), levels], 1)
     top = np.array(
         [
-            [edge + 0.012, roof - 0.75 * bow],
+            [edge + 0.012 * min(1.0, 4.0 * rise), roof - 0.75 * bow],
             [edge - 0.03, roof - 0.30 * bow],
             [edge - 0.10, roof],
             [0.55 * edge, roof + 0.4 * bow],
@@ -263,21 +206,26 @@ def _cabin_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
     side = ((middle > 0.20) & (middle < 0.405)) | ((middle > 0.42) & (middle < 0.62))
     kinds[side, 2] = GLASS
     ends = ((middle > 0.07) & (middle < 0.155)) | ((middle > 0.58) & (middle < 0.735))
-    kinds[np.ix_(ends, [5, 6, 7][: kinds.shape[1] - 5])] = GLASS
+    kinds[ends, 5:] = GLASS
     return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
 
 
 def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
-    """Mirrors, number plates, and the dark openings at the front and the rear."""
+    """Mirrors, rear lamps, number plates, and the dark openings at the front and the rear."""
     x = 0.16 * size.length
     mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(
-        x=x, y=0.5 * size.width + 0.06, z=0.675 * size.height
+        x=x, y=0.5 * size.width + 0.015, z=0.68 * size.height
+    )
+    lamp = box((0.03, 0.30, 0.10), palette[TAILLIGHT]).moved(
+        x=-0.494 * size.length, y=0.29 * size.width, z=0.47 * size.height
     )
     plate = box((0.02, 0.52, 0.11), palette[PLATE])
     front, rear = 0.5 * size.length + 0.002, -0.5 * size.length - 0.004
     return [
         mirror,
         mirror.mirrored(),
+        lamp,
+        lamp.mirrored(),
         plate.moved(x=front + 0.008, z=0.325 * size.height),
         box((0.02, 0.98, 0.075), palette[GRILLE]).moved(x=front - 0.004, z=0.258 * size.height),
         box((0.02, 0.80, 0.035), palette[GRILLE]).moved(x=front - 0.004, z=0.376 * size.height),
@@ -287,7 +235,7 @@ def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
 
 
 def wheel(size: Dimensions) -> Surface:
-    """A wheel about its own centre, axle along y: tyre with round shoulders and a five-spoked rim on both sides."""
+    """A wheel about its own centre, axle along y: a tyre with round shoulders, five spokes on both sides."""
     r, b = size.wheel_radius, size.wheel_width / 2.0
     half = [
         (0.0, 0.72 * b),

@@ -140,7 +140,7 @@ def test_another_city_takes_the_place_of_the_first(town):
 def test_an_update_of_25_vehicles_is_quick(scene):
     where = poses()
     took = []
-    for step in range(200):
+    for _ in range(200):
         where[pose.X] += 0.1
         start = time.perf_counter()
         scene.update(where)
