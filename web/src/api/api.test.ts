@@ -1,40 +1,44 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { get, post, Refusal, Unreachable } from "./client";
+import { answer, client, Refusal, Unreachable } from "./client";
 import { Feed, type LiveState, reduce } from "./live";
 
 afterEach(() => vi.unstubAllGlobals());
-const answer = (status: number, body: unknown) => vi.stubGlobal("fetch", vi.fn(async () => new Response(JSON.stringify(body), { status })));
+const stub = (status: number, body: unknown) => vi.stubGlobal("fetch", vi.fn(async () => new Response(JSON.stringify(body), { status })));
+
+const info = () => answer<unknown>(client.GET("/api/info"));
+const start = () => answer<unknown>(client.POST("/api/live", { body: { scenario: "a", set: {}, pace: 1, paused: false } }));
 
 describe("requests", () => {
   it("give back what the server says", async () => {
-    answer(200, { version: "1" });
-    expect(await get("/api/info")).toEqual({ version: "1" });
+    stub(200, { version: "1" });
+    expect(await info()).toEqual({ version: "1" });
   });
 
   it("send JSON", async () => {
-    answer(201, { run: 3 });
-    await post("/api/live", { scenario: "a" });
-    expect(vi.mocked(fetch).mock.lastCall?.[1]).toMatchObject({ method: "POST", body: '{"scenario":"a"}' });
+    stub(201, { run: 3 });
+    await start();
+    const sent = vi.mocked(fetch).mock.lastCall?.[0] as Request;
+    expect([sent.method, new URL(sent.url).pathname, (await sent.json()).scenario]).toEqual(["POST", "/api/live", "a"]);
   });
 
   it("fail with the message and problems of a refusal", async () => {
     const problem = { where: "radio.delay", what: "is too large", value: "7", allowed: "", remedy: "" };
-    answer(422, { message: "No.", problems: [problem] });
-    const error = await post("/api/live").catch((caught) => caught);
+    stub(422, { message: "No.", problems: [problem] });
+    const error = await start().catch((caught) => caught);
     expect(error).toBeInstanceOf(Refusal);
     expect(error).toMatchObject({ message: "No.", problems: [problem], status: 422 });
   });
 
   it("tell by the status what has no message", async () => {
-    answer(500, "oops");
-    expect(await get("/api/info").catch((caught) => caught.message)).toBe("The server answered 500.");
+    stub(500, "oops");
+    expect(await info().catch((caught) => caught.message)).toBe("The server answered 500.");
   });
 
   it("tell a server that is gone, also behind a proxy", async () => {
     vi.stubGlobal("fetch", vi.fn(async () => Promise.reject(new TypeError("network"))));
-    expect(await get("/api/info").catch((caught) => caught)).toBeInstanceOf(Unreachable);
-    answer(502, "bad gateway");
-    expect(await get("/api/info").catch((caught) => caught)).toBeInstanceOf(Unreachable);
+    expect(await info().catch((caught) => caught)).toBeInstanceOf(Unreachable);
+    stub(502, "bad gateway");
+    expect(await info().catch((caught) => caught)).toBeInstanceOf(Unreachable);
   });
 });
 

@@ -1,6 +1,11 @@
-/** Requests to the studio server; what goes wrong comes back as one kind of error. */
+/** Requests to the studio server, typed by its own description; what goes wrong comes back as one kind of error. */
 
+import createClient from "openapi-fetch";
 import type { Problem } from "../model/run";
+import type { paths } from "./schema";
+
+/** The server's routes; wrong paths, parameters and bodies do not compile. */
+export const client = createClient<paths>({ baseUrl: location.origin, fetch: (request) => globalThis.fetch(request) });
 
 /** A refusal of the server: one sentence, and the problems it is made of. */
 export class Refusal extends Error {
@@ -22,24 +27,25 @@ export class Unreachable extends Error {
   }
 }
 
-async function request<T>(path: string, init: RequestInit): Promise<T> {
-  const response = await fetch(path, init).catch(() => {
+interface Outcome {
+  data?: unknown;
+  error?: unknown;
+  response: Response;
+}
+
+/** What the server says, as the page's type for it (checked against the server's in types.ts), or an error. */
+export async function answer<Page>(outcome: Promise<Outcome>): Promise<Page> {
+  const { data, error, response } = await outcome.catch(() => {
     throw new Unreachable();
   });
-  if (response.ok) return (await response.json()) as T;
-  throw await refusal(response);
+  if (response.ok) return data as Page;
+  throw refusal(error, response.status);
 }
 
 /** Read the error body of the contract; anything else is told by its status. */
-async function refusal(response: Response): Promise<Error> {
-  const body = await response.json().catch(() => ({}));
+function refusal(body: unknown, status: number): Error {
+  const { message, problems } = (typeof body === "object" && body !== null ? body : {}) as Partial<Refusal>;
   // A development proxy answers 502 or 504 when the server behind it is gone.
-  if (typeof body.message !== "string" && response.status >= 502) return new Unreachable();
-  const message = typeof body.message === "string" ? body.message : `The server answered ${response.status}.`;
-  return new Refusal(message, Array.isArray(body.problems) ? body.problems : [], response.status);
+  if (message === undefined && status >= 502) return new Unreachable();
+  return new Refusal(message ?? `The server answered ${status}.`, Array.isArray(problems) ? problems : [], status);
 }
-
-export const get = <T>(path: string): Promise<T> => request<T>(path, { method: "GET" });
-
-export const post = <T>(path: string, body: unknown = {}): Promise<T> =>
-  request<T>(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });

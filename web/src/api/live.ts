@@ -1,15 +1,9 @@
 /** The socket of a live run, kept open as long as somebody looks at it. */
 
 import { useEffect, useState, useSyncExternalStore } from "react";
-import { isLive, type Status } from "../model/run";
+import { isLive, type RunEvent, type Status } from "../model/run";
 import { append, noSamples, type Samples } from "../model/samples";
 import type { Pace } from "./types";
-
-export interface LiveEvent {
-  time: number;
-  text: string;
-  vehicle: string | null;
-}
 
 export interface LiveState {
   run: number;
@@ -22,7 +16,7 @@ export interface LiveState {
   error: string | null;
   /** False while the socket is being opened again. */
   connected: boolean;
-  events: LiveEvent[];
+  events: RunEvent[];
   /** Grows in place; `version` tells when. */
   samples: Samples;
   version: number;
@@ -31,7 +25,7 @@ export interface LiveState {
 type Message =
   | ({ type: "state" } & Omit<LiveState, "error" | "connected" | "events" | "samples" | "version">)
   | ({ type: "samples" } & Samples)
-  | ({ type: "event" } & LiveEvent)
+  | ({ type: "event" } & RunEvent)
   | { type: "end"; run: number; status: Status; error: string | null };
 
 const RETRY_MS = 1500;

@@ -3,26 +3,27 @@
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import type { Application } from "../model/form";
 import { type Changes, isLive, type Run, type RunDetail, type Trace } from "../model/run";
-import { get, post } from "./client";
+import { answer, client } from "./client";
 import type { Check, Comparison, Info, LiveRow, Pace, Scenario, ScenarioRow, Scene } from "./types";
 
-export const scenarios = queryOptions({ queryKey: ["scenarios"], queryFn: () => get<ScenarioRow[]>("/api/scenarios") });
+export const scenarios = queryOptions({ queryKey: ["scenarios"], queryFn: () => answer<ScenarioRow[]>(client.GET("/api/scenarios")) });
 
 export const scenario = (id: string) =>
   queryOptions({
     queryKey: ["scenario", id],
-    queryFn: () => get<Scenario>(`/api/scenarios/${encodeURIComponent(id)}`),
+    queryFn: () => answer<Scenario>(client.GET("/api/scenarios/{scenario}", { params: { path: { scenario: id } } })),
   });
 
 export const applications = queryOptions({
   queryKey: ["applications"],
-  queryFn: () => get<Application[]>("/api/applications"),
+  queryFn: () => answer<Application[]>(client.GET("/api/applications")),
 });
 
 export const check = (id: string, set: Changes) =>
   queryOptions({
     queryKey: ["check", id, set],
-    queryFn: () => post<Check>(`/api/scenarios/${encodeURIComponent(id)}/check`, { set }),
+    queryFn: () =>
+      answer<Check>(client.POST("/api/scenarios/{scenario}/check", { params: { path: { scenario: id } }, body: { set } })),
     placeholderData: keepPreviousData,
   });
 
@@ -30,7 +31,7 @@ export const check = (id: string, set: Changes) =>
 export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
   queryOptions({
     queryKey: ["runs", filter],
-    queryFn: () => get<Run[]>(`/api/runs?${query(filter)}`),
+    queryFn: () => answer<Run[]>(client.GET("/api/runs", { params: { query: filter } })),
     refetchInterval: ({ state }) => (state.data?.some(({ status }) => isLive(status)) ? 2000 : 15000),
     placeholderData: keepPreviousData,
   });
@@ -38,25 +39,28 @@ export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
 export const run = (number: number) =>
   queryOptions({
     queryKey: ["run", number],
-    queryFn: () => get<RunDetail>(`/api/runs/${number}`),
+    queryFn: () => answer<RunDetail>(client.GET("/api/runs/{run}", { params: { path: { run: number } } })),
     refetchInterval: ({ state }) => (isLive(state.data?.status) ? 2000 : false),
   });
 
 export const trace = (number: number, channels: readonly string[], points = 1000) =>
   queryOptions({
     queryKey: ["trace", number, channels, points],
-    queryFn: () => get<Trace>(`/api/runs/${number}/trace?${query({ channels: channels.join(","), points })}`),
+    queryFn: () =>
+      answer<Trace>(
+        client.GET("/api/runs/{run}/trace", { params: { path: { run: number }, query: { channels: channels.join(","), points } } }),
+      ),
     enabled: channels.length > 0,
     placeholderData: keepPreviousData,
   });
 
 export const comparison = (a: number, b: number) =>
-  queryOptions({ queryKey: ["compare", a, b], queryFn: () => get<Comparison>(`/api/compare?${query({ a, b })}`) });
+  queryOptions({ queryKey: ["compare", a, b], queryFn: () => answer<Comparison>(client.GET("/api/compare", { params: { query: { a, b } } })) });
 
 export const scene = (what: { scenario: string; set?: Changes } | { run: number }) =>
   queryOptions({
     queryKey: ["scene", what],
-    queryFn: () => post<Scene>("/api/scene", what),
+    queryFn: () => answer<Scene>(client.POST("/api/scene", { body: { set: {}, ...what } })),
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,
@@ -76,10 +80,10 @@ export interface Start {
 
 /** Start a live run. */
 export function useStart() {
-  const client = useQueryClient();
+  const kept = useQueryClient();
   return useMutation({
-    mutationFn: (start: Start) => post<LiveRow>("/api/live", start),
-    onSuccess: () => client.invalidateQueries({ queryKey: ["runs"] }),
+    mutationFn: (start: Start) => answer<LiveRow>(client.POST("/api/live", { body: { paused: false, ...start } })),
+    onSuccess: () => kept.invalidateQueries({ queryKey: ["runs"] }),
   });
 }
 
@@ -89,7 +93,7 @@ export type Order = "pause" | "resume" | "step" | "stop";
 export function useOrder() {
   return useMutation({
     mutationFn: ({ run: number, order }: { run: number; order: Order }) =>
-      post<LiveRow>(`/api/live/${number}/${order}`),
+      answer<LiveRow>(client.POST(`/api/live/{run}/${order}`, { params: { path: { run: number } } })),
   });
 }
 
@@ -97,19 +101,14 @@ export function useOrder() {
 export function usePace() {
   return useMutation({
     mutationFn: ({ run: number, pace }: { run: number; pace: Pace }) =>
-      post<LiveRow>(`/api/live/${number}/pace`, { pace }),
+      answer<LiveRow>(client.POST("/api/live/{run}/pace", { params: { path: { run: number } }, body: { pace } })),
   });
-}
-
-function query(values: Record<string, string | number | undefined>): string {
-  const given = Object.entries(values).filter(([, value]) => value !== undefined);
-  return new URLSearchParams(given.map(([key, value]) => [key, String(value)])).toString();
 }
 
 /** Asks now and then whether the server still answers. */
 export const heartbeat = queryOptions({
   queryKey: ["heartbeat"],
-  queryFn: () => get<Info>("/api/info"),
+  queryFn: () => answer<Info>(client.GET("/api/info")),
   refetchInterval: ({ state }) => (state.status === "error" ? 2000 : 10000),
   retry: false,
 });

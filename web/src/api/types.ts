@@ -1,8 +1,10 @@
 /** What the API answers besides runs and comparisons. */
 
 import type { MetricDifference, ParameterDifference } from "../model/compare";
-import type { Problem, Run, Status, Tree } from "../model/run";
+import type { Application } from "../model/form";
+import type { LiveStatus, Problem, Run, RunDetail, Trace, Tree } from "../model/run";
 import type { Schema } from "../model/schema";
+import type { components } from "./schema";
 
 export interface Info {
   version: string;
@@ -42,7 +44,7 @@ export type Pace = number | "fast";
 export interface LiveRow {
   run: number;
   scenario: string;
-  status: Status;
+  status: LiveStatus;
   time: number;
   pace: Pace;
   duration_s: number;
@@ -65,3 +67,26 @@ export interface Comparison {
   parameters: ParameterDifference[];
   metrics: MetricDifference[];
 }
+
+type Server = components["schemas"];
+
+/** True when the page's type has exactly the server's fields, each at least as narrow. */
+type Same<Page, Theirs> = Page extends Theirs ? (keyof Page extends keyof Theirs ? true : never) : never;
+
+/** One entry per answer that the page reads: what the server changes, stops compiling here. */
+type Agreed = [
+  Same<Info, Server["Info"]>,
+  Same<ScenarioRow, Server["ScenarioRow"]>,
+  Same<keyof Scenario, keyof Server["ScenarioDetail"]>,
+  Same<Check, Server["Check"]>,
+  Same<keyof Application, keyof Server["Application"]>,
+  Same<Run, Server["Run"]>,
+  Same<RunDetail, Server["RunDetail"]>,
+  Same<Trace, Server["Trace"]>,
+  Same<Comparison, Server["Comparison"]>,
+  Same<LiveRow, Server["Live"]>,
+  Same<Scene, Server["SceneCast"]>,
+];
+
+/** Asks the compiler to look at every entry. */
+export const agreed: Agreed = [true, true, true, true, true, true, true, true, true, true, true];

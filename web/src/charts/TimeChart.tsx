@@ -4,7 +4,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { type ReactNode, useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { formatNumber, formatTime, withUnit } from "../model/units";
+import { formatTime, withUnit } from "../model/units";
 import classes from "./TimeChart.module.css";
 
 export interface Line {
@@ -99,10 +99,13 @@ function newest(data: Columns): number | null {
   return data[0].length > 0 ? data[0].length - 1 : null;
 }
 
+/** How many samples of the other run may lie between two of this one. */
+const LOOK_BACK = 64;
+
 /** The value of a column at an index, looking back over places where only the other run has samples. */
 function valueAt(column: Columns[number] | undefined, index: number | null): number | null {
   if (!column || index === null) return null;
-  for (let i = index; i >= 0 && i > index - 8; i -= 1) if (column[i] !== undefined) return column[i] ?? null;
+  for (let i = index; i >= 0 && i > index - LOOK_BACK; i -= 1) if (column[i] !== undefined) return column[i] ?? null;
   return null;
 }
 
@@ -168,7 +171,8 @@ function byLabel(lines: readonly Line[]): [string, { line: Line; place: number }
   return [...groups];
 }
 
-const shown = (value: number | null): string => (value === null ? "–" : formatNumber(Number(value.toFixed(2))));
+/** Two decimals at all times, so that the legend does not jump. */
+const shown = (value: number | null): string => (value === null ? "–" : value.toFixed(2).replace("-", "\u2212"));
 
 function Stroke({ color, dashed }: { color: string; dashed: boolean }) {
   return (

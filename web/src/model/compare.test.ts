@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { differing, merge, type MetricDifference, tally, verdict } from "./compare";
+import { merge, type MetricDifference, tally, verdict } from "./compare";
 
 const metric = (part: Partial<MetricDifference>): MetricDifference => ({ name: "gap", unit: "m", goal: "higher", a: 1, b: 2, difference: 1, relative: 1, better: "b", ...part });
 
@@ -17,27 +17,6 @@ describe("the verdict on B", () => {
 
   it("is counted", () => {
     expect(tally([metric({}), metric({}), metric({ better: "a" })])).toEqual({ better: 2, worse: 1, same: 0, "no goal": 0, missing: 0 });
-  });
-});
-
-describe("differing parameters", () => {
-  const row = { path: "radio.delay", a: null, b: 0.1, unit: "s" };
-
-  it("show what stands in the document where a run set nothing", () => {
-    expect(differing([row], { radio: { delay: 0.02 } }, { radio: { delay: 0.1 } })).toEqual([{ ...row, a: 0.02 }]);
-  });
-
-  it("leave out what is equal in fact", () => {
-    expect(differing([row], { radio: { delay: 0.1 } }, { radio: { delay: 0.1 } })).toEqual([]);
-  });
-
-  it("lay out an exchanged application", () => {
-    const swapped = { path: "p", a: null, b: { headway: 1, gain: 2 }, unit: "" };
-    expect(differing([swapped], { p: { headway: 1 } }, { p: { headway: 1, gain: 2 } })).toEqual([{ path: "p.gain", a: null, b: 2, unit: "" }]);
-  });
-
-  it("work without documents", () => {
-    expect(differing([row], undefined, undefined)).toEqual([row]);
   });
 });
 

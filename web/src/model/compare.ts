@@ -1,8 +1,6 @@
 /** Two runs side by side: verdicts in words, and traces on one time axis. */
 
-import { fromSet, same, valueAt } from "./form";
 import type { Goal, Json, Trace } from "./run";
-import { isTree } from "./schema";
 
 export interface ParameterDifference {
   path: string;
@@ -21,31 +19,6 @@ export interface MetricDifference {
   relative: number | null;
   better: "a" | "b" | "same" | null;
 }
-
-/**
- * The differing parameters, one row per value, with what stood in the document where a run did not set it.
- *
- * A value that one run sets to what the other has anyway is no difference.
- */
-export function differing(rows: readonly ParameterDifference[], a: Json | undefined, b: Json | undefined): ParameterDifference[] {
-  const inOne = new Map(rows.map(({ path, unit }) => [path, unit] as const));
-  const single = new Set(rows.flatMap(leaves));
-  const found = [...single].map((path) => ({
-    path,
-    a: valueAt(a, path) ?? rowValue(rows, path, "a"),
-    b: valueAt(b, path) ?? rowValue(rows, path, "b"),
-    unit: inOne.get(path) ?? "",
-  }));
-  return found.filter((row) => !same(row.a, row.b));
-}
-
-/** The paths of single values that a row speaks of: those of its objects, or its own. */
-function leaves({ path, a, b }: ParameterDifference): string[] {
-  const trees = [a, b].filter(isTree);
-  return trees.length === 0 ? [path] : trees.flatMap((tree) => Object.keys(fromSet({ [path]: tree })));
-}
-
-const rowValue = (rows: readonly ParameterDifference[], path: string, side: "a" | "b"): Json => rows.find((row) => row.path === path)?.[side] ?? null;
 
 export type Verdict = "better" | "worse" | "same" | "no goal" | "missing";
 

@@ -204,9 +204,11 @@ function exchangeOf({ applications, changes }: Source, path: string, value: Tree
   const place = `${path}.${key}`;
   const initial = value[key] as string;
   const current = (changes[place] as string | undefined) ?? initial;
-  const description = applications.find(({ name }) => name === current)?.description ?? "";
+  const description = firstParagraph(applications.find(({ name }) => name === current)?.description ?? "");
   return { path: place, group: path.slice("applications.".length), initial, value: current, description };
 }
+
+const firstParagraph = (text: string): string => text.split(/\n\s*\n/)[0]?.trim() ?? "";
 
 /** The parameters of the application in place, by that application's own schema. */
 function applicationFields(source: Source, path: string, exchange: Exchange, parameters: Tree): Field[] {
@@ -219,7 +221,7 @@ function applicationFields(source: Source, path: string, exchange: Exchange, par
   });
 }
 
-/** Exchange an application: changes of parameters that the new one does not have are dropped. */
+/** Exchange an application: changes of parameters that the new one does not have are dropped, as the server does. */
 export function exchanged(changes: Changes, exchange: Exchange, next: Application): Changes {
   const base = `applications.${exchange.group}.parameters.`;
   const kept = Object.entries(changes).filter(
@@ -253,24 +255,7 @@ export function changedIn(section: Section): number {
   return fieldsOf([section]).filter(({ changed }) => changed).length + exchanges.length;
 }
 
-/**
- * What is sent to the server. Exchanging an application also sends its complete parameters, because
- * those of the old one must not remain.
- */
-export function toSet(changes: Changes, all: readonly Section[]): Changes {
-  const swapped = exchangesOf(all).filter(({ initial, value }) => initial !== value);
-  const fields = fieldsOf(all);
-  const result = { ...changes };
-  for (const { group } of swapped) {
-    const base = `applications.${group}.parameters`;
-    const own = fields.filter(({ path }) => path.startsWith(`${base}.`));
-    for (const { path } of own) delete result[path];
-    result[base] = Object.fromEntries(own.filter(({ value }) => value !== null).map(({ path, value }) => [leaf(path), value]));
-  }
-  return result;
-}
-
-/** The reverse of `toSet`: what a run was started with, as single changes of the form. */
+/** What a run was started with, as single changes of the form; a program may have set whole objects. */
 export function fromSet(set: Changes): Changes {
   const entries = Object.entries(set).flatMap(([path, value]): [string, Json][] =>
     isTree(value) ? Object.entries(value).map(([key, inner]) => [`${path}.${key}`, inner]) : [[path, value]],

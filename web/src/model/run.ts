@@ -1,6 +1,10 @@
 /** A run and what hangs on it, as the API tells them. */
 
-export type Status = "starting" | "running" | "paused" | "done" | "failed" | "stopped" | "killed";
+/** How a run stands in the database. */
+export type RunStatus = "running" | "done" | "failed" | "stopped" | "killed";
+/** How a live run stands now. */
+export type LiveStatus = "starting" | "running" | "paused" | "done" | "stopped" | "failed";
+export type Status = RunStatus | LiveStatus;
 export type Goal = "higher" | "lower" | null;
 export type Value = number | string | boolean | null;
 export type Json = Value | Json[] | { [key: string]: Json };
@@ -29,7 +33,7 @@ export interface Run {
   scenario_hash: string;
   parent: number | null;
   seed: number;
-  status: Status;
+  status: RunStatus;
   error: string | null;
   state_hash: string | null;
   code_version: string;
@@ -37,6 +41,8 @@ export interface Run {
   sim_time_s: number | null;
   wall_time_s: number | null;
   parameters: Changes;
+  /** The metrics whose goals were not met. */
+  unmet: string[];
   metrics: Record<string, Metric>;
 }
 
@@ -46,9 +52,17 @@ export interface Channel {
   label: string;
 }
 
+/** Something that happened in a run. */
+export interface RunEvent {
+  time: number;
+  text: string;
+  vehicle: string;
+}
+
 export interface RunDetail extends Run {
   document: Tree;
   channels: Channel[];
+  events: RunEvent[];
 }
 
 export interface Trace {

@@ -96,6 +96,7 @@ export const finished = (part: Partial<Run>): Run => ({
   sim_time_s: 60,
   wall_time_s: 1,
   parameters: {},
+  unmet: [],
   metrics: {},
   ...part,
 });

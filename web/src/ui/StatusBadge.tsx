@@ -1,7 +1,9 @@
-/** The status of a run as a badge; a failed run tells why when pointed at. */
+/** The status of a run as a badge; one that failed or missed a goal tells why when pointed at. */
 
-import { Badge, Tooltip } from "@mantine/core";
+import { Badge, Tooltip, VisuallyHidden } from "@mantine/core";
 import type { Status } from "../model/run";
+import { words } from "../model/units";
+import { Icon } from "./Icon";
 
 const COLORS: Record<Status, string> = {
   starting: "gray",
@@ -13,15 +15,34 @@ const COLORS: Record<Status, string> = {
   killed: "red",
 };
 
-export function StatusBadge({ status, error }: { status: Status; error?: string | null }) {
+interface Props {
+  status: Status;
+  error?: string | null;
+  /** Metrics whose goals were not met. */
+  unmet?: readonly string[];
+}
+
+export function StatusBadge({ status, error, unmet = [] }: Props) {
+  const missed = status === "done" && unmet.length > 0;
   const badge = (
-    <Badge color={COLORS[status] ?? "gray"} variant="light" size="sm" radius="sm" tt="none" miw={70} style={{ overflow: "visible" }}>
+    <Badge
+      color={missed ? "orange" : (COLORS[status] ?? "gray")}
+      variant="light"
+      size="sm"
+      radius="sm"
+      tt="none"
+      miw={70}
+      style={{ overflow: "visible" }}
+      rightSection={missed ? <Icon name="warning" size={11} /> : null}
+    >
       {status}
+      {missed ? <VisuallyHidden>, goals missed</VisuallyHidden> : null}
     </Badge>
   );
-  if (!error) return badge;
+  const why = error ? lastLine(error) : missed ? `Done, but goals were not met: ${unmet.map(words).join(", ")}` : "";
+  if (!why) return badge;
   return (
-    <Tooltip label={lastLine(error)} multiline maw={420} position="right">
+    <Tooltip label={why} multiline maw={420} position="right">
       <span>{badge}</span>
     </Tooltip>
   );

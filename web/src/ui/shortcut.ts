@@ -3,7 +3,9 @@
 import { useEffect, useRef } from "react";
 
 const PAUSE_MS = 900;
-let previous = { key: "", at: 0 };
+const NONE = { key: "", at: Number.NEGATIVE_INFINITY };
+let previous = NONE;
+let pressed = NONE;
 
 /** Typing into a field is never a shortcut, and space on a button presses that button. */
 function isTyping(target: EventTarget | null, key: string): boolean {
@@ -28,14 +30,13 @@ export function dispatch(event: KeyboardEvent, handlers: Record<string, () => vo
 /** After `g`, the next key is the second half of a pair and nothing else. */
 const pairStarted = (now: number): boolean => previous.key === "g" && now - previous.at < PAUSE_MS;
 
-/** Remember the key for pairs; listens in the bubble phase after all `dispatch` calls of the same event. */
-function remember(event: KeyboardEvent): void {
-  queueMicrotask(() => {
-    previous = { key: event.key, at: event.timeStamp };
-  });
+/** Remember the key for pairs; in the capture phase, so before any `dispatch` of the same event. */
+function remember({ key, timeStamp }: KeyboardEvent): void {
+  previous = pressed;
+  pressed = { key, at: timeStamp };
 }
 
-if (typeof window !== "undefined") window.addEventListener("keydown", remember);
+window.addEventListener("keydown", remember, { capture: true });
 
 /** Listen to these keys while the component is mounted and `enabled`. */
 export function useShortcuts(handlers: Record<string, () => void>, enabled = true): void {

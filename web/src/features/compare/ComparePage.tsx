@@ -3,14 +3,15 @@
 import { ActionIcon, Badge, Button, Group, NativeSelect, Table, Text, Title, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
-import { comparison, run as runQuery, runs } from "../../api/queries";
+import { comparison, runs } from "../../api/queries";
 import type { Comparison } from "../../api/types";
 import { useUnits } from "../../api/units";
-import { differing, type MetricDifference, type ParameterDifference, tally, type Verdict, verdict } from "../../model/compare";
+import { type MetricDifference, type ParameterDifference, tally, type Verdict, verdict } from "../../model/compare";
 import { unitAt } from "../../model/form";
 import type { Run } from "../../model/run";
 import { formatDifference, formatNumber, formatRelative, formatValue, withUnit, words } from "../../model/units";
 import { Icon } from "../../ui/Icon";
+import { Path } from "../../ui/Path";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import classes from "./Compare.module.css";
@@ -112,10 +113,8 @@ function Heads({ comparison: { a, b } }: { comparison: Comparison }) {
 
 function Parameters({ comparison: found }: { comparison: Comparison }) {
   const { a, b, parameters } = found;
-  const one = useQuery(runQuery(a.run)).data?.document;
-  const other = useQuery(runQuery(b.run)).data?.document;
   const units = useUnits([a, b]);
-  const rows = [...differing(parameters, one, other), ...seedDifference(a, b)].filter(unique);
+  const rows = parameters.some(({ path }) => path === "seed") ? parameters : [...parameters, ...seedDifference(a, b)];
   return (
     <section className={classes.card} data-testid="compare-parameters">
       <h2>What differs</h2>
@@ -139,7 +138,7 @@ function Parameters({ comparison: found }: { comparison: Comparison }) {
           <Table.Tbody>
             {rows.map(({ path, a: one, b: other, unit }) => (
               <Table.Tr key={path}>
-                <Table.Td className={classes.path}>{withUnit(path, unit || unitAt(units, path))}</Table.Td>
+                <Table.Td className={classes.path}><Path path={withUnit(path, unit || unitAt(units, path))} /></Table.Td>
                 <Table.Td ta="right">{formatValue(one)}</Table.Td>
                 <Table.Td ta="right">
                   <b>{formatValue(other)}</b>
@@ -156,16 +155,13 @@ function Parameters({ comparison: found }: { comparison: Comparison }) {
               {index === 0 ? "A" : "B"} #{run.run}
               {run.parent === null ? "" : `, child of #${run.parent}`}
             </Text>
-            <StatusBadge status={run.status} error={run.error} />
+            <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />
           </Group>
         ))}
       </Group>
     </section>
   );
 }
-
-const unique = (row: ParameterDifference, index: number, all: readonly ParameterDifference[]): boolean =>
-  all.findIndex(({ path }) => path === row.path) === index;
 
 const seedDifference = (a: Run, b: Run): ParameterDifference[] => (a.seed === b.seed ? [] : [{ path: "seed", a: a.seed, b: b.seed, unit: "" }]);
 

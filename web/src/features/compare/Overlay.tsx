@@ -15,18 +15,16 @@ import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
 import classes from "./Compare.module.css";
 
-/** Both runs are cut into the same number of points, so that equal durations share their times. */
-const POINTS = 1000;
+/** Rows of a trace: about as many as a wide screen has pixels. */
+const POINTS = 2000;
 
 export function Overlay({ a, b }: { a: Run; b: Run }) {
   const one = useQuery(runQuery(a.run));
   const other = useQuery(runQuery(b.run));
   const [chosen, setChosen] = useState(["speed", "gap"]);
   const [hidden, setHidden] = useState<string[]>([]);
-  const all = useMemo(
-    () => [...new Set([...(one.data?.channels ?? []), ...(other.data?.channels ?? [])].map(({ name }) => name))],
-    [one.data, other.data],
-  );
+  const names = useMemo(() => [one.data, other.data].map((run) => (run?.channels ?? []).map(({ name }) => name)), [one.data, other.data]);
+  const all = useMemo(() => [...new Set(names.flat())], [names]);
   if (!one.data || !other.data) return <Loading what="the traces" />;
   if (all.length === 0) return <Empty icon="chart" title="No traces">Neither run recorded anything.</Empty>;
   return (
@@ -44,6 +42,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
               b={b.run}
               name={name}
               all={all}
+              had={names}
               hidden={hidden}
               lead={
                 <QuantitySelect
@@ -82,26 +81,32 @@ function Vehicles({ all, hidden, onHidden }: VehiclesProps) {
   ));
 }
 
+const NOTHING = { time: [], channels: {} };
+
 interface BothProps {
   a: number;
   b: number;
   name: string;
   all: readonly string[];
+  /** The channels of each run. */
+  had: readonly (readonly string[])[];
   hidden: readonly string[];
   lead: ReactNode;
 }
 
-function Both({ a, b, name, all, hidden, lead }: BothProps) {
+function Both({ a, b, name, all, had, hidden, lead }: BothProps) {
   const dark = useDark();
   const channels = useMemo(() => channelsOf(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)), [name, all, hidden]);
-  const one = useQuery(trace(a, channels, POINTS));
-  const other = useQuery(trace(b, channels, POINTS));
+  // A run is asked only for what it has recorded.
+  const [ofA, ofB] = had.map((known) => channels.filter((channel) => known.includes(channel)));
+  const one = useQuery(trace(a, ofA ?? [], POINTS));
+  const other = useQuery(trace(b, ofB ?? [], POINTS));
   const lines = useMemo<Line[]>(() => linesOf(channels, all, dark), [channels, all, dark]);
-  const data = useMemo<Columns>(() => (one.data && other.data ? merge(one.data, other.data, channels) : [[]]), [one.data, other.data, channels]);
+  const data = useMemo<Columns>(() => merge(one.data ?? NOTHING, other.data ?? NOTHING, channels), [one.data, other.data, channels]);
   const error = one.error ?? other.error;
   if (error) return <Failure error={error} />;
   if (channels.length === 0) return <Empty icon="chart" title="Nothing to draw">No shown vehicle has this quantity.</Empty>;
-  if (data.length !== lines.length + 1) return <Loading what="the traces" />;
+  if (one.isLoading || other.isLoading) return <Loading what="the traces" />;
   const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>

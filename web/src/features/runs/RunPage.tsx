@@ -1,6 +1,6 @@
 /** Everything about one run, and the way on from it. */
 
-import { Anchor, Button, Code, Group, Table, Text, Title } from "@mantine/core";
+import { Anchor, Badge, Button, Code, Group, Table, Text, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
@@ -13,7 +13,9 @@ import { lineColor } from "../../model/palette";
 import type { Metric, RunDetail } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
+import { EventList } from "../../ui/EventList";
 import { Icon } from "../../ui/Icon";
+import { Path } from "../../ui/Path";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
@@ -33,7 +35,7 @@ function Detail({ run }: { run: RunDetail }) {
         <Title order={1} fz="lg">
           Run #{run.run}
         </Title>
-        <StatusBadge status={run.status} error={run.error} />
+        <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />
         <Text c="dimmed" size="sm">
           {run.scenario}
         </Text>
@@ -46,7 +48,7 @@ function Detail({ run }: { run: RunDetail }) {
           </Card>
         ) : null}
         <Card title="Metrics">
-          <Metrics metrics={run.metrics} />
+          <Metrics metrics={run.metrics} unmet={run.unmet} />
         </Card>
         <Card title="Parameters that were set">
           <Parameters run={run} />
@@ -57,6 +59,9 @@ function Detail({ run }: { run: RunDetail }) {
       </div>
       <div className={classes.column}>
         <Charts run={run} />
+        <Card title="Events">
+          {run.events.length ? <EventList events={run.events} /> : <Text size="sm" c="dimmed">Nothing noteworthy happened.</Text>}
+        </Card>
       </div>
     </article>
   );
@@ -93,7 +98,7 @@ function Card({ title, children }: { title: string; children: ReactNode }) {
 
 const GOALS = { higher: "higher is better", lower: "lower is better" };
 
-function Metrics({ metrics }: { metrics: Record<string, Metric> }) {
+function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: readonly string[] }) {
   const rows = Object.entries(metrics);
   if (rows.length === 0) return <Text size="sm" c="dimmed">No metrics: they are computed when a run ends.</Text>;
   return (
@@ -103,6 +108,11 @@ function Metrics({ metrics }: { metrics: Record<string, Metric> }) {
           <Table.Tr key={name}>
             <Table.Td>
               {words(name)}
+              {unmet.includes(name) ? (
+                <Badge size="xs" color="red" variant="light" tt="none" ml={6}>
+                  goal not met
+                </Badge>
+              ) : null}
               {goal ? (
                 <Text size="xs" c="dimmed">
                   {GOALS[goal]}
@@ -141,7 +151,9 @@ function Parameters({ run }: { run: RunDetail }) {
 function Fact({ name, children }: { name: string; children: ReactNode }) {
   return (
     <>
-      <dt>{name}</dt>
+      <dt>
+        <Path path={name} />
+      </dt>
       <dd>{children}</dd>
     </>
   );

@@ -200,7 +200,7 @@ function Cell({ column, run }: { column: Column; run: Run }) {
     case "run":
       return <b>#{run.run}</b>;
     case "status":
-      return <StatusBadge status={run.status} error={run.error} />;
+      return <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />;
     case "created":
       return formatMoment(run.created);
     case "parent":

@@ -6,6 +6,7 @@ import { type Application, type Exchange, exchangesOf, type Field, fieldsOf, mat
 import type { Json, Problem } from "../../model/run";
 import { formatValue } from "../../model/units";
 import { Icon } from "../../ui/Icon";
+import { Path } from "../../ui/Path";
 import { ProblemList } from "../../ui/Problems";
 import { SchemaForm } from "../../ui/SchemaForm";
 import { useShortcuts } from "../../ui/shortcut";
@@ -137,7 +138,9 @@ interface ChangeProps {
 function Change({ path, from, to, unit, onReset }: ChangeProps) {
   return (
     <li>
-      <span className={classes.changePath}>{path}</span>
+      <span className={classes.changePath}>
+        <Path path={path} />
+      </span>
       <span className={classes.changeValue}>
         <s>{formatValue(from)}</s> <b>{formatValue(to)}</b> {unit}
       </span>

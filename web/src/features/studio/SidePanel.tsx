@@ -4,11 +4,11 @@ import { Badge, Button, Checkbox, ScrollArea, Tabs, Text, Tooltip } from "@manti
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { useState } from "react";
-import type { LiveEvent } from "../../api/live";
 import { runs } from "../../api/queries";
 import { fromSet } from "../../model/form";
-import { leaf, type Run } from "../../model/run";
-import { formatMoment, formatTime, formatValue, words } from "../../model/units";
+import { leaf, type Run, type RunEvent } from "../../model/run";
+import { formatMoment, formatValue, words } from "../../model/units";
+import { EventList } from "../../ui/EventList";
 import { Icon } from "../../ui/Icon";
 import { Empty, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
@@ -17,7 +17,7 @@ import classes from "./Studio.module.css";
 interface Props {
   scenario: string;
   run: number | undefined;
-  events: readonly LiveEvent[];
+  events: readonly RunEvent[];
 }
 
 export function SidePanel({ scenario, run, events }: Props) {
@@ -100,7 +100,7 @@ function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
           {settingText(run)}
         </Text>
       </Tooltip>
-      <StatusBadge status={run.status} error={run.error} />
+      <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />
     </div>
   );
 }
@@ -127,7 +127,7 @@ function Setting({ run }: { run: Run }) {
   );
 }
 
-function Events({ events }: { events: readonly LiveEvent[] }) {
+function Events({ events }: { events: readonly RunEvent[] }) {
   if (events.length === 0) {
     return (
       <Empty icon="warning" title="No events yet">
@@ -137,18 +137,7 @@ function Events({ events }: { events: readonly LiveEvent[] }) {
   }
   return (
     <ScrollArea className={classes.history} type="auto">
-      <ol className={classes.events} data-testid="events">
-        {events.map(({ time, text, vehicle }, index) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: events are only ever appended
-          <li key={index}>
-            <span className={classes.eventTime}>{formatTime(time)} s</span>
-            <span>
-              {vehicle ? <b>{words(vehicle)}: </b> : null}
-              {text}
-            </span>
-          </li>
-        ))}
-      </ol>
+      <EventList events={events} />
     </ScrollArea>
   );
 }

@@ -7,7 +7,7 @@ import { Link, useNavigate } from "@tanstack/react-router";
 import { useEffect, useMemo, useRef, useState } from "react";
 import { type LiveState, useLive } from "../../api/live";
 import * as queries from "../../api/queries";
-import { exchanged, fromSet, sections, toSet, withChange } from "../../model/form";
+import { exchanged, fromSet, sections, withChange } from "../../model/form";
 import { type Changes, isLive, type RunDetail } from "../../model/run";
 import type { Samples } from "../../model/samples";
 import { notify, notifyError } from "../../ui/notify";
@@ -34,11 +34,12 @@ interface Props {
 export function StudioPage({ scenario: id, run, from, active }: Props) {
   const [draft, update] = useDraft(id);
   const form = useForm(id, draft.changes);
+  const seed = draft.seed ?? form.seed;
   const shown = useShownRun(run);
-  const control = useControl({ id, draft, update, set: form.set, live: shown.live, run });
+  const control = useControl({ id, draft, update, seed, live: shown.live, run });
   useTakeOver(id, from, update);
   useFarewell(shown.live, run);
-  const scene = useScene(id, form.set, shown.live ? run : undefined, form.ok);
+  const scene = useScene(id, draft.changes, shown.live ? run : undefined, form.ok);
   const space = { paused: control.onResume, running: control.onPause }[shown.progress?.status as string] ?? control.onRun;
   useShortcuts({ " ": space, ".": control.onStep }, active);
 
@@ -69,13 +70,13 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
         </aside>
       ) : null}
       {active ? (
-        <RunBar {...control} progress={shown.progress} duration={form.duration} pace={draft.pace} seed={draft.seed} />
+        <RunBar {...control} progress={shown.progress} duration={form.duration} pace={draft.pace} seed={seed} />
       ) : null}
       <SceneView vehicles={scene.vehicles} attribution={scene.attribution} active={active} />
       {active ? (
         <div className={classes.bottom}>
           <LiveCharts samples={samples} version={shown.version} duration={shown.progress?.duration ?? form.duration} />
-          <SidePanel scenario={id} run={run} events={shown.live?.events ?? []} />
+          <SidePanel scenario={id} run={run} events={shown.events} />
         </div>
       ) : null}
     </div>
@@ -140,16 +141,15 @@ function useForm(id: string, changes: Changes) {
     () => (document && schema ? sections({ document, schema, applications: known, changes }) : undefined),
     [document, schema, known, changes],
   );
-  const set = useMemo(() => (form ? toSet(changes, form) : changes), [changes, form]);
-  const [settled] = useDebouncedValue(set, 300);
+  const [settled] = useDebouncedValue(changes, 300);
   const { data: checked } = useQuery({ ...queries.check(id, settled), enabled: form !== undefined });
   return {
     sections: form,
     applications: known,
-    set,
     ok: checked?.ok ?? false,
     problems: checked?.problems ?? NONE,
     duration: durationOf(checked?.document ?? document),
+    seed: typeof document?.seed === "number" ? document.seed : 1,
     error: scenario.error ?? applications.error,
     retry: () => void Promise.all([scenario.refetch(), applications.refetch()]),
   };
@@ -182,6 +182,7 @@ function useShownRun(run: number | undefined) {
     live,
     samples: live?.samples ?? samples,
     version: live?.version ?? 0,
+    events: live?.events ?? detail?.events ?? NONE,
     progress: live ? fromLive(live) : detail ? fromStored(detail) : undefined,
   };
 }
@@ -220,14 +221,14 @@ interface ControlProps {
   id: string;
   draft: Draft;
   update: (part: Partial<Draft>) => void;
-  set: Changes;
+  seed: number;
   live: LiveState | undefined;
   run: number | undefined;
 }
 
 /** What the buttons of the run bar do. */
-function useControl({ id, draft, update, set, live, run }: ControlProps): Controls & { starting: boolean } {
-  const start = useStarter({ id, draft, update, set });
+function useControl({ id, draft, update, seed, live, run }: ControlProps): Controls & { starting: boolean } {
+  const start = useStarter({ id, draft, update, seed });
   const order = queries.useOrder();
   const pace = queries.usePace();
   const tell = (what: queries.Order) => {
@@ -249,17 +250,20 @@ function useControl({ id, draft, update, set, live, run }: ControlProps): Contro
 }
 
 /** Start a run of the draft and show it; the one after it will be its child. */
-function useStarter({ id, draft, update, set }: Pick<ControlProps, "id" | "draft" | "update" | "set">) {
+function useStarter({ id, draft, update, seed }: Pick<ControlProps, "id" | "draft" | "update" | "seed">) {
   const start = queries.useStart();
+  const order = queries.useOrder();
   const navigate = useNavigate();
   const begin = (paused: boolean) => {
     if (start.isPending) return;
-    const { seed, pace, parent } = draft;
-    const body = { scenario: id, set, seed, pace, paused, ...(parent === null ? {} : { parent }) };
+    const { changes, pace, parent } = draft;
+    const body = { scenario: id, set: changes, seed, pace, paused, ...(parent === null ? {} : { parent }) };
     start.mutate(body, {
       onError: notifyError,
       onSuccess: ({ run }) => {
         update({ parent: run });
+        // A first step out of rest is one step, too; a run that is not up yet just stays at its start.
+        if (paused) order.mutate({ run, order: "step" });
         navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run } });
       },
     });

@@ -6,12 +6,13 @@ import type { Changes } from "../../model/run";
 
 export interface Draft {
   changes: Changes;
-  seed: number;
+  /** Null: as the scenario says. */
+  seed: number | null;
   pace: Pace;
   parent: number | null;
 }
 
-const FRESH: Draft = { changes: {}, seed: 1, pace: 1, parent: null };
+const FRESH: Draft = { changes: {}, seed: null, pace: 1, parent: null };
 
 /** The draft of a scenario, and how to change parts of it. */
 export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => void] {

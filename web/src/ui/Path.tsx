@@ -1,0 +1,17 @@
+/** A dotted path that may break after its dots and nowhere else. */
+
+import { Fragment } from "react";
+
+export function Path({ path }: { path: string }) {
+  return path.split(".").map((part, index) => (
+    // biome-ignore lint/suspicious/noArrayIndexKey: the parts of a path do not move
+    <Fragment key={index}>
+      {index > 0 ? (
+        <>
+          .<wbr />
+        </>
+      ) : null}
+      {part}
+    </Fragment>
+  ));
+}
