@@ -29,6 +29,7 @@
   let ready = false;
   let shownCity = null;
   let painted = null;
+  const summed = { data: null, sum: null };
 
   const client = () => window.__viserMutable;
   const tree = () => (window.__viserSceneTree ? window.__viserSceneTree.getState() : {});
@@ -256,7 +257,7 @@
 
   function watch() {
     hook();
-    const city = tree()["/city/ground"]?.message ?? null;
+    const city = streets();
     const sky = client()?.nodeRefFromName?.["/city/sky"];
     const material = sky && findMaterial(sky);
     if (material && material !== painted) {
@@ -271,6 +272,17 @@
       ready = true;
       tell({ studio: "ready", follow: typeof client().cameraControl.moveTo === "function" });
     }
+  }
+
+  // tells one city from another, and knows it again after a reconnection
+  function streets() {
+    const data = tree()["/city/road"]?.message?.props?.glb_data;
+    if (data && data !== summed.data) {
+      let sum = data.byteLength;
+      for (const byte of data) sum = (sum * 31 + byte) | 0;
+      Object.assign(summed, { data, sum });
+    }
+    return data ? summed.sum : null;
   }
 
   function findMaterial(node) {

@@ -2,9 +2,11 @@
 
 import socket
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
+import rich
 import viser
 
 from studio.road.network import Network
@@ -86,16 +88,29 @@ class Scene:
 
     def stop(self) -> None:
         """Close the viser server; may take some seconds."""
-        self._server.stop()
+        with _quiet():
+            self._server.stop()
 
 
 def _server() -> viser.ViserServer:
-    server = viser.ViserServer(host="127.0.0.1", port=_free_port(), verbose=False)
+    with _quiet():
+        server = viser.ViserServer(host="127.0.0.1", port=_free_port(), verbose=False)
     # any client may ask for a public tunnel, with or without the button
     server.request_share_url = lambda *args, **options: None
     server.gui.configure_theme(show_logo=False, show_share_button=False)
     server.scene.world_axes.visible = False
     return server
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    # viser prints its own address, and that is not the one to open
+    console = rich.get_console()
+    before, console.quiet = console.quiet, True
+    try:
+        yield
+    finally:
+        console.quiet = before
 
 
 def _free_port() -> int:

@@ -4,6 +4,7 @@ import asyncio
 import io
 import shutil
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -260,6 +261,7 @@ def test_a_lost_connection_comes_back_without_the_focus(page, drive):
     framed(page)
     page.evaluate("document.body.append(Object.assign(document.createElement('input'), {id: 'elsewhere'}))")
     page.focus("#elsewhere")
+    page.evaluate("frames[0].postMessage({studio: 'follow', vehicle: 1}, location.origin)")
     server = drive.scene._server._websock_server
     lost = dict(server._live_connections)
     assert len(lost) == 2
@@ -272,7 +274,18 @@ def test_a_lost_connection_comes_back_without_the_focus(page, drive):
             break
     assert len(back) == 2
     page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null", timeout=30_000)
+    page.wait_for_timeout(600)
+    # the same city is no reason to let go of the vehicle
+    assert page.evaluate("frames[0].__studioBridge.view.vehicle") == 1
     page.evaluate("document.querySelector('iframe').remove(); document.querySelector('#elsewhere').remove()")
+
+
+def test_another_city_is_first_seen_as_a_whole(page, drive, town):
+    say(page, studio="follow", vehicle=0)
+    page.wait_for_timeout(600)
+    short = tuple(replace(lane, centre=lane.centre * [[0.8], [1.0]], length=240.0) for lane in town.lanes)
+    drive.scene.show_city(replace(town, lanes=short))
+    page.wait_for_function("__studioBridge.view.vehicle === null", timeout=10_000)
 
 
 def test_the_client_ran_without_errors_and_with_few_draw_calls(page):

@@ -169,6 +169,12 @@ def test_any_thread_may_update(scene):
     assert failures == []
 
 
+def test_viser_does_not_print_an_address_of_its_own(capsys):
+    Scene().stop()
+    printed = capsys.readouterr()
+    assert printed.out == printed.err == ""
+
+
 def test_nobody_can_open_a_public_tunnel(scene):
     assert scene._server.request_share_url() is None
     assert scene._server._websock_server._host == "127.0.0.1"
