@@ -61,12 +61,10 @@ class Scene:
         )
 
     def _look_at(self, *, reach: float) -> None:
-        """The overview: from the south, high enough to see the whole."""
+        """The overview: from the south, over the middle to the horizon."""
         camera = self._server.initial_camera
-        camera.position, camera.look_at = (
-            np.array([0.28, -0.95, 0.62]) * reach,
-            np.array([0.0, -0.06 * reach, 0.0]),
-        )
+        camera.position = np.array([0.24, -0.80, 0.36]) * reach
+        camera.look_at = np.array([0.0, 0.0, 0.05 * reach])
         camera.fov, camera.near, camera.far = FIELD_OF_VIEW, 0.5, 2.5 * SKY_RADIUS
 
     def show_vehicles(self, looks: Sequence[Look]) -> None:
