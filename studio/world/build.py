@@ -409,8 +409,9 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
     def joined(name: str) -> np.ndarray:
         return np.concatenate([getattr(signals, name) for signals in all_signals])
 
+    started = [np.full(len(signals), each.scenario.map.signal_start) for each, signals in zip(settings, all_signals, strict=True)]
     return {
-        "signal_time": np.array([joined("cycle"), joined("offset")]),
+        "signal_time": np.array([joined("cycle"), joined("offset") - np.concatenate(started)]),
         "signal_first": np.concatenate(shifted).astype(np.int64),
         "signal_count": joined("count"),
         "phase_end": joined("phase_end"),
