@@ -48,7 +48,7 @@ class Drive(threading.Thread):
             self.scene.update(self.poses())
 
     def poses(self) -> np.ndarray:
-        s = (SPEED * self.time + np.array([20.0, 8.0, -10.0])) % 240.0 - 120.0
+        s = (SPEED * self.time + np.array([120.0, 108.0, 90.0])) % 240.0 - 120.0
         poses = pose.standing(3)
         poses[pose.X], poses[pose.Y] = s, [-1.75, -1.75, 1.75] + 0.8 * np.sin(s / 15.0)
         poses[pose.YAW] = np.arctan(0.8 / 15.0 * np.cos(s / 15.0))
