@@ -1,4 +1,4 @@
-"""Pages from elsewhere get 403, over HTTP and over WebSockets; our own page and programs without Origin pass."""
+"""Pages from elsewhere get 403, over HTTP and over WebSockets; our page and programs without Origin pass."""
 
 import pytest
 from fastapi import FastAPI, WebSocket
