@@ -18,7 +18,7 @@ from studio.scenario.schema import Application, Scenario
 def complete(document: dict[str, Any], where: str) -> Scenario:
     """A valid scenario with the parameters of its applications filled in; raises ScenarioError with all problems."""
     scenario = file.validate(document, where)
-    found = [filled(f"{where}: applications.{name}", group) for name, group in scenario.applications.items()]
+    found = [filled(where, f"applications.{name}", group) for name, group in scenario.applications.items()]
     wrong = [problem for _, problems in found for problem in problems]
     if wrong:
         raise ScenarioError(f"{where} is not a valid scenario.", wrong)
@@ -26,15 +26,15 @@ def complete(document: dict[str, Any], where: str) -> Scenario:
     return scenario.model_copy(update={"applications": groups})
 
 
-def filled(where: str, group: Application) -> tuple[Application, list[Problem]]:
+def filled(where: str, path: str, group: Application) -> tuple[Application, list[Problem]]:
     """A group with all parameters of its application, or the problems."""
     try:
         application = registry.find(group.application)
         return group.model_copy(update={"parameters": application.parameters(group.parameters)}), []
     except UnknownError as error:
-        return group, [Problem(f"{where}.application", error.message)]
+        return group, [Problem(f"{where}: {path}.application", error.message)]
     except ValidationError as error:
-        return group, file.problems(error, f"{where}.parameters", application.module.Parameters)
+        return group, file.problems(error, where, application.module.Parameters, under=f"{path}.parameters.")
 
 
 def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 """Random numbers by counter: Philox 4x32 with 10 rounds.
 
 Source: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC 2011. A number depends on nothing but
-(seed, world, entity, stream, tick): not on the order of calls, the size of a batch, or the number of threads.
+(seed, entity, stream, tick): not on the order of calls, the number of threads, or a world's place in a batch. Worlds of
+one batch that are to differ by chance have different seeds.
 """
 
 from math import cos, log, pi, sqrt
@@ -40,14 +41,14 @@ def unit(high, low):
 
 
 @compiled
-def uniform(seed, world, entity, stream, tick):
+def uniform(seed, entity, stream, tick):
     """A number in (0, 1)."""
-    a, b, _, _ = philox(tick, entity, stream, world, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+    a, b, _, _ = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
     return unit(a, b)
 
 
 @compiled
-def normal(seed, world, entity, stream, tick):
+def normal(seed, entity, stream, tick):
     """A number of the standard normal distribution (Box & Muller 1958)."""
-    a, b, c, d = philox(tick, entity, stream, world, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+    a, b, c, d = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
     return sqrt(-2.0 * log(unit(a, b))) * cos(2.0 * pi * unit(c, d))

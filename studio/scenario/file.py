@@ -69,14 +69,14 @@ def validate(document: dict[str, Any], where: str) -> Scenario:
         raise ScenarioError(f"{where} is not a valid scenario.", problems(error, where, Scenario)) from None
 
 
-def problems(error: ValidationError, where: str, model: type) -> list[Problem]:
-    """Pydantic's findings as ours."""
-    return [problem(finding, where, model) for finding in error.errors(include_url=False)]
+def problems(error: ValidationError, where: str, model: type, *, under: str = "") -> list[Problem]:
+    """Pydantic's findings as ours; `under` is the path of the model within its document, with a dot."""
+    return [problem(finding, where, model, under) for finding in error.errors(include_url=False)]
 
 
-def problem(finding: dict, where: str, model: type) -> Problem:
+def problem(finding: dict, where: str, model: type, under: str) -> Problem:
     """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
-    path = ".".join(str(part) for part in finding["loc"] if part != "[key]") or "the scenario"
+    path = under + ".".join(str(part) for part in finding["loc"] if part != "[key]") or "the scenario"
     what = finding["msg"].removeprefix("Value error, ")
     value, remedy = short(finding["input"]), ""
     if finding["type"] == "extra_forbidden":

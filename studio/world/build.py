@@ -217,7 +217,7 @@ def traffic(scenario: Scenario, network: Network, named: list[Car]) -> list[Car]
             )
         path, station = found
         taken.append(position(path, station))
-        style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed, 0, i, TRAFFIC_STYLE, 0) - 1.0)
+        style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed, i, TRAFFIC_STYLE, 0) - 1.0)
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
         name = f"traffic_{i + 1:02d}"
@@ -247,8 +247,8 @@ def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path,
     if not usable:
         return None
     for attempt in range(TRIES):
-        way = usable[int(uniform(scenario.seed, 0, i, TRAFFIC_ROUTE, attempt) * len(usable))]
-        station = uniform(scenario.seed, 0, i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
+        way = usable[int(uniform(scenario.seed, i, TRAFFIC_ROUTE, attempt) * len(usable))]
+        station = uniform(scenario.seed, i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
         if not near_light and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):

@@ -64,14 +64,14 @@ def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed,
             continue
         other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
         if other >= 0:
-            report(k, v, other, forward, left, state, sensor_set, w, entity[v], seed[w], sensors)
+            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
 
 
 @compiled
-def report(k, v, other, forward, left, state, sensor_set, w, unit, seed, sensors):
+def report(k, v, other, forward, left, state, sensor_set, unit, seed, sensors):
     """Writes a target with the sensor's errors."""
-    noise_range = sensor_set[RANGE_SIGMA, v] * normal(seed, w, unit, RANGE_NOISE, k)
-    noise_rate = sensor_set[RATE_SIGMA, v] * normal(seed, w, unit, RATE_NOISE, k)
+    noise_range = sensor_set[RANGE_SIGMA, v] * normal(seed, unit, RANGE_NOISE, k)
+    noise_rate = sensor_set[RATE_SIGMA, v] * normal(seed, unit, RATE_NOISE, k)
     sensors[DETECTED, v] = 1.0
     sensors[TARGET, v] = other
     sensors[RANGE, v] = max(sqrt(forward * forward + left * left) + noise_range, 0.0)
@@ -105,11 +105,11 @@ def send(k, tick, state, command, radio_set, world_of, entity, sent):
 def has_arrived(time, number, column, sender, receiver, w, state, radio_set, entity, seed, sent):
     """Whether message `number` of the sender has reached the receiver by now."""
     link = entity[receiver] * PAIR + entity[sender]
-    air = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], uniform(seed, w, link, MESSAGE_DELAY, number))
+    air = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], uniform(seed, link, MESSAGE_DELAY, number))
     if sent[SENT, column] + air > time + 1e-9:
         return False
     dx, dy = sent[M_X, column] - state[X, receiver], sent[M_Y, column] - state[Y, receiver]
-    draw = uniform(seed, w, link, MESSAGE_LOSS, number)
+    draw = uniform(seed, link, MESSAGE_LOSS, number)
     distance = sqrt(dx * dx + dy * dy)
     return not radio.is_lost(distance, radio_set[RADIO_RANGE, w], radio_set[LOSS, w], radio_set[LOSS_DISTANCE, w], draw)
 

@@ -1,0 +1,60 @@
+"""Changes by path."""
+
+import pytest
+
+from studio import job
+from studio.errors import ScenarioError
+from studio.scenario import edit
+
+
+def test_a_change_changes_that_and_nothing_else(sample):
+    base, changed = job.load(sample), job.load(sample, {"applications.platoon.parameters.headway": 0.9})
+    left, right = edit.flatten(base.document), edit.flatten(changed.document)
+    assert {path for path in left if left[path] != right[path]} == {"applications.platoon.parameters.headway"}
+
+
+def test_a_default_can_be_changed(sample):
+    """The sample's file does not mention the radio."""
+    assert job.load(sample, {"radio.loss": 0.3}).scenario.radio.loss == 0.3
+
+
+def test_items_of_lists(sample):
+    changed = job.load(sample, {"applications.platoon.vehicles.3": "follower_3", "applications.platoon.vehicles.2": "follower_4"})
+    assert changed.scenario.applications["platoon"].vehicles[2:] == ["follower_4", "follower_3"]
+
+
+@pytest.mark.parametrize(
+    ("path", "remedy"),
+    [
+        ("applications.platoon.parameters.hedway", "applications.platoon.parameters.headway"),
+        ("application.platoon.parameters.headway", "applications"),
+        ("clock.duration.seconds", ""),
+        ("triggers.hard_brake.do.decelaration", "triggers.hard_brake.do.deceleration"),
+        ("applications.platoon.vehicles.9", ""),
+    ],
+)
+def test_a_wrong_path_names_the_nearest(sample, path, remedy):
+    with pytest.raises(ScenarioError) as caught:
+        job.load(sample, {path: 1})
+    assert path in str(caught.value) and remedy in str(caught.value)
+
+
+def test_an_exchange_keeps_what_both_have(sample):
+    acc = job.load(sample, {"applications.platoon.application": "acc", "applications.platoon.parameters.gap_gain": 0.2})
+    parameters = acc.scenario.applications["platoon"].parameters
+    assert parameters["headway"] == 0.6 and parameters["gap_gain"] == 0.2
+    assert parameters["standstill"] == 2.0 and "k_p" not in parameters
+
+
+@pytest.mark.parametrize(
+    ("text", "path", "value"),
+    [("a.b=1.5", "a.b", 1.5), ("a=true", "a", True), ("a=[x, y]", "a", ["x", "y"]), ("a=", "a", None), ("a=b=c", "a", "b=c")],
+)
+def test_assignments(text, path, value):
+    assert edit.parse_assignment(text) == (path, value)
+
+
+@pytest.mark.parametrize("text", ["headway", "=3", "a={"])
+def test_what_is_no_assignment(text):
+    with pytest.raises(ScenarioError, match="--set"):
+        edit.parse_assignment(text)

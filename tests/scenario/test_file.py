@@ -1,0 +1,176 @@
+"""Reading scenario files: everything wrong is told at once, with field, value, what is allowed, the nearest name."""
+
+import copy
+
+import pytest
+import yaml
+
+from studio import job
+from studio.application import setup
+from studio.errors import MapError, RouteError, ScenarioError
+from studio.scenario import file
+
+
+@pytest.fixture
+def document(sample):
+    return file.read(sample)
+
+
+def refusal(document) -> str:
+    with pytest.raises(ScenarioError) as caught:
+        setup.complete(document, "my.yaml")
+    return str(caught.value)
+
+
+def test_the_sample_is_valid_and_complete(document):
+    scenario = setup.complete(document, "sample")
+    assert scenario.applications["platoon"].parameters["k_p"] == 0.2  # a default, filled in
+    again = setup.complete(scenario.model_dump(mode="json"), "sample")
+    assert again == scenario
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "words"),
+    [
+        ("clock.duraton", 3, ["clock.duraton", "did you mean 'duration'"]),
+        ("clock.duration", -3, ["clock.duration", "-3", "> 0"]),
+        ("clock.duration", "long", ["clock.duration", "'long'"]),
+        ("clock.tick", 0.013, ["clock", "whole number of steps"]),
+        ("traffic.count", 501, ["traffic.count", "501", "≤ 500"]),
+        ("vehicles.leader.speed", float("nan"), ["vehicles.leader.speed", "nan"]),
+        ("vehicles.leader.colour", "red", ["vehicles.leader.colour", "'red'"]),
+        ("applications.platoon.application", "cac", ["applications.platoon.application", "did you mean 'cacc'"]),
+        ("applications.platoon.parameters", {"headway": 9}, ["applications.platoon.parameters.headway", "9", "≤ 5"]),
+        ("applications.platoon.parameters", {"hedway": 1}, ["parameters.hedway", "did you mean 'headway'"]),
+        ("applications.platoon.listens_to", ["leader"], ["4 vehicles but 1"]),
+        ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
+        ("version", 2, ["version", "2"]),
+    ],
+)
+def test_a_wrong_field_is_named(document, path, value, words):
+    *parents, last = path.split(".")
+    node = document
+    for part in parents:
+        node = node.setdefault(part, {})
+    node[last] = value
+    text = refusal(document)
+    for word in ["my.yaml", *words]:
+        assert word in text
+
+
+def test_all_problems_at_once(document):
+    document["clock"]["duration"] = 0
+    document["radio"] = {"loss": 2}
+    document["nonsense"] = 1
+    text = refusal(document)
+    assert all(word in text for word in ("clock.duration", "radio.loss", "nonsense"))
+
+
+def change_vehicle(document, **fields):
+    changed = copy.deepcopy(document)
+    changed["vehicles"]["leader"].update(fields)
+    return changed
+
+
+def prepared(document, folder):
+    path = folder / "my.yaml"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    return job.prepare(job.load(path))
+
+
+@pytest.fixture
+def folder(tmp_path, sample):
+    (tmp_path / "maps").symlink_to(sample.parent / "maps")
+    return tmp_path
+
+
+def test_names_that_do_not_exist(document, folder):
+    wrong = change_vehicle(document, model="bmw_320", route="east")
+    wrong["triggers"]["hard_brake"]["vehicle"] = "leeder"
+    with pytest.raises(ScenarioError) as caught:
+        prepared(wrong, folder)
+    text = str(caught.value)
+    assert "did you mean 'bmw_320i'" in text and "vehicles.leader.route" in text and "did you mean 'leader'" in text
+
+
+def test_a_route_over_roads_that_do_not_connect(document, folder):
+    wrong = copy.deepcopy(document)
+    wrong["routes"]["east_to_west"]["roads"] = ["206170873#1", "340498991"]
+    with pytest.raises(RouteError) as caught:
+        prepared(wrong, folder)
+    text = str(caught.value)
+    assert "routes.east_to_west.roads" in text and "206170873#1" in text and "340498991" in text
+
+
+def test_a_road_that_is_not_on_the_map(document, folder):
+    wrong = copy.deepcopy(document)
+    wrong["routes"]["east_to_west"]["roads"] = ["34049899", "206170873#1"]
+    with pytest.raises(RouteError, match="340498991"):
+        prepared(wrong, folder)
+
+
+def test_a_start_beyond_the_route(document, folder):
+    with pytest.raises(ScenarioError, match="beyond the end"):
+        prepared(change_vehicle(document, position={"along": 99_999}), folder)
+
+
+def test_a_start_by_road_and_lane(document, folder):
+    setting = prepared(change_vehicle(document, position={"road": "340498991", "lane": 2, "offset": 50}), folder)
+    leader = setting.cars[setting.names.index("leader")]
+    assert leader.station == 50 and leader.path.stations[0].lane_index == 2
+
+
+def test_two_applications_on_one_car(document, folder):
+    document["applications"]["second"] = {"application": "acc", "vehicles": ["follower_1"]}
+    with pytest.raises(ScenarioError, match="has one application"):
+        prepared(document, folder)
+
+
+def test_a_period_that_is_no_whole_number_of_ticks(document, folder):
+    document["radio"] = {"period": 0.03}
+    with pytest.raises(ScenarioError, match="radio.period"):
+        prepared(document, folder)
+
+
+def test_a_missing_map(document, folder):
+    document["map"]["file"] = "maps/berlin_siegessaeule_grosser_sten.osm.gz"
+    with pytest.raises(MapError) as caught:
+        prepared(document, folder)
+    assert "map.file" in str(caught.value) and "did you mean 'berlin_siegessaeule_grosser_stern.osm.gz'" in str(caught.value)
+
+
+def test_a_map_that_is_none(document, tmp_path):
+    (tmp_path / "place.osm").write_text("hello")
+    document["map"]["file"] = "place.osm"
+    with pytest.raises(MapError, match="place.osm"):
+        prepared(document, tmp_path)
+
+
+def test_too_much_traffic(document, folder):
+    document["traffic"] = {"count": 500, "spacing": 150}
+    with pytest.raises(ScenarioError, match="traffic.count"):
+        prepared(document, folder)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "empty"),
+        (b"- a\n- b\n", "list"),
+        (b"a: [1, 2\n", "line"),
+        (b"\xff\xfe\x00", "UTF-8"),
+        (b"title: a\ntitle: b\n", "twice"),
+        (b"a: !!python/object/apply:os.system ['true']\n", "line 1"),
+        (b"[" * 5000, "not YAML"),
+    ],
+)
+def test_files_that_are_no_scenario(tmp_path, content, words):
+    path = tmp_path / "bad.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ScenarioError, match=words):
+        file.read(path)
+
+
+def test_a_missing_file_names_its_neighbour(sample):
+    with pytest.raises(ScenarioError, match="did you mean 'grosser_stern_platoon.yaml'"):
+        file.read(sample.with_name("grosser_stern_platon.yaml"))

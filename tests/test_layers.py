@@ -1,0 +1,68 @@
+"""Imports point down only: the floors of the house, from the ground up."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+FLOORS = [
+    {"errors", "conventions", "compiled"},
+    {"model"},
+    {"road"},
+    {"scenario"},
+    {"application"},
+    {"world"},
+    {"execution"},
+    {"assess"},
+    {"store"},
+    {"job"},
+    {"scene"},
+    {"server"},
+    {"cli"},
+]
+PACKAGE = Path(__file__).parent.parent / "studio"
+FLOOR_OF = {room: height for height, rooms in enumerate(FLOORS) for room in rooms}
+
+
+def imported(path: Path) -> set[str]:
+    """Rooms of the package that a file imports, inside functions too."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            assert node.level == 0, f"{path}:{node.lineno} imports relatively"
+            names = [f"{node.module}.{alias.name}" for alias in node.names] if node.module == "studio" else [node.module]
+        elif isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        else:
+            continue
+        found |= {name.split(".")[1] for name in names if name.startswith("studio.")}
+    return found
+
+
+FILES = [path for path in sorted(PACKAGE.rglob("*.py")) if path.parent != PACKAGE or path.name != "__init__.py"]
+
+
+def test_every_room_has_a_floor():
+    rooms = {path.relative_to(PACKAGE).parts[0].removesuffix(".py") for path in FILES}
+    assert rooms == set(FLOOR_OF)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
+def test_imports_point_down(path):
+    own = FLOOR_OF[path.relative_to(PACKAGE).parts[0].removesuffix(".py")]
+    above = {room for room in imported(path) if FLOOR_OF[room] > own}
+    assert not above
+
+
+def test_models_are_pure():
+    """No arrays, no input or output, nothing from the package but the compiler and the conventions."""
+    for path in sorted((PACKAGE / "model").glob("*.py")):
+        assert imported(path) <= {"compiled", "conventions", "model"}, path
+        text = path.read_text(encoding="utf-8")
+        assert not any(word in text for word in ("np.zeros", "np.array(", "open(", "print(")), path
+
+
+def test_only_the_world_indexes_rows():
+    """Names of rows are used in `world/`, and where a frame for the eye or a record is made of them."""
+    users = {path.relative_to(PACKAGE).parts[0] for path in FILES if "studio.world.state" in path.read_text(encoding="utf-8")}
+    assert users <= {"world", "execution", "server"}
