@@ -29,6 +29,8 @@ type Message =
   | { type: "end"; run: number; status: Status; error: string | null };
 
 const RETRY_MS = 1500;
+/** Messages that come this close together are told to the readers at once. */
+const QUIET_MS = 40;
 
 const fresh = (run: number): LiveState => ({
   run,
@@ -69,16 +71,20 @@ export function reduce(state: LiveState, message: Message): LiveState {
 /** A live run as an external store: one socket, many readers. */
 export class Feed {
   private state: LiveState;
+  private told: LiveState;
   private listeners = new Set<() => void>();
   private socket: WebSocket | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private closed = false;
+  private telling: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly run: number) {
     this.state = fresh(run);
+    this.told = this.state;
   }
 
-  read = (): LiveState => this.state;
+  /** What was told last; it stays the same between two calls of the readers. */
+  read = (): LiveState => this.told;
 
   subscribe = (listener: () => void): (() => void) => {
     this.listeners.add(listener);
@@ -99,6 +105,7 @@ export class Feed {
   close(): void {
     this.closed = true;
     clearTimeout(this.timer);
+    clearTimeout(this.telling);
     this.socket?.close();
   }
 
@@ -110,6 +117,12 @@ export class Feed {
 
   private set(state: LiveState): void {
     this.state = state;
+    this.telling ??= setTimeout(() => this.tell(), QUIET_MS);
+  }
+
+  private tell(): void {
+    this.telling = undefined;
+    this.told = this.state;
     for (const listener of this.listeners) listener();
   }
 }

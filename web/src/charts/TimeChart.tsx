@@ -91,7 +91,7 @@ function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolea
 function padded(low: number | null, high: number | null): [number, number] {
   if (low === null || high === null) return [0, 1];
   const air = Math.max((high - low) * 0.08, Math.abs(high) * 0.02, 0.05);
-  return [low >= 0 ? Math.max(0, low - air) : low - air, high + air];
+  return [low >= 0 ? Math.max(-air / 3, low - air) : low - air, high + air];
 }
 
 /** The newest sample that any line has. */

@@ -38,6 +38,18 @@ export function channelsOf(quantityName: string, channels: readonly string[]): s
   });
 }
 
+/**
+ * What a chart of this quantity draws: one line per car of the platoon.
+ *
+ * Whoever drives ahead of the first car is no part of the platoon, and its gap would squeeze all others.
+ */
+export function drawn(quantityName: string, all: readonly string[]): string[] {
+  const found = channelsOf(quantityName, all);
+  const first = vehiclesOf(all)[0];
+  const relative = quantityName === "gap" || quantityName === "time_gap";
+  return relative && found.length > 1 ? found.filter((name) => parts(name).vehicle !== first) : found;
+}
+
 /** The vehicles that the channels speak of, each once, in their order. */
 export function vehiclesOf(channels: readonly string[]): string[] {
   return [...new Set(channels.map((name) => parts(name).vehicle))].filter((name) => !isTraffic(name));

@@ -92,7 +92,7 @@ describe("search and problems", () => {
 
   it("puts a problem at its field, and one of nowhere at the top", () => {
     const problem = { what: "x", value: "", allowed: "", remedy: "" };
-    const map = placed([{ ...problem, where: "file.yaml.radio.delay" }, { ...problem, where: "radio.loss" }, { ...problem, where: "map.osm" }], paths());
+    const map = placed([{ ...problem, where: "file.yaml: radio.delay" }, { ...problem, where: "radio.loss" }, { ...problem, where: "map.osm" }], paths());
     expect([...map.keys()]).toEqual(["radio.delay", "radio.loss", ""]);
   });
 });

@@ -147,8 +147,9 @@ function keysOf(schema: Schema, value: Tree): string[] {
 }
 
 function childSchema(schema: Schema, key: string): Schema {
-  const { properties, additionalProperties } = schema;
-  return properties?.[key] ?? (typeof additionalProperties === "object" ? additionalProperties : {});
+  const { properties, patternProperties, additionalProperties } = schema;
+  const matched = Object.entries(patternProperties ?? {}).find(([pattern]) => new RegExp(pattern).test(key))?.[1];
+  return properties?.[key] ?? matched ?? (typeof additionalProperties === "object" ? additionalProperties : {});
 }
 
 /** One value of the document as a field of the form. */
@@ -284,7 +285,9 @@ const notEmpty = ({ fields, sections: inner }: Section): boolean => fields.lengt
 export function placed(problems: readonly Problem[], paths: readonly string[]): Map<string, Problem[]> {
   const result = new Map<string, Problem[]>();
   for (const problem of problems) {
-    const path = paths.find((known) => problem.where === known || problem.where.endsWith(`.${known}`)) ?? "";
+    // The server writes `file.yaml: path`.
+    const where = problem.where.slice(problem.where.lastIndexOf(": ") + 1).trim();
+    const path = paths.includes(where) ? where : "";
     result.set(path, [...(result.get(path) ?? []), problem]);
   }
   return result;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { channelsOf, parts, quantitiesOf, vehiclesOf } from "./channel";
+import { channelsOf, drawn, parts, quantitiesOf, vehiclesOf } from "./channel";
 import { lineColor } from "./palette";
 import { countByStatus, isLive, shortNames } from "./run";
 import { append, noSamples } from "./samples";
@@ -50,6 +50,8 @@ describe("channels", () => {
 
   it("of the platoon are drawn, those of the traffic are not", () => {
     expect(channelsOf("speed", all)).toEqual(["leader.speed", "follower_1.speed"]);
+    expect(drawn("gap", [...all, "leader.gap"])).toEqual(["follower_1.gap"]);
+    expect(drawn("gap", ["leader.gap"])).toEqual(["leader.gap"]);
     expect(vehiclesOf(all)).toEqual(["leader", "follower_1"]);
     expect(quantitiesOf(all).map(({ name }) => name)).toEqual(["speed", "gap"]);
   });

@@ -41,7 +41,7 @@ export interface Run {
   sim_time_s: number | null;
   wall_time_s: number | null;
   parameters: Changes;
-  /** The metrics whose goals were not met. */
+  /** One sentence per goal that was not met; it begins with the metric's name. */
   unmet: string[];
   metrics: Record<string, Metric>;
 }

@@ -18,6 +18,7 @@ export interface Schema {
   exclusiveMaximum?: number;
   multipleOf?: number;
   properties?: Record<string, Schema>;
+  patternProperties?: Record<string, Schema>;
   additionalProperties?: Schema | boolean;
   items?: Schema | boolean;
   prefixItems?: Schema[];

@@ -45,7 +45,7 @@ export const schema: Schema = {
     title: { type: "string" },
     seed: { type: "integer" },
     radio: { $ref: "#/$defs/Radio", title: "Radio" },
-    vehicles: { type: "object", additionalProperties: { $ref: "#/$defs/Vehicle" }, title: "Vehicles" },
+    vehicles: { type: "object", patternProperties: { "^[a-z][a-z0-9_]*$": { $ref: "#/$defs/Vehicle" } }, title: "Vehicles" },
     applications: { type: "object", additionalProperties: { $ref: "#/$defs/Application" }, title: "Applications" },
     triggers: { type: "array", items: { oneOf: [{ $ref: "#/$defs/Brake" }, { $ref: "#/$defs/Swerve" }] } },
     goals: { type: "object", additionalProperties: { type: "object" }, title: "Goals" },

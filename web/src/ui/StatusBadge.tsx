@@ -2,7 +2,6 @@
 
 import { Badge, Tooltip, VisuallyHidden } from "@mantine/core";
 import type { Status } from "../model/run";
-import { words } from "../model/units";
 import { Icon } from "./Icon";
 
 const COLORS: Record<Status, string> = {
@@ -18,7 +17,7 @@ const COLORS: Record<Status, string> = {
 interface Props {
   status: Status;
   error?: string | null;
-  /** Metrics whose goals were not met. */
+  /** One sentence per goal that was not met. */
   unmet?: readonly string[];
 }
 
@@ -39,7 +38,7 @@ export function StatusBadge({ status, error, unmet = [] }: Props) {
       {missed ? <VisuallyHidden>, goals missed</VisuallyHidden> : null}
     </Badge>
   );
-  const why = error ? lastLine(error) : missed ? `Done, but goals were not met: ${unmet.map(words).join(", ")}` : "";
+  const why = error ? lastLine(error) : missed ? `Done, but ${unmet.join("; ")}.` : "";
   if (!why) return badge;
   return (
     <Tooltip label={why} multiline maw={420} position="right">

@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { type ReactNode, useMemo, useState } from "react";
 import { run as runQuery, trace } from "../../api/queries";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
-import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { merge } from "../../model/compare";
 import { lineColor } from "../../model/palette";
 import type { Run } from "../../model/run";
@@ -96,7 +96,7 @@ interface BothProps {
 
 function Both({ a, b, name, all, had, hidden, lead }: BothProps) {
   const dark = useDark();
-  const channels = useMemo(() => channelsOf(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)), [name, all, hidden]);
+  const channels = useMemo(() => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)), [name, all, hidden]);
   // A run is asked only for what it has recorded.
   const [ofA, ofB] = had.map((known) => channels.filter((channel) => known.includes(channel)));
   const one = useQuery(trace(a, ofA ?? [], POINTS));

@@ -1,13 +1,13 @@
 /** Everything about one run, and the way on from it. */
 
-import { Anchor, Badge, Button, Code, Group, Table, Text, Title } from "@mantine/core";
+import { Anchor, Badge, Button, Code, Group, Table, Text, Title, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { run as runQuery, runs as runsQuery, trace } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
-import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
 import { lineColor } from "../../model/palette";
 import type { Metric, RunDetail } from "../../model/run";
@@ -108,11 +108,7 @@ function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: r
           <Table.Tr key={name}>
             <Table.Td>
               {words(name)}
-              {unmet.includes(name) ? (
-                <Badge size="xs" color="red" variant="light" tt="none" ml={6}>
-                  goal not met
-                </Badge>
-              ) : null}
+              <Unmet sentence={unmet.find((sentence) => sentence.startsWith(`${name} `))} />
               {goal ? (
                 <Text size="xs" c="dimmed">
                   {GOALS[goal]}
@@ -129,6 +125,17 @@ function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: r
         ))}
       </Table.Tbody>
     </Table>
+  );
+}
+
+function Unmet({ sentence }: { sentence: string | undefined }) {
+  if (!sentence) return null;
+  return (
+    <Tooltip label={sentence}>
+      <Badge size="xs" color="orange" variant="light" tt="none" ml={6} tabIndex={0} aria-label={`Goal not met: ${sentence}`}>
+        goal not met
+      </Badge>
+    </Tooltip>
   );
 }
 
@@ -227,7 +234,7 @@ interface ChartProps {
 
 function QuantityChart({ run, name, all, lead }: ChartProps) {
   const dark = useDark();
-  const channels = useMemo(() => channelsOf(name, all), [name, all]);
+  const channels = useMemo(() => drawn(name, all), [name, all]);
   const { data, error } = useQuery(trace(run, channels));
   const lines = useMemo<Line[]>(() => {
     const vehicles = vehiclesOf(all);

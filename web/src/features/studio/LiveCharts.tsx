@@ -2,7 +2,7 @@
 
 import { useMemo, useState } from "react";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
-import { channelsOf, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { lineColor } from "../../model/palette";
 import type { Samples } from "../../model/samples";
 import { words } from "../../model/units";
@@ -77,14 +77,6 @@ function LiveChart({ name, samples, version, duration, onChoose }: ChartProps) {
       />
     </div>
   );
-}
-
-/** The channels of a quantity; nobody drives ahead of the leader, so its gap is not drawn. */
-function drawn(name: string, all: readonly string[]): string[] {
-  const found = channelsOf(name, all);
-  const first = vehiclesOf(all)[0];
-  const relative = name === "gap" || name === "time_gap";
-  return relative && found.length > 1 ? found.filter((channel) => parts(channel).vehicle !== first) : found;
 }
 
 /** One line per vehicle; a vehicle has the same colour in every chart. */

@@ -3,7 +3,7 @@
 import { Badge, Button, Checkbox, ScrollArea, Tabs, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
-import { useState } from "react";
+import { memo, useState } from "react";
 import { runs } from "../../api/queries";
 import { fromSet } from "../../model/form";
 import { leaf, type Run, type RunEvent } from "../../model/run";
@@ -20,7 +20,7 @@ interface Props {
   events: readonly RunEvent[];
 }
 
-export function SidePanel({ scenario, run, events }: Props) {
+export const SidePanel = memo(function SidePanel({ scenario, run, events }: Props) {
   return (
     <Tabs defaultValue="runs" className={classes.side} keepMounted={false}>
       <Tabs.List>
@@ -37,7 +37,7 @@ export function SidePanel({ scenario, run, events }: Props) {
       </Tabs.Panel>
     </Tabs>
   );
-}
+});
 
 function History({ scenario, shown }: { scenario: string; shown: number | undefined }) {
   const { data } = useQuery(runs({ scenario, limit: 30 }));

@@ -4,7 +4,7 @@ import { NativeSelect, Text } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
-import { useEffect, useMemo, useRef, useState } from "react";
+import { memo, useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { type LiveState, useLive } from "../../api/live";
 import * as queries from "../../api/queries";
 import { exchanged, fromSet, sections, withChange } from "../../model/form";
@@ -42,46 +42,58 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
   const scene = useScene(id, draft.changes, shown.live ? run : undefined, form.ok);
   const space = { paused: control.onResume, running: control.onPause }[shown.progress?.status as string] ?? control.onRun;
   useShortcuts({ " ": space, ".": control.onStep }, active);
+  const duration = shown.progress?.duration || form.duration;
 
-  const samples = shown.samples;
   return (
     <div className={classes.studio} inert={!active} aria-hidden={!active}>
-      {active ? (
-        <aside className={classes.panel} aria-label="Parameters">
-          <ScenarioHead id={id} />
-          {form.error ? <Failure error={form.error} onRetry={form.retry} /> : null}
-          {form.sections ? (
-            <ParameterPanel
-              sections={form.sections}
-              applications={form.applications}
-              problems={form.problems}
-              parent={draft.parent}
-              onChange={(field, value) => update({ changes: withChange(draft.changes, field, value) })}
-              onExchange={(exchange, name) => {
-                const next = form.applications.find((known) => known.name === name);
-                if (next) update({ changes: exchanged(draft.changes, exchange, next) });
-              }}
-              onResetAll={() => update({ changes: {} })}
-              onForgetParent={() => update({ parent: null })}
-            />
-          ) : form.error ? null : (
-            <Loading what="the scenario" />
-          )}
-        </aside>
-      ) : null}
-      {active ? (
-        <RunBar {...control} progress={shown.progress} duration={form.duration} pace={draft.pace} seed={seed} />
-      ) : null}
+      {active ? <Parameters id={id} form={form} draft={draft} update={update} /> : null}
+      {active ? <RunBar {...control} progress={shown.progress} duration={form.duration} pace={draft.pace} seed={seed} /> : null}
       <SceneView vehicles={scene.vehicles} attribution={scene.attribution} active={active} />
       {active ? (
         <div className={classes.bottom}>
-          <LiveCharts samples={samples} version={shown.version} duration={shown.progress?.duration ?? form.duration} />
+          <LiveCharts samples={shown.samples} version={shown.version} duration={duration} />
           <SidePanel scenario={id} run={run} events={shown.events} />
         </div>
       ) : null}
     </div>
   );
 }
+
+interface ParametersProps {
+  id: string;
+  form: Form;
+  draft: Draft;
+  update: (part: Partial<Draft>) => void;
+}
+
+/** The left side. Its parts change only with the form, not ten times a second with the run. */
+const Parameters = memo(function Parameters({ id, form, draft, update }: ParametersProps) {
+  const { applications } = form;
+  const { changes } = draft;
+  return (
+    <aside className={classes.panel} aria-label="Parameters">
+      <ScenarioHead id={id} />
+      {form.error ? <Failure error={form.error} onRetry={form.retry} /> : null}
+      {form.sections ? (
+        <ParameterPanel
+          sections={form.sections}
+          applications={applications}
+          problems={form.problems}
+          parent={draft.parent}
+          onChange={(field, value) => update({ changes: withChange(changes, field, value) })}
+          onExchange={(exchange, name) => {
+            const next = applications.find((known) => known.name === name);
+            if (next) update({ changes: exchanged(changes, exchange, next) });
+          }}
+          onResetAll={() => update({ changes: {} })}
+          onForgetParent={() => update({ parent: null })}
+        />
+      ) : form.error ? null : (
+        <Loading what="the scenario" />
+      )}
+    </aside>
+  );
+});
 
 /** Which scenario, and what it is about. */
 function ScenarioHead({ id }: { id: string }) {
@@ -102,11 +114,6 @@ function ScenarioHead({ id }: { id: string }) {
       {current?.description ? (
         <Text size="xs" c="dimmed" lineClamp={2} title={current.description}>
           {current.description}
-        </Text>
-      ) : null}
-      {current?.problem ? (
-        <Text size="xs" c="red">
-          {current.problem}
         </Text>
       ) : null}
     </header>
@@ -143,17 +150,26 @@ function useForm(id: string, changes: Changes) {
   );
   const [settled] = useDebouncedValue(changes, 300);
   const { data: checked } = useQuery({ ...queries.check(id, settled), enabled: form !== undefined });
-  return {
-    sections: form,
-    applications: known,
-    ok: checked?.ok ?? false,
-    problems: checked?.problems ?? NONE,
-    duration: durationOf(checked?.document ?? document),
-    seed: typeof document?.seed === "number" ? document.seed : 1,
-    error: scenario.error ?? applications.error,
-    retry: () => void Promise.all([scenario.refetch(), applications.refetch()]),
-  };
+  const { refetch: again } = scenario;
+  const { refetch: andApplications } = applications;
+  const retry = useCallback(() => void Promise.all([again(), andApplications()]), [again, andApplications]);
+  const error = scenario.error ?? applications.error;
+  return useMemo(
+    () => ({
+      sections: form,
+      applications: known,
+      ok: checked?.ok ?? false,
+      problems: checked?.problems ?? NONE,
+      duration: durationOf(checked?.document ?? document),
+      seed: typeof document?.seed === "number" ? document.seed : 1,
+      error,
+      retry,
+    }),
+    [form, known, checked, document, error, retry],
+  );
 }
+
+type Form = ReturnType<typeof useForm>;
 
 /** How long the scenario runs [s], wherever the document says it. */
 function durationOf(document: unknown): number {

@@ -1,6 +1,7 @@
 /** What the next run will be started with; it survives a reload of the page. */
 
 import { useSessionStorage } from "@mantine/hooks";
+import { useCallback, useMemo } from "react";
 import type { Pace } from "../../api/types";
 import type { Changes } from "../../model/run";
 
@@ -21,6 +22,7 @@ export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => vo
     defaultValue: FRESH,
     getInitialValueInEffect: false,
   });
-  const update = (part: Partial<Draft>) => store((before) => ({ ...FRESH, ...before, ...part }));
-  return [{ ...FRESH, ...stored }, update];
+  const update = useCallback((part: Partial<Draft>) => store((before) => ({ ...FRESH, ...before, ...part })), [store]);
+  const draft = useMemo(() => ({ ...FRESH, ...stored }), [stored]);
+  return [draft, update];
 }
