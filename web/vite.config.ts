@@ -12,7 +12,12 @@ export default defineConfig({
   // Absolute, so that a nested deep link finds its assets.
   base: "/",
   plugins: [react()],
-  build: { outDir: process.env.STUDIO_WEB_OUT ?? "../studio/_web", emptyOutDir: true, chunkSizeWarningLimit: 900, cssTarget: BROWSERS },
+  build: {
+    outDir: process.env.STUDIO_WEB_OUT ?? "../studio/_web",
+    emptyOutDir: true,
+    chunkSizeWarningLimit: 900,
+    cssTarget: BROWSERS,
+  },
   server: { proxy: { "/api": relay, "/scene": relay } },
   test: { environment: "happy-dom", include: ["src/**/*.test.{ts,tsx}"], setupFiles: ["src/test/setup.ts"] },
 });

@@ -7,6 +7,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+PROGRAMS = {
+    "openapi-typescript": "openapi-typescript/bin/cli.js",
+    "tsc": "typescript/bin/tsc",
+    "vitest": "vitest/vitest.mjs",
+}
 
 
 def load_bundle():
@@ -29,7 +34,6 @@ def tool(bundle):
     bundle.install()
 
     def call(name: str, *arguments: str) -> subprocess.CompletedProcess:
-        package = {"tsc": "typescript/bin/tsc", "vitest": "vitest/vitest.mjs", "openapi-typescript": "openapi-typescript/bin/cli.js"}[name]
-        return bundle.run([bundle.node().executable, f"node_modules/{package}", *arguments])
+        return bundle.run([bundle.node().executable, f"node_modules/{PROGRAMS[name]}", *arguments])
 
     return call

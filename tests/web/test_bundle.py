@@ -8,7 +8,15 @@ import pytest
 
 @pytest.mark.parametrize(
     ("version", "good"),
-    [((18, 20, 0), False), ((20, 18, 9), False), ((20, 19, 0), True), ((21, 7, 0), False), ((22, 11, 0), False), ((22, 12, 0), True), ((26, 0, 0), True)],
+    [
+        ((18, 20, 0), False),
+        ((20, 18, 9), False),
+        ((20, 19, 0), True),
+        ((21, 7, 0), False),
+        ((22, 11, 0), False),
+        ((22, 12, 0), True),
+        ((26, 0, 0), True),
+    ],
 )
 def test_node_is_taken_as_vite_asks_for(bundle, version, good):
     assert bundle.new_enough(version) is good

@@ -56,7 +56,8 @@ ALLOWED = {
 def imported(source: Path) -> list[Path]:
     """What a file imports of ours, as paths below src/."""
     src = WEB / "src"
-    return [(source.parent / target).resolve().relative_to(src.resolve()) for target in IMPORT.findall(source.read_text())]
+    targets = IMPORT.findall(source.read_text())
+    return [(source.parent / target).resolve().relative_to(src.resolve()) for target in targets]
 
 
 def test_rooms_import_only_what_stands_below_them():
@@ -75,8 +76,8 @@ def test_rooms_import_only_what_stands_below_them():
 def test_every_shown_control_of_the_contract_has_its_test_id():
     text = "\n".join(path.read_text() for path in (WEB / "src").rglob("*.tsx"))
     for name in (
-        "run pause resume step stop pace sim-time follow scene-frame history-row nav-studio nav-runs nav-compare "
-        "compare-button compare-parameters compare-metrics runs-table theme-toggle attribution"
+        "run pause resume step stop pace sim-time follow scene-frame history-row nav-studio nav-runs "
+        "nav-compare compare-button compare-parameters compare-metrics runs-table theme-toggle attribution"
     ).split():
         assert re.search(rf"[\"']{name}[\"']", text), name
     assert "param-${" in text and "application-${" in text

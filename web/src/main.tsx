@@ -10,7 +10,9 @@ import { theme } from "./app/theme";
 
 const client = new QueryClient({
   // A refusal of the server stays one; only a missing answer is worth asking again.
-  defaultOptions: { queries: { retry: (count, error) => !(error instanceof Refusal) && count < 2, staleTime: 1000 } },
+  defaultOptions: {
+    queries: { retry: (count, error) => !(error instanceof Refusal) && count < 2, staleTime: 1000 },
+  },
 });
 
 createRoot(document.getElementById("root") as HTMLElement).render(

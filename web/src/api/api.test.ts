@@ -3,10 +3,15 @@ import { answer, client, Refusal, Unreachable } from "./client";
 import { Feed, type LiveState, reduce } from "./live";
 
 afterEach(() => vi.unstubAllGlobals());
-const stub = (status: number, body: unknown) => vi.stubGlobal("fetch", vi.fn(async () => new Response(JSON.stringify(body), { status })));
+const stub = (status: number, body: unknown) =>
+  vi.stubGlobal(
+    "fetch",
+    vi.fn(async () => new Response(JSON.stringify(body), { status })),
+  );
 
 const info = () => answer<unknown>(client.GET("/api/info"));
-const start = () => answer<unknown>(client.POST("/api/live", { body: { scenario: "a", set: {}, pace: 1, paused: false } }));
+const start = () =>
+  answer<unknown>(client.POST("/api/live", { body: { scenario: "a", set: {}, pace: 1, paused: false } }));
 
 describe("requests", () => {
   it("give back what the server says", async () => {
@@ -18,7 +23,11 @@ describe("requests", () => {
     stub(201, { run: 3 });
     await start();
     const sent = vi.mocked(fetch).mock.lastCall?.[0] as Request;
-    expect([sent.method, new URL(sent.url).pathname, (await sent.json()).scenario]).toEqual(["POST", "/api/live", "a"]);
+    expect([sent.method, new URL(sent.url).pathname, (await sent.json()).scenario]).toEqual([
+      "POST",
+      "/api/live",
+      "a",
+    ]);
   });
 
   it("fail with the message and problems of a refusal", async () => {
@@ -35,7 +44,10 @@ describe("requests", () => {
   });
 
   it("tell a server that is gone, also behind a proxy", async () => {
-    vi.stubGlobal("fetch", vi.fn(async () => Promise.reject(new TypeError("network"))));
+    vi.stubGlobal(
+      "fetch",
+      vi.fn(async () => Promise.reject(new TypeError("network"))),
+    );
     expect(await info().catch((caught) => caught)).toBeInstanceOf(Unreachable);
     stub(502, "bad gateway");
     expect(await info().catch((caught) => caught)).toBeInstanceOf(Unreachable);
@@ -59,7 +71,16 @@ class FakeSocket {
   }
 }
 
-const state = (status: string, time = 1) => ({ type: "state", run: 5, status, time, duration_s: 60, pace: 1, real_time_factor: 0.9, tick: 50 });
+const state = (status: string, time = 1) => ({
+  type: "state",
+  run: 5,
+  status,
+  time,
+  duration_s: 60,
+  pace: 1,
+  real_time_factor: 0.9,
+  tick: 50,
+});
 
 describe("the feed of a live run", () => {
   const opened = (): [Feed, FakeSocket] => {
@@ -87,7 +108,13 @@ describe("the feed of a live run", () => {
     socket.say({ type: "samples", time: [0, 0.02], channels: { "leader.speed": [1, 2] } });
     socket.say({ type: "event", time: 0.5, text: "brakes", vehicle: "leader" });
     expect(socket.url).toMatch(/^ws:.*\/api\/live\/5\/socket$/);
-    expect(told(feed)).toMatchObject({ status: "running", time: 1, real_time_factor: 0.9, samples: { time: [0, 0.02] }, events: [{ time: 0.5, text: "brakes", vehicle: "leader" }] });
+    expect(told(feed)).toMatchObject({
+      status: "running",
+      time: 1,
+      real_time_factor: 0.9,
+      samples: { time: [0, 0.02] },
+      events: [{ time: 0.5, text: "brakes", vehicle: "leader" }],
+    });
     expect(listener).toHaveBeenCalledTimes(1);
   });
 

@@ -5,7 +5,10 @@ import type { Problem } from "../model/run";
 import type { paths } from "./schema";
 
 /** The server's routes; wrong paths, parameters and bodies do not compile. */
-export const client = createClient<paths>({ baseUrl: location.origin, fetch: (request) => globalThis.fetch(request) });
+export const client = createClient<paths>({
+  baseUrl: location.origin,
+  fetch: (request) => globalThis.fetch(request),
+});
 
 /** A refusal of the server: one sentence, and the problems it is made of. */
 export class Refusal extends Error {
@@ -47,5 +50,9 @@ function refusal(body: unknown, status: number): Error {
   const { message, problems } = (typeof body === "object" && body !== null ? body : {}) as Partial<Refusal>;
   // A development proxy answers 502 or 504 when the server behind it is gone.
   if (message === undefined && status >= 502) return new Unreachable();
-  return new Refusal(message ?? `The server answered ${status}.`, Array.isArray(problems) ? problems : [], status);
+  return new Refusal(
+    message ?? `The server answered ${status}.`,
+    Array.isArray(problems) ? problems : [],
+    status,
+  );
 }

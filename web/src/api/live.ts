@@ -97,7 +97,8 @@ export class Feed {
     const socket = new WebSocket(`${scheme}://${location.host}/api/live/${this.run}/socket`);
     this.socket = socket;
     // A new socket gets all samples so far, so the old ones must go.
-    socket.onopen = () => this.set({ ...fresh(this.run), status: this.state.status, version: this.state.version + 1 });
+    socket.onopen = () =>
+      this.set({ ...fresh(this.run), status: this.state.status, version: this.state.version + 1 });
     socket.onmessage = ({ data }) => this.set(reduce(this.state, JSON.parse(data) as Message));
     socket.onclose = () => this.lost();
   }

@@ -6,12 +6,16 @@ import { type Changes, isLive, type Run, type RunDetail, type Trace } from "../m
 import { answer, client } from "./client";
 import type { Check, Comparison, Info, LiveRow, Pace, Scenario, ScenarioRow, Scene } from "./types";
 
-export const scenarios = queryOptions({ queryKey: ["scenarios"], queryFn: () => answer<ScenarioRow[]>(client.GET("/api/scenarios")) });
+export const scenarios = queryOptions({
+  queryKey: ["scenarios"],
+  queryFn: () => answer<ScenarioRow[]>(client.GET("/api/scenarios")),
+});
 
 export const scenario = (id: string) =>
   queryOptions({
     queryKey: ["scenario", id],
-    queryFn: () => answer<Scenario>(client.GET("/api/scenarios/{scenario}", { params: { path: { scenario: id } } })),
+    queryFn: () =>
+      answer<Scenario>(client.GET("/api/scenarios/{scenario}", { params: { path: { scenario: id } } })),
   });
 
 export const applications = queryOptions({
@@ -23,7 +27,9 @@ export const check = (id: string, set: Changes) =>
   queryOptions({
     queryKey: ["check", id, set],
     queryFn: () =>
-      answer<Check>(client.POST("/api/scenarios/{scenario}/check", { params: { path: { scenario: id } }, body: { set } })),
+      answer<Check>(
+        client.POST("/api/scenarios/{scenario}/check", { params: { path: { scenario: id } }, body: { set } }),
+      ),
     placeholderData: keepPreviousData,
   });
 
@@ -48,14 +54,19 @@ export const trace = (number: number, channels: readonly string[], points = 1000
     queryKey: ["trace", number, channels, points],
     queryFn: () =>
       answer<Trace>(
-        client.GET("/api/runs/{run}/trace", { params: { path: { run: number }, query: { channels: channels.join(","), points } } }),
+        client.GET("/api/runs/{run}/trace", {
+          params: { path: { run: number }, query: { channels: channels.join(","), points } },
+        }),
       ),
     enabled: channels.length > 0,
     placeholderData: keepPreviousData,
   });
 
 export const comparison = (a: number, b: number) =>
-  queryOptions({ queryKey: ["compare", a, b], queryFn: () => answer<Comparison>(client.GET("/api/compare", { params: { query: { a, b } } })) });
+  queryOptions({
+    queryKey: ["compare", a, b],
+    queryFn: () => answer<Comparison>(client.GET("/api/compare", { params: { query: { a, b } } })),
+  });
 
 export const scene = (what: { scenario: string; set?: Changes } | { run: number }) =>
   queryOptions({
@@ -82,7 +93,8 @@ export interface Start {
 export function useStart() {
   const kept = useQueryClient();
   return useMutation({
-    mutationFn: (start: Start) => answer<LiveRow>(client.POST("/api/live", { body: { paused: false, ...start } })),
+    mutationFn: (start: Start) =>
+      answer<LiveRow>(client.POST("/api/live", { body: { paused: false, ...start } })),
     onSuccess: () => kept.invalidateQueries({ queryKey: ["runs"] }),
   });
 }
@@ -101,7 +113,9 @@ export function useOrder() {
 export function usePace() {
   return useMutation({
     mutationFn: ({ run: number, pace }: { run: number; pace: Pace }) =>
-      answer<LiveRow>(client.POST("/api/live/{run}/pace", { params: { path: { run: number } }, body: { pace } })),
+      answer<LiveRow>(
+        client.POST("/api/live/{run}/pace", { params: { path: { run: number } }, body: { pace } }),
+      ),
   });
 }
 

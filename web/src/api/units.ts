@@ -15,7 +15,9 @@ export function useUnits(runs: readonly Run[]): Record<string, string> {
     combine: (results) => results.flatMap(({ data }) => (data ? [data] : [])),
   });
   return useMemo(() => {
-    const all = found.map(({ document, schema }) => unitsOf({ document, schema, applications: known ?? [], changes: {} }));
+    const all = found.map(({ document, schema }) =>
+      unitsOf({ document, schema, applications: known ?? [], changes: {} }),
+    );
     return Object.assign({}, ...all) as Record<string, string>;
   }, [found, known]);
 }

@@ -1,6 +1,15 @@
 /** The frame around every place: head, navigation, theme, keyboard, and notices. */
 
-import { ActionIcon, Alert, Kbd, Modal, Table, Tooltip, useComputedColorScheme, useMantineColorScheme } from "@mantine/core";
+import {
+  ActionIcon,
+  Alert,
+  Kbd,
+  Modal,
+  Table,
+  Tooltip,
+  useComputedColorScheme,
+  useMantineColorScheme,
+} from "@mantine/core";
 import { Notifications } from "@mantine/notifications";
 import { useQuery } from "@tanstack/react-query";
 import { Link, Outlet, useLocation, useMatch, useNavigate } from "@tanstack/react-router";
@@ -31,7 +40,12 @@ export function Shell() {
         <Places />
       </main>
       <Keys opened={help} onClose={() => setHelp(false)} />
-      <Notifications position="bottom-right" limit={2} className={classes.notices} data-studio={studio || undefined} />
+      <Notifications
+        position="bottom-right"
+        limit={2}
+        className={classes.notices}
+        data-studio={studio || undefined}
+      />
     </div>
   );
 }
@@ -91,7 +105,14 @@ function Navigation() {
   const place = (to: "/" | "/runs" | "/compare", testId: string, label: string) => {
     const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
     return (
-      <Link to={to} search={{}} className={classes.nav} data-testid={testId} data-here={here || undefined} aria-current={here ? "page" : undefined}>
+      <Link
+        to={to}
+        search={{}}
+        className={classes.nav}
+        data-testid={testId}
+        data-here={here || undefined}
+        aria-current={here ? "page" : undefined}
+      >
         {label}
       </Link>
     );
@@ -116,11 +137,19 @@ function ThemeToggle() {
   const { colorScheme, setColorScheme } = useMantineColorScheme();
   const seen = useComputedColorScheme("light");
   const system = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  const next = colorScheme === "auto" ? (seen === "dark" ? "light" : "dark") : seen === system ? "auto" : system;
+  const next =
+    colorScheme === "auto" ? (seen === "dark" ? "light" : "dark") : seen === system ? "auto" : system;
   const { icon, label } = SCHEMES[colorScheme] ?? { icon: "system" as const, label: "Theme" };
   return (
     <Tooltip label={label}>
-      <ActionIcon variant="subtle" color="gray" data-testid="theme-toggle" data-scheme={colorScheme} aria-label={`${label}. Change to ${next === "auto" ? "the system's" : next}`} onClick={() => setColorScheme(next)}>
+      <ActionIcon
+        variant="subtle"
+        color="gray"
+        data-testid="theme-toggle"
+        data-scheme={colorScheme}
+        aria-label={`${label}. Change to ${next === "auto" ? "the system's" : next}`}
+        onClick={() => setColorScheme(next)}
+      >
         <Icon name={icon} size={18} />
       </ActionIcon>
     </Tooltip>
@@ -132,8 +161,16 @@ function Connection() {
   const { error } = useQuery(heartbeat);
   if (!(error instanceof Unreachable)) return null;
   return (
-    <Alert color="red" radius={0} py={6} icon={<Icon name="unlinked" />} role="alert" data-testid="connection-lost">
-      The studio server does not answer. Trying again … If it was stopped, start it with <code>studio serve</code>.
+    <Alert
+      color="red"
+      radius={0}
+      py={6}
+      icon={<Icon name="unlinked" />}
+      role="alert"
+      data-testid="connection-lost"
+    >
+      The studio server does not answer. Trying again … If it was stopped, start it with{" "}
+      <code>studio serve</code>.
     </Alert>
   );
 }

@@ -29,7 +29,11 @@ export const rememberScenario = (id: string): void => localStorage.setItem(LAST,
 export function NotFound() {
   const navigate = useNavigate();
   return (
-    <Empty icon="unlinked" title="There is no such page" action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}>
+    <Empty
+      icon="unlinked"
+      title="There is no such page"
+      action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}
+    >
       The address leads nowhere. The studio, the runs and the comparison are in the head of the page.
     </Empty>
   );

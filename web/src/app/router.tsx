@@ -7,8 +7,12 @@ import { RunsPage, type RunsView } from "../features/runs/RunsPage";
 import { FirstScenario, NotFound } from "./places";
 import { Shell } from "./Shell";
 
-const number = (value: unknown): number | undefined => (Number.isInteger(Number(value)) && value !== "" && value !== null && value !== undefined ? Number(value) : undefined);
-const text = (value: unknown): string | undefined => (typeof value === "string" || typeof value === "number" ? String(value) : undefined);
+const number = (value: unknown): number | undefined =>
+  Number.isInteger(Number(value)) && value !== "" && value !== null && value !== undefined
+    ? Number(value)
+    : undefined;
+const text = (value: unknown): string | undefined =>
+  typeof value === "string" || typeof value === "number" ? String(value) : undefined;
 
 const root = createRootRoute({ component: Shell, notFoundComponent: NotFound });
 
@@ -18,7 +22,9 @@ const index = createRoute({ getParentRoute: () => root, path: "/", component: Fi
 export const studioRoute = createRoute({
   getParentRoute: () => root,
   path: "/studio/$scenario",
-  validateSearch: (search: Record<string, unknown>): { run?: number | undefined; from?: number | undefined } => ({
+  validateSearch: (
+    search: Record<string, unknown>,
+  ): { run?: number | undefined; from?: number | undefined } => ({
     run: number(search.run),
     from: number(search.from),
   }),
@@ -36,7 +42,12 @@ const runsRoute = createRoute({
   }),
   component: function Runs() {
     const navigate = useNavigate();
-    return <RunsPage view={runsRoute.useSearch()} onView={(view) => navigate({ to: "/runs", search: view, replace: true })} />;
+    return (
+      <RunsPage
+        view={runsRoute.useSearch()}
+        onView={(view) => navigate({ to: "/runs", search: view, replace: true })}
+      />
+    );
   },
 });
 
@@ -52,15 +63,29 @@ const runRoute = createRoute({
 const compareRoute = createRoute({
   getParentRoute: () => root,
   path: "/compare",
-  validateSearch: ({ a, b }: Record<string, unknown>): { a?: number | undefined; b?: number | undefined } => ({ a: number(a), b: number(b) }),
+  validateSearch: ({
+    a,
+    b,
+  }: Record<string, unknown>): { a?: number | undefined; b?: number | undefined } => ({
+    a: number(a),
+    b: number(b),
+  }),
   component: function Compare() {
     const { a, b } = compareRoute.useSearch();
     const navigate = useNavigate();
-    return <ComparePage a={a} b={b} onChoose={(nextA, nextB) => navigate({ to: "/compare", search: { a: nextA, b: nextB } })} />;
+    return (
+      <ComparePage
+        a={a}
+        b={b}
+        onChoose={(nextA, nextB) => navigate({ to: "/compare", search: { a: nextA, b: nextB } })}
+      />
+    );
   },
 });
 
-export const router = createRouter({ routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute]) });
+export const router = createRouter({
+  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute]),
+});
 
 declare module "@tanstack/react-router" {
   interface Register {

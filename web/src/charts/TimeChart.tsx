@@ -63,15 +63,35 @@ interface Memory {
   onCursor: (index: number | null) => void;
 }
 
-function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolean, memory: Memory, low: boolean): Omit<uPlot.Options, "width" | "height"> {
+function options(
+  { title, unit, lines, duration = 0, sync }: Props,
+  dark: boolean,
+  memory: Memory,
+  low: boolean,
+): Omit<uPlot.Options, "width" | "height"> {
   const ink = dark ? INK.dark : INK.light;
-  const axis = { stroke: ink.text, font: FONT, grid: { stroke: ink.grid, width: 1 }, ticks: { show: false }, labelFont: FONT, labelSize: 16, labelGap: 0 };
+  const axis = {
+    stroke: ink.text,
+    font: FONT,
+    grid: { stroke: ink.grid, width: 1 },
+    ticks: { show: false },
+    labelFont: FONT,
+    labelSize: 16,
+    labelGap: 0,
+  };
   return {
     padding: [8, 12, 0, 0],
     legend: { show: false },
-    cursor: { ...(sync ? { sync: { key: sync, setSeries: false } } : {}), drag: { x: true, y: false }, points: { size: 6 } },
+    cursor: {
+      ...(sync ? { sync: { key: sync, setSeries: false } } : {}),
+      drag: { x: true, y: false },
+      points: { size: 6 },
+    },
     scales: {
-      x: { time: false, range: (_u, low, high) => (memory.zoomed ? [low, high] : [0, Math.max(duration, high ?? 0, 1)]) },
+      x: {
+        time: false,
+        range: (_u, low, high) => (memory.zoomed ? [low, high] : [0, Math.max(duration, high ?? 0, 1)]),
+      },
       y: { range: (_u, low, high) => padded(low, high) },
     },
     axes: [
@@ -81,8 +101,21 @@ function options({ title, unit, lines, duration = 0, sync }: Props, dark: boolea
     series: [{ label: "Time" }, ...lines.map(series)],
     hooks: {
       setCursor: [(chart) => memory.onCursor(chart.cursor.idx ?? null)],
-      setSelect: [() => { memory.zoomed = true; }],
-      ready: [(chart) => chart.over.addEventListener("dblclick", () => { memory.zoomed = false; }, { capture: true })],
+      setSelect: [
+        () => {
+          memory.zoomed = true;
+        },
+      ],
+      ready: [
+        (chart) =>
+          chart.over.addEventListener(
+            "dblclick",
+            () => {
+              memory.zoomed = false;
+            },
+            { capture: true },
+          ),
+      ],
     },
   };
 }
@@ -105,7 +138,8 @@ const LOOK_BACK = 64;
 /** The value of a column at an index, looking back over places where only the other run has samples. */
 function valueAt(column: Columns[number] | undefined, index: number | null): number | null {
   if (!column || index === null) return null;
-  for (let i = index; i >= 0 && i > index - LOOK_BACK; i -= 1) if (column[i] !== undefined) return column[i] ?? null;
+  for (let i = index; i >= 0 && i > index - LOOK_BACK; i -= 1)
+    if (column[i] !== undefined) return column[i] ?? null;
   return null;
 }
 
@@ -119,12 +153,19 @@ export function TimeChart(props: Props) {
   const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark]);
 
   // A chart is rebuilt only when its lines, axes or theme change; samples are set below.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: `shape` stands for all of them
+  // `shape` stands for all of them.
   useEffect(() => {
     const element = host.current;
     if (!element) return;
-    const size = () => ({ width: Math.max(element.clientWidth, 50), height: Math.max(element.clientHeight, 60) });
-    const made = new uPlot({ ...options(props, dark, memory.current, element.clientHeight < LOW), ...size() }, data as uPlot.AlignedData, element);
+    const size = () => ({
+      width: Math.max(element.clientWidth, 50),
+      height: Math.max(element.clientHeight, 60),
+    });
+    const made = new uPlot(
+      { ...options(props, dark, memory.current, element.clientHeight < LOW), ...size() },
+      data as uPlot.AlignedData,
+      element,
+    );
     chart.current = made;
     const observer = new ResizeObserver(() => made.setSize(size()));
     observer.observe(element);
@@ -134,6 +175,7 @@ export function TimeChart(props: Props) {
     };
   }, [shape]);
 
+  // The columns grow in place, `version` tells when.
   useEffect(() => {
     // New samples must not throw away a zoom made by hand.
     chart.current?.setData(data as uPlot.AlignedData, !memory.current.zoomed);
@@ -167,17 +209,28 @@ export function TimeChart(props: Props) {
 /** Lines of the same name share one entry of the legend: a solid and a dashed value side by side. */
 function byLabel(lines: readonly Line[]): [string, { line: Line; place: number }[]][] {
   const groups = new Map<string, { line: Line; place: number }[]>();
-  lines.forEach((line, place) => groups.set(line.label, [...(groups.get(line.label) ?? []), { line, place }]));
+  for (const [place, line] of lines.entries()) {
+    groups.set(line.label, [...(groups.get(line.label) ?? []), { line, place }]);
+  }
   return [...groups];
 }
 
 /** Two decimals at all times, so that the legend does not jump. */
-const shown = (value: number | null): string => (value === null ? "–" : value.toFixed(2).replace("-", "\u2212"));
+const shown = (value: number | null): string =>
+  value === null ? "–" : value.toFixed(2).replace("-", "\u2212");
 
 function Stroke({ color, dashed }: { color: string; dashed: boolean }) {
   return (
     <svg width="16" height="8" aria-hidden="true">
-      <line x1="0" y1="4" x2="16" y2="4" stroke={color} strokeWidth="2.5" strokeDasharray={dashed ? "5 3" : undefined} />
+      <line
+        x1="0"
+        y1="4"
+        x2="16"
+        y2="4"
+        stroke={color}
+        strokeWidth="2.5"
+        strokeDasharray={dashed ? "5 3" : undefined}
+      />
     </svg>
   );
 }

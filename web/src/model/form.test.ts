@@ -1,6 +1,20 @@
 import { describe, expect, it } from "vitest";
 import { applications, document, source } from "../test/scenario";
-import { changedIn, exchanged, exchangesOf, type Field, fieldsOf, fromSet, matching, placed, sections, unitAt, unitsOf, valueAt, withChange } from "./form";
+import {
+  changedIn,
+  exchanged,
+  exchangesOf,
+  type Field,
+  fieldsOf,
+  fromSet,
+  matching,
+  placed,
+  sections,
+  unitAt,
+  unitsOf,
+  valueAt,
+  withChange,
+} from "./form";
 
 const field = (path: string, changes = {}): Field => {
   const found = fieldsOf(sections(source(changes))).find((one) => one.path === path);
@@ -11,20 +25,40 @@ const paths = (changes = {}) => fieldsOf(sections(source(changes))).map(({ path 
 
 describe("the form", () => {
   it("has one section per part, what is tuned most first, and none for empty or other places", () => {
-    expect(sections(source()).map(({ path }) => path)).toEqual(["applications", "radio", "vehicles", "triggers"]);
+    expect(sections(source()).map(({ path }) => path)).toEqual([
+      "applications",
+      "radio",
+      "vehicles",
+      "triggers",
+    ]);
   });
 
   it("gives a number its unit, its range and its words", () => {
-    expect(field("radio.delay")).toMatchObject({ label: "Delay", unit: "s", minimum: 0, maximum: 1, kind: "number", value: 0.02, changed: false });
+    expect(field("radio.delay")).toMatchObject({
+      label: "Delay",
+      unit: "s",
+      minimum: 0,
+      maximum: 1,
+      kind: "number",
+      value: 0.02,
+      changed: false,
+    });
     expect(field("radio.delay").allowed).toBe("at least 0, at most 1 s");
     expect(field("radio.loss")).toMatchObject({ unit: "", allowed: "at least 0, below 1" });
   });
 
   it("knows choices, colours, lists and what may be empty", () => {
-    expect(field("vehicles.leader.model")).toMatchObject({ kind: "choice", choices: ["bmw_320i", "ford_escort"] });
+    expect(field("vehicles.leader.model")).toMatchObject({
+      kind: "choice",
+      choices: ["bmw_320i", "ford_escort"],
+    });
     expect(field("vehicles.leader.colour").kind).toBe("colour");
     expect(field("applications.platoon.vehicles").kind).toBe("list");
-    expect(field("vehicles.leader.position.along")).toMatchObject({ kind: "number", nullable: true, value: null });
+    expect(field("vehicles.leader.position.along")).toMatchObject({
+      kind: "number",
+      nullable: true,
+      value: null,
+    });
     expect(field("radio.delay").nullable).toBe(false);
   });
 
@@ -42,7 +76,11 @@ describe("the form", () => {
 
   it("marks what is changed and counts it", () => {
     const changed = sections(source({ "radio.delay": 0.3 }));
-    expect(field("radio.delay", { "radio.delay": 0.3 })).toMatchObject({ value: 0.3, initial: 0.02, changed: true });
+    expect(field("radio.delay", { "radio.delay": 0.3 })).toMatchObject({
+      value: 0.3,
+      initial: 0.02,
+      changed: true,
+    });
     expect(changed.map(changedIn)).toEqual([0, 1, 0, 0]);
   });
 
@@ -57,15 +95,27 @@ describe("exchanging an application", () => {
   const [exchange] = exchangesOf(sections(source()));
   const acc = applications[1];
   if (!exchange || !acc) throw new Error("the fixture has an application to exchange");
-  const before = { "applications.platoon.parameters.headway": 0.9, "applications.platoon.parameters.k_p": 0.5, "radio.delay": 0.1 };
+  const before = {
+    "applications.platoon.parameters.headway": 0.9,
+    "applications.platoon.parameters.k_p": 0.5,
+    "radio.delay": 0.1,
+  };
   const after = exchanged(before, exchange, acc);
 
   it("finds the select of its group", () => {
-    expect(exchange).toMatchObject({ path: "applications.platoon.application", group: "platoon", initial: "cacc" });
+    expect(exchange).toMatchObject({
+      path: "applications.platoon.application",
+      group: "platoon",
+      initial: "cacc",
+    });
   });
 
   it("keeps parameters that the new one has too and drops the others", () => {
-    expect(after).toEqual({ "applications.platoon.parameters.headway": 0.9, "radio.delay": 0.1, "applications.platoon.application": "acc" });
+    expect(after).toEqual({
+      "applications.platoon.parameters.headway": 0.9,
+      "radio.delay": 0.1,
+      "applications.platoon.application": "acc",
+    });
   });
 
   it("shows the new one's parameters, with its defaults where the document has none", () => {
@@ -75,24 +125,39 @@ describe("exchanging an application", () => {
   });
 
   it("lays out objects that a program has set", () => {
-    expect(fromSet({ "applications.platoon.parameters": { headway: 1 }, seed: 2 })).toEqual({ "applications.platoon.parameters.headway": 1, seed: 2 });
+    expect(fromSet({ "applications.platoon.parameters": { headway: 1 }, seed: 2 })).toEqual({
+      "applications.platoon.parameters.headway": 1,
+      seed: 2,
+    });
   });
 
   it("is no change when it goes back", () => {
     const cacc = applications[0];
-    expect(cacc && exchanged(after, exchange, cacc)).toEqual({ "applications.platoon.parameters.headway": 0.9, "radio.delay": 0.1 });
+    expect(cacc && exchanged(after, exchange, cacc)).toEqual({
+      "applications.platoon.parameters.headway": 0.9,
+      "radio.delay": 0.1,
+    });
   });
 });
 
 describe("search and problems", () => {
   it("finds fields by path, label and description, all words at once", () => {
-    expect(fieldsOf(matching(sections(source()), "radio sender")).map(({ path }) => path)).toEqual(["radio.delay"]);
+    expect(fieldsOf(matching(sections(source()), "radio sender")).map(({ path }) => path)).toEqual([
+      "radio.delay",
+    ]);
     expect(matching(sections(source()), "nothing like this")).toEqual([]);
   });
 
   it("puts a problem at its field, and one of nowhere at the top", () => {
     const problem = { what: "x", value: "", allowed: "", remedy: "" };
-    const map = placed([{ ...problem, where: "file.yaml: radio.delay" }, { ...problem, where: "radio.loss" }, { ...problem, where: "map.osm" }], paths());
+    const map = placed(
+      [
+        { ...problem, where: "file.yaml: radio.delay" },
+        { ...problem, where: "radio.loss" },
+        { ...problem, where: "map.osm" },
+      ],
+      paths(),
+    );
     expect([...map.keys()]).toEqual(["radio.delay", "radio.loss", ""]);
   });
 });

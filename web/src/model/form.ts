@@ -63,7 +63,18 @@ export interface Source {
 }
 
 /** What a developer turns most comes first; keys that are not named here follow in the schema's order. */
-const ORDER = ["applications", "radio", "vehicles", "traffic", "triggers", "clock", "goals", "recording", "routes", "map"];
+const ORDER = [
+  "applications",
+  "radio",
+  "vehicles",
+  "traffic",
+  "triggers",
+  "clock",
+  "goals",
+  "recording",
+  "routes",
+  "map",
+];
 
 /** Told in the page's head or in the run bar, so not in the form. */
 const ELSEWHERE = new Set(["title", "description", "seed", "version", "format"]);
@@ -110,8 +121,10 @@ function emptySection(path: string, schema: Schema): Section {
 function add(section: Section, source: Source, path: string, child: Schema, value: Json): void {
   const schema = resolve(child, source.schema, value);
   if (isTree(value)) section.sections.push(objectSection(source, path, schema, value));
-  else if (Array.isArray(value) && value.some(isTree)) section.sections.push(listSection(source, path, schema, value));
-  else if (editable(schema, source.schema)) section.fields.push(field(path, schema, value, source.changes, nullable(child, source.schema)));
+  else if (Array.isArray(value) && value.some(isTree))
+    section.sections.push(listSection(source, path, schema, value));
+  else if (editable(schema, source.schema))
+    section.fields.push(field(path, schema, value, source.changes, nullable(child, source.schema)));
 }
 
 /** Constants are told by where they stand, and an empty list of objects has nothing to edit. */
@@ -123,7 +136,10 @@ function editable(schema: Schema, root: Schema): boolean {
 /** Whether one of the alternatives is nothing. */
 function nullable(schema: Schema, root: Schema): boolean {
   const plain = schema.$ref ? resolve({ $ref: schema.$ref }, root, undefined) : schema;
-  return [...(schema.anyOf ?? []), ...(schema.oneOf ?? [])].some(({ type }) => type === "null") || [plain.type].flat().includes("null");
+  return (
+    [...(schema.anyOf ?? []), ...(schema.oneOf ?? [])].some(({ type }) => type === "null") ||
+    [plain.type].flat().includes("null")
+  );
 }
 
 function listSection(source: Source, path: string, schema: Schema, values: Json[]): Section {
@@ -148,8 +164,12 @@ function keysOf(schema: Schema, value: Tree): string[] {
 
 function childSchema(schema: Schema, key: string): Schema {
   const { properties, patternProperties, additionalProperties } = schema;
-  const matched = Object.entries(patternProperties ?? {}).find(([pattern]) => new RegExp(pattern).test(key))?.[1];
-  return properties?.[key] ?? matched ?? (typeof additionalProperties === "object" ? additionalProperties : {});
+  const matched = Object.entries(patternProperties ?? {}).find(([pattern]) =>
+    new RegExp(pattern).test(key),
+  )?.[1];
+  return (
+    properties?.[key] ?? matched ?? (typeof additionalProperties === "object" ? additionalProperties : {})
+  );
 }
 
 /** One value of the document as a field of the form. */
@@ -177,8 +197,18 @@ function field(path: string, schema: Schema, initial: Json, changes: Changes, em
 
 /** The range of a schema in words. */
 function limits({ minimum, exclusiveMinimum, maximum, exclusiveMaximum, unit }: Schema): string {
-  const low = minimum !== undefined ? `at least ${minimum}` : exclusiveMinimum !== undefined ? `above ${exclusiveMinimum}` : "";
-  const high = maximum !== undefined ? `at most ${maximum}` : exclusiveMaximum !== undefined ? `below ${exclusiveMaximum}` : "";
+  const low =
+    minimum !== undefined
+      ? `at least ${minimum}`
+      : exclusiveMinimum !== undefined
+        ? `above ${exclusiveMinimum}`
+        : "";
+  const high =
+    maximum !== undefined
+      ? `at most ${maximum}`
+      : exclusiveMaximum !== undefined
+        ? `below ${exclusiveMaximum}`
+        : "";
   const both = [low, high].filter(Boolean).join(", ");
   return both && unitText(unit) ? `${both} ${unitText(unit)}` : both;
 }
@@ -247,7 +277,10 @@ export function fieldsOf(all: readonly Section[]): Field[] {
 
 /** All application selects of the form. */
 export function exchangesOf(all: readonly Section[]): Exchange[] {
-  return all.flatMap((section) => [...(section.exchange ? [section.exchange] : []), ...exchangesOf(section.sections)]);
+  return all.flatMap((section) => [
+    ...(section.exchange ? [section.exchange] : []),
+    ...exchangesOf(section.sections),
+  ]);
 }
 
 /** How many values below this section differ from the document. */

@@ -1,11 +1,21 @@
 import { describe, expect, it } from "vitest";
+import { finished } from "../test/scenario";
 import { channelsOf, drawn, parts, quantitiesOf, vehiclesOf } from "./channel";
 import { lineColor } from "./palette";
 import { countByStatus, isLive, shortNames } from "./run";
 import { append, noSamples } from "./samples";
 import { resolve } from "./schema";
-import { formatDifference, formatDuration, formatNumber, formatRelative, formatTime, formatValue, unitText, withUnit, words } from "./units";
-import { finished } from "../test/scenario";
+import {
+  formatDifference,
+  formatDuration,
+  formatNumber,
+  formatRelative,
+  formatTime,
+  formatValue,
+  unitText,
+  withUnit,
+  words,
+} from "./units";
 
 describe("numbers", () => {
   it.each([
@@ -19,34 +29,57 @@ describe("numbers", () => {
   ])("%d is %s", (value, text) => expect(formatNumber(value)).toBe(text));
 
   it("keep their sign in differences and ratios", () => {
-    expect([formatDifference(0.5), formatDifference(-0.5), formatDifference(0)]).toEqual(["+0.5", "−0.5", "0"]);
+    expect([formatDifference(0.5), formatDifference(-0.5), formatDifference(0)]).toEqual([
+      "+0.5",
+      "−0.5",
+      "0",
+    ]);
     expect([formatRelative(0.1234), formatRelative(-0.5)]).toEqual(["+12.3 %", "−50 %"]);
   });
 
   it("have units, but not the unit one", () => {
-    expect([withUnit("Gap", "m"), withUnit("Loss", "1"), withUnit("Count", "")]).toEqual(["Gap [m]", "Loss", "Count"]);
+    expect([withUnit("Gap", "m"), withUnit("Loss", "1"), withUnit("Count", "")]).toEqual([
+      "Gap [m]",
+      "Loss",
+      "Count",
+    ]);
     expect(unitText(null)).toBe("");
   });
 
   it("tell times so that one tick is seen", () => {
-    expect([formatTime(0.02), formatDuration(3.42), formatDuration(125)]).toEqual(["0.02", "3.4 s", "2 min 05 s"]);
+    expect([formatTime(0.02), formatDuration(3.42), formatDuration(125)]).toEqual([
+      "0.02",
+      "3.4 s",
+      "2 min 05 s",
+    ]);
   });
 });
 
 describe("words", () => {
   it("are read from names", () => {
-    expect([words("mean_time_gap"), words("min_ttc"), words("rms_jerk"), words("follower_1")]).toEqual(["Mean time gap", "Min TTC", "RMS jerk", "Follower 1"]);
+    expect([words("mean_time_gap"), words("min_ttc"), words("rms_jerk"), words("follower_1")]).toEqual([
+      "Mean time gap",
+      "Min TTC",
+      "RMS jerk",
+      "Follower 1",
+    ]);
   });
 
   it("tell values of any kind", () => {
-    expect([formatValue(true), formatValue(null), formatValue("cacc"), formatValue(["a"])]).toEqual(["on", "–", "cacc", '["a"]']);
+    expect([formatValue(true), formatValue(null), formatValue("cacc"), formatValue(["a"])]).toEqual([
+      "on",
+      "–",
+      "cacc",
+      '["a"]',
+    ]);
   });
 });
 
 describe("channels", () => {
   const all = ["leader.speed", "follower_1.speed", "follower_1.gap", "traffic_01.speed", "leader.x"];
 
-  it("are split at the first dot", () => expect(parts("follower_1.time_gap")).toEqual({ vehicle: "follower_1", quantity: "time_gap" }));
+  it("are split at the first dot", () =>
+    expect(parts("follower_1.time_gap")).toEqual({ vehicle: "follower_1", quantity: "time_gap" }));
 
   it("of the platoon are drawn, those of the traffic are not", () => {
     expect(channelsOf("speed", all)).toEqual(["leader.speed", "follower_1.speed"]);
@@ -60,7 +93,9 @@ describe("channels", () => {
 describe("line colours", () => {
   /** Relative luminance and contrast after WCAG 2.2. */
   const luminance = (hex: string) => {
-    const [r, g, b] = [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16) / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)) as [number, number, number];
+    const [r, g, b] = [1, 3, 5]
+      .map((at) => Number.parseInt(hex.slice(at, at + 2), 16) / 255)
+      .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)) as [number, number, number];
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
   const contrast = (one: string, other: string) => {
@@ -69,7 +104,10 @@ describe("line colours", () => {
   };
 
   it("are all different and stand out from the page in both themes", () => {
-    for (const [dark, page] of [[false, "#ffffff"], [true, "#242424"]] as const) {
+    for (const [dark, page] of [
+      [false, "#ffffff"],
+      [true, "#242424"],
+    ] as const) {
       const colors = Array.from({ length: 8 }, (_, index) => lineColor(index, dark));
       expect(new Set(colors).size).toBe(8);
       for (const color of colors) expect(contrast(color, page), color).toBeGreaterThan(3);
@@ -83,7 +121,10 @@ describe("samples", () => {
     append(samples, { time: [0, 0.02], channels: { "leader.speed": [1, 2] } });
     append(samples, { time: [0.02, 0.04], channels: { "leader.speed": [2, 3], "f.gap": [8, 9] } });
     append(samples, { time: [0.06], channels: { "f.gap": [null] } });
-    expect(samples).toEqual({ time: [0, 0.02, 0.04, 0.06], channels: { "leader.speed": [1, 2, 3, null], "f.gap": [null, null, 9, null] } });
+    expect(samples).toEqual({
+      time: [0, 0.02, 0.04, 0.06],
+      channels: { "leader.speed": [1, 2, 3, null], "f.gap": [null, null, 9, null] },
+    });
   });
 
   it("stay when nothing is new", () => {
@@ -96,11 +137,19 @@ describe("samples", () => {
 describe("runs", () => {
   it("are counted by status, most first", () => {
     const runs = [finished({}), finished({ status: "failed" }), finished({})];
-    expect(countByStatus(runs)).toEqual([["done", 2], ["failed", 1]]);
+    expect(countByStatus(runs)).toEqual([
+      ["done", 2],
+      ["failed", 1],
+    ]);
   });
 
   it("are live while they can change", () => {
-    expect([isLive("starting"), isLive("paused"), isLive("stopped"), isLive(undefined)]).toEqual([true, true, false, false]);
+    expect([isLive("starting"), isLive("paused"), isLive("stopped"), isLive(undefined)]).toEqual([
+      true,
+      true,
+      false,
+      false,
+    ]);
   });
 
   it("have parameters with the shortest names that differ", () => {
@@ -111,11 +160,18 @@ describe("runs", () => {
 describe("schemas", () => {
   it("keep what stands beside a reference", () => {
     const root = { $defs: { T: { type: "object", title: "T" } } };
-    expect(resolve({ $ref: "#/$defs/T", title: "Mine" }, root, {})).toEqual({ type: "object", title: "Mine" });
+    expect(resolve({ $ref: "#/$defs/T", title: "Mine" }, root, {})).toEqual({
+      type: "object",
+      title: "Mine",
+    });
   });
 
   it("merge all parts and survive a dangling reference", () => {
-    expect(resolve({ allOf: [{ type: "number" }, { minimum: 1 }], unit: "m" }, {}, 1)).toEqual({ type: "number", minimum: 1, unit: "m" });
+    expect(resolve({ allOf: [{ type: "number" }, { minimum: 1 }], unit: "m" }, {}, 1)).toEqual({
+      type: "number",
+      minimum: 1,
+      unit: "m",
+    });
     expect(resolve({ $ref: "#/$defs/None" }, {}, 1)).toEqual({});
   });
 });

@@ -26,7 +26,8 @@ export function append(samples: Samples, message: Samples): void {
   const skip = known(message.time, samples.time.at(-1) ?? -Infinity);
   samples.time.push(...message.time.slice(skip));
   for (const [name, values] of Object.entries(message.channels)) {
-    const column = (samples.channels[name] ??= new Array<number | null>(before).fill(null));
+    const column = samples.channels[name] ?? new Array<number | null>(before).fill(null);
+    samples.channels[name] = column;
     column.push(...values.slice(skip));
   }
   for (const column of Object.values(samples.channels)) {

@@ -36,13 +36,15 @@ export function resolve(schema: Schema, root: Schema, value: Json | undefined): 
   }
   if (schema.allOf) {
     const { allOf, ...own } = schema;
-    const merged = allOf.map((part) => resolve(part, root, value)).reduce((a, b) => ({ ...a, ...b }), {});
+    const merged: Schema = Object.assign({}, ...allOf.map((part) => resolve(part, root, value)));
     return resolve({ ...merged, ...own }, root, value);
   }
   const options = schema.anyOf ?? schema.oneOf;
   if (!options) return schema;
   const { anyOf: _any, oneOf: _one, ...own } = schema;
-  const resolved = options.map((option) => resolve(option, root, value)).filter((option) => option.type !== "null");
+  const resolved = options
+    .map((option) => resolve(option, root, value))
+    .filter((option) => option.type !== "null");
   const chosen = resolved.find((option) => fits(option, value)) ?? resolved[0] ?? {};
   return { ...chosen, ...own };
 }
@@ -50,7 +52,10 @@ export function resolve(schema: Schema, root: Schema, value: Json | undefined): 
 /** The schema that `#/$defs/Name` points to. */
 function pointed(reference: string, root: Schema): Schema {
   const steps = reference.replace(/^#\//, "").split("/");
-  const found = steps.reduce<unknown>((node, step) => (node as Record<string, unknown> | undefined)?.[step], root);
+  const found = steps.reduce<unknown>(
+    (node, step) => (node as Record<string, unknown> | undefined)?.[step],
+    root,
+  );
   return (found as Schema | undefined) ?? {};
 }
 

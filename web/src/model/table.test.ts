@@ -5,7 +5,13 @@ import { filtered, metricColumns, parameterColumns, sorted, varies } from "./tab
 const gap = (value: number | null) => ({ minimum_gap: { value, unit: "m", goal: "higher" as const } });
 const runs = [
   finished({ run: 1, metrics: gap(3), parameters: { "radio.delay": 0.1 } }),
-  finished({ run: 2, metrics: gap(null), parameters: { "radio.delay": 0.2 }, status: "failed", error: "ZeroDivisionError" }),
+  finished({
+    run: 2,
+    metrics: gap(null),
+    parameters: { "radio.delay": 0.2 },
+    status: "failed",
+    error: "ZeroDivisionError",
+  }),
   finished({ run: 3, metrics: gap(-1), parameters: { "radio.delay": 0.1 }, seed: 7 }),
   finished({ run: 4, metrics: gap(Number.NaN) }),
 ];
@@ -22,11 +28,17 @@ describe("columns", () => {
 
   it("say more of the path where the last part is not enough", () => {
     const two = [finished({ parameters: { "radio.delay": 1, "front.delay": 2, "radio.loss": 0 } })];
-    expect(parameterColumns(two, {}).map(({ title }) => title)).toEqual(["Front delay", "Radio delay", "Loss"]);
+    expect(parameterColumns(two, {}).map(({ title }) => title)).toEqual([
+      "Front delay",
+      "Radio delay",
+      "Loss",
+    ]);
   });
 
   it("lay out the parameters of an exchanged application", () => {
-    const swapped = [finished({ parameters: { "applications.platoon.parameters": { headway: 1, name: "x" } } })];
+    const swapped = [
+      finished({ parameters: { "applications.platoon.parameters": { headway: 1, name: "x" } } }),
+    ];
     expect(parameterColumns(swapped, {}).map(({ name, numeric }) => [name, numeric])).toEqual([
       ["applications.platoon.parameters.headway", true],
       ["applications.platoon.parameters.name", false],
@@ -54,7 +66,10 @@ describe("sorting", () => {
 
   it("reads numbers in text as numbers", () => {
     const named = ["run10", "run9"].map((scenario, index) => finished({ run: index, scenario }));
-    expect(sorted(named, ({ scenario }) => scenario, false).map(({ scenario }) => scenario)).toEqual(["run9", "run10"]);
+    expect(sorted(named, ({ scenario }) => scenario, false).map(({ scenario }) => scenario)).toEqual([
+      "run9",
+      "run10",
+    ]);
   });
 });
 

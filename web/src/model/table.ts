@@ -1,7 +1,7 @@
 /** The table of runs: its columns, their order, and which of them say something. */
 
-import type { Json, Run } from "./run";
 import { fromSet, unitAt } from "./form";
+import type { Json, Run } from "./run";
 import { shortNames } from "./run";
 import { formatValue, words } from "./units";
 
@@ -30,14 +30,18 @@ export function parameterColumns(runs: readonly Run[], units: Record<string, str
     title: words(short[path] ?? path),
     unit: unitAt(units, path),
     name: path,
-    numeric: [...set.values()].every((changes) => changes[path] === undefined || typeof changes[path] === "number"),
+    numeric: [...set.values()].every(
+      (changes) => changes[path] === undefined || typeof changes[path] === "number",
+    ),
     value: ({ run }) => set.get(run)?.[path],
   }));
 }
 
 /** One column for every metric that any run has. */
 export function metricColumns(runs: readonly Run[]): Column[] {
-  const units = new Map(runs.flatMap(({ metrics }) => Object.entries(metrics).map(([name, { unit }]) => [name, unit] as const)));
+  const units = new Map(
+    runs.flatMap(({ metrics }) => Object.entries(metrics).map(([name, { unit }]) => [name, unit] as const)),
+  );
   return [...units].map(([name, unit]) => ({
     id: `metric:${name}`,
     group: "metrics",
@@ -87,7 +91,15 @@ export function filtered(runs: readonly Run[], query: string): Run[] {
 
 function searchText(run: Run): string {
   const set = Object.entries(run.parameters).map(([path, value]) => `${path}=${formatValue(value)}`);
-  return [`#${run.run}`, run.scenario, run.status, run.error ?? "", `seed=${run.seed}`, `parent=${run.parent ?? ""}`, ...set]
+  return [
+    `#${run.run}`,
+    run.scenario,
+    run.status,
+    run.error ?? "",
+    `seed=${run.seed}`,
+    `parent=${run.parent ?? ""}`,
+    ...set,
+  ]
     .join(" ")
     .toLowerCase();
 }

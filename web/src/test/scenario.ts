@@ -19,14 +19,28 @@ export const schema: Schema = {
       type: "object",
       title: "Radio",
       properties: {
-        delay: { type: "number", title: "Delay", description: "sender to receiver", unit: "s", minimum: 0, maximum: 1 },
+        delay: {
+          type: "number",
+          title: "Delay",
+          description: "sender to receiver",
+          unit: "s",
+          minimum: 0,
+          maximum: 1,
+        },
         loss: { type: "number", title: "Loss rate", unit: "1", minimum: 0, exclusiveMaximum: 1 },
       },
     },
     Place: {
       type: "object",
       title: "Place",
-      properties: { along: { anyOf: [{ type: "number", minimum: 0 }, { type: "null" }], unit: "m", default: null, title: "Along" } },
+      properties: {
+        along: {
+          anyOf: [{ type: "number", minimum: 0 }, { type: "null" }],
+          unit: "m",
+          default: null,
+          title: "Along",
+        },
+      },
     },
     Vehicle: {
       type: "object",
@@ -37,16 +51,30 @@ export const schema: Schema = {
         colour: { type: "string", title: "Colour" },
       },
     },
-    Brake: { type: "object", properties: { maneuver: { const: "brake" }, duration: { type: "number", unit: "s" } } },
-    Swerve: { type: "object", properties: { maneuver: { const: "swerve" }, width: { type: "number", unit: "m" } } },
+    Brake: {
+      type: "object",
+      properties: { maneuver: { const: "brake" }, duration: { type: "number", unit: "s" } },
+    },
+    Swerve: {
+      type: "object",
+      properties: { maneuver: { const: "swerve" }, width: { type: "number", unit: "m" } },
+    },
   },
   type: "object",
   properties: {
     title: { type: "string" },
     seed: { type: "integer" },
     radio: { $ref: "#/$defs/Radio", title: "Radio" },
-    vehicles: { type: "object", patternProperties: { "^[a-z][a-z0-9_]*$": { $ref: "#/$defs/Vehicle" } }, title: "Vehicles" },
-    applications: { type: "object", additionalProperties: { $ref: "#/$defs/Application" }, title: "Applications" },
+    vehicles: {
+      type: "object",
+      patternProperties: { "^[a-z][a-z0-9_]*$": { $ref: "#/$defs/Vehicle" } },
+      title: "Vehicles",
+    },
+    applications: {
+      type: "object",
+      additionalProperties: { $ref: "#/$defs/Application" },
+      title: "Applications",
+    },
     triggers: { type: "array", items: { oneOf: [{ $ref: "#/$defs/Brake" }, { $ref: "#/$defs/Swerve" }] } },
     goals: { type: "object", additionalProperties: { type: "object" }, title: "Goals" },
   },
@@ -57,7 +85,9 @@ export const document: Tree = {
   seed: 1,
   radio: { delay: 0.02, loss: 0.01 },
   vehicles: { leader: { position: { along: null }, model: "bmw_320i", colour: "#2f6fde" } },
-  applications: { platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6, k_p: 0.2 } } },
+  applications: {
+    platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6, k_p: 0.2 } },
+  },
   triggers: [{ maneuver: "swerve", width: 2 }],
   goals: {},
 };
@@ -69,17 +99,34 @@ export const applications: Application[] = [
     name: "cacc",
     title: "Cooperative",
     description: "by radio",
-    parameters: { type: "object", properties: { headway: { ...headway, default: 0.6 }, k_p: { type: "number", unit: "1/s²", default: 0.2 } } },
+    parameters: {
+      type: "object",
+      properties: {
+        headway: { ...headway, default: 0.6 },
+        k_p: { type: "number", unit: "1/s²", default: 0.2 },
+      },
+    },
   },
   {
     name: "acc",
     title: "Alone",
     description: "by radar",
-    parameters: { type: "object", properties: { headway: { ...headway, default: 1.2 }, gap_gain: { type: "number", unit: "1/s", default: 0.1 } } },
+    parameters: {
+      type: "object",
+      properties: {
+        headway: { ...headway, default: 1.2 },
+        gap_gain: { type: "number", unit: "1/s", default: 0.1 },
+      },
+    },
   },
 ];
 
-export const source = (changes: Source["changes"] = {}): Source => ({ document, schema, applications, changes });
+export const source = (changes: Source["changes"] = {}): Source => ({
+  document,
+  schema,
+  applications,
+  changes,
+});
 
 /** A finished run, with whatever is to be different. */
 export const finished = (part: Partial<Run>): Run => ({

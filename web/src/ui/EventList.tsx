@@ -8,7 +8,6 @@ export function EventList({ events }: { events: readonly RunEvent[] }) {
   return (
     <ol className={classes.events} data-testid="events">
       {events.map(({ time, text, vehicle }, index) => (
-        // biome-ignore lint/suspicious/noArrayIndexKey: events are only ever appended
         <li key={index}>
           <span className={classes.time}>{formatTime(time)} s</span>
           <span>

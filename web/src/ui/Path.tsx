@@ -4,7 +4,6 @@ import { Fragment } from "react";
 
 export function Path({ path }: { path: string }) {
   return path.split(".").map((part, index) => (
-    // biome-ignore lint/suspicious/noArrayIndexKey: the parts of a path do not move
     <Fragment key={index}>
       {index > 0 ? (
         <>

@@ -16,5 +16,7 @@ export function ProblemText({ problem, withPlace = true }: { problem: Problem; w
 }
 
 export function ProblemList({ problems }: { problems: readonly Problem[] }) {
-  return problems.map((problem) => <ProblemText key={`${problem.where} ${problem.what}`} problem={problem} />);
+  return problems.map((problem) => (
+    <ProblemText key={`${problem.where} ${problem.what}`} problem={problem} />
+  ));
 }

@@ -1,8 +1,26 @@
 /** The parameter form: sections with one row per value, its unit, and what is wrong with it. */
 
-import { Accordion, ActionIcon, Badge, NativeSelect, NumberInput, Switch, Text, TextInput, Tooltip, UnstyledButton } from "@mantine/core";
+import {
+  Accordion,
+  ActionIcon,
+  Badge,
+  NativeSelect,
+  NumberInput,
+  Switch,
+  Text,
+  TextInput,
+  Tooltip,
+  UnstyledButton,
+} from "@mantine/core";
 import { useId, useState } from "react";
-import { type Application, changedIn, type Exchange, type Field, fieldsOf, type Section } from "../model/form";
+import {
+  type Application,
+  changedIn,
+  type Exchange,
+  type Field,
+  fieldsOf,
+  type Section,
+} from "../model/form";
 import type { Json, Problem } from "../model/run";
 import { formatValue } from "../model/units";
 import { Icon } from "./Icon";
@@ -29,7 +47,15 @@ type Shared = Pick<Props, "applications" | "problems" | "expanded" | "onChange" 
 
 export function SchemaForm({ sections, open, onOpen, ...shared }: Props) {
   return (
-    <Accordion multiple value={open} onChange={onOpen} chevronPosition="left" variant="default" styles={ACCORDION}>
+    <Accordion
+      multiple
+      value={open}
+      onChange={onOpen}
+      chevronPosition="left"
+      variant="default"
+      transitionDuration={0}
+      styles={ACCORDION}
+    >
       {sections.map((section) => (
         <Accordion.Item key={section.path} value={section.path}>
           <Accordion.Control>
@@ -54,7 +80,9 @@ const ACCORDION = {
 /** How much below this section was changed, and whether something is wrong there. */
 function Marks({ section, problems }: { section: Section; problems: Props["problems"] }) {
   const changed = changedIn(section);
-  const wrong = [...problems.keys()].filter((path) => path !== "" && path.startsWith(`${section.path}.`)).length;
+  const wrong = [...problems.keys()].filter(
+    (path) => path !== "" && path.startsWith(`${section.path}.`),
+  ).length;
   return (
     <>
       {changed > 0 ? (
@@ -77,7 +105,12 @@ function SectionBody({ section, ...shared }: { section: Section } & Shared) {
     <>
       {exchange ? <ExchangeRow exchange={exchange} {...shared} /> : null}
       {fields.map((field) => (
-        <FieldRow key={field.path} field={field} problems={shared.problems.get(field.path) ?? []} onChange={shared.onChange} />
+        <FieldRow
+          key={field.path}
+          field={field}
+          problems={shared.problems.get(field.path) ?? []}
+          onChange={shared.onChange}
+        />
       ))}
       {sections.map((inner) => (
         <InnerSection key={inner.path} section={inner} {...shared} />
@@ -122,7 +155,11 @@ function ExchangeRow({ exchange, applications, onExchange, problems }: { exchang
         data={applications.map(({ name, title }) => ({ value: name, label: title || name }))}
       />
       {exchange.value !== exchange.initial ? (
-        <Reset label="Application" initial={exchange.initial} onReset={() => onExchange(exchange, exchange.initial)} />
+        <Reset
+          label="Application"
+          initial={exchange.initial}
+          onReset={() => onExchange(exchange, exchange.initial)}
+        />
       ) : null}
       <Wrong problems={wrong} />
     </div>
@@ -140,10 +177,25 @@ function FieldRow({ field, problems, onChange }: RowProps) {
   const wide = field.kind === "list" || (field.kind === "text" && String(field.initial ?? "").length > 12);
   return (
     <div className={classes.row} data-wide={wide || undefined} data-changed={field.changed || undefined}>
-      <Label id={id} text={field.label} description={field.description} path={field.path} limits={field.allowed} />
-      <Control id={id} field={field} invalid={problems.length > 0} onChange={(value) => onChange(field, value)} />
+      <Label
+        id={id}
+        text={field.label}
+        description={field.description}
+        path={field.path}
+        limits={field.allowed}
+      />
+      <Control
+        id={id}
+        field={field}
+        invalid={problems.length > 0}
+        onChange={(value) => onChange(field, value)}
+      />
       {wide ? null : <span className={classes.unit}>{field.unit}</span>}
-      {field.changed ? <Reset label={field.label} initial={field.initial} onReset={() => onChange(field, field.initial)} /> : <span />}
+      {field.changed ? (
+        <Reset label={field.label} initial={field.initial} onReset={() => onChange(field, field.initial)} />
+      ) : (
+        <span />
+      )}
       <Wrong problems={problems} />
     </div>
   );
@@ -190,7 +242,12 @@ function Label({ id, text, description, path, limits: allowed = "" }: LabelProps
 function Reset({ label, initial, onReset }: { label: string; initial: Json; onReset: () => void }) {
   return (
     <Tooltip label={`Back to ${formatValue(initial)}`}>
-      <ActionIcon size="sm" variant="subtle" aria-label={`Reset ${label} to ${formatValue(initial)}`} onClick={onReset}>
+      <ActionIcon
+        size="sm"
+        variant="subtle"
+        aria-label={`Reset ${label} to ${formatValue(initial)}`}
+        onClick={onReset}
+      >
         <Icon name="reset" size={14} />
       </ActionIcon>
     </Tooltip>
@@ -208,18 +265,45 @@ function Control({ id, field, invalid, onChange }: ControlProps) {
   const shared = { id, size: "xs" as const, error: invalid, "data-testid": `param-${field.path}` };
   switch (field.kind) {
     case "boolean":
-      return <Switch {...shared} error={undefined} checked={field.value === true} onChange={(event) => onChange(event.currentTarget.checked)} />;
+      return (
+        <Switch
+          {...shared}
+          error={undefined}
+          checked={field.value === true}
+          onChange={(event) => onChange(event.currentTarget.checked)}
+        />
+      );
     case "colour":
-      return <TextInput {...shared} type="color" value={String(field.value)} onChange={(event) => onChange(event.currentTarget.value)} />;
+      return (
+        <TextInput
+          {...shared}
+          type="color"
+          value={String(field.value)}
+          onChange={(event) => onChange(event.currentTarget.value)}
+        />
+      );
     case "choice":
-      return <NativeSelect {...shared} value={String(field.value ?? "")} data={field.choices} onChange={(event) => onChange(event.currentTarget.value)} />;
+      return (
+        <NativeSelect
+          {...shared}
+          value={String(field.value ?? "")}
+          data={field.choices}
+          onChange={(event) => onChange(event.currentTarget.value)}
+        />
+      );
     case "number":
     case "integer":
       return <NumberControl shared={shared} field={field} onChange={onChange} />;
     case "list":
       return <ListControl shared={shared} field={field} onChange={onChange} />;
     default:
-      return <TextInput {...shared} value={String(field.value ?? "")} onChange={(event) => onChange(event.currentTarget.value)} />;
+      return (
+        <TextInput
+          {...shared}
+          value={String(field.value ?? "")}
+          onChange={(event) => onChange(event.currentTarget.value)}
+        />
+      );
   }
 }
 
@@ -232,7 +316,9 @@ interface TypedControl {
 /** A number may leave its range while it is typed: the server says what is wrong, nothing is silently clamped. */
 function NumberControl({ shared, field, onChange }: TypedControl) {
   const { minimum, maximum, value, kind, initial } = field;
-  const outside = typeof value === "number" && ((minimum !== undefined && value < minimum) || (maximum !== undefined && value > maximum));
+  const outside =
+    typeof value === "number" &&
+    ((minimum !== undefined && value < minimum) || (maximum !== undefined && value > maximum));
   return (
     <NumberInput
       {...shared}
@@ -262,7 +348,10 @@ function ListControl({ shared, field, onChange }: TypedControl) {
   const items = Array.isArray(field.value) ? field.value : [];
   const numeric = items.length > 0 && items.every((item) => typeof item === "number");
   const read = (text: string): Json => {
-    const words = text.split(",").map((word) => word.trim()).filter(Boolean);
+    const words = text
+      .split(",")
+      .map((word) => word.trim())
+      .filter(Boolean);
     return numeric && words.every((word) => Number.isFinite(Number(word))) ? words.map(Number) : words;
   };
   return (
@@ -270,7 +359,9 @@ function ListControl({ shared, field, onChange }: TypedControl) {
       {...shared}
       key={JSON.stringify(items)}
       title={items.map(String).join(", ")}
-      defaultValue={items.map((item) => (typeof item === "object" ? JSON.stringify(item) : String(item))).join(", ")}
+      defaultValue={items
+        .map((item) => (typeof item === "object" ? JSON.stringify(item) : String(item)))
+        .join(", ")}
       onBlur={(event) => onChange(read(event.currentTarget.value))}
     />
   );

@@ -51,7 +51,14 @@ interface FailureProps {
 
 export function Failure({ error, onRetry }: FailureProps) {
   return (
-    <Alert color="red" title={error.message} icon={<Icon name="warning" />} m="md" maw={640}>
+    <Alert
+      color="red"
+      variant="outline"
+      title={error.message}
+      icon={<Icon name="warning" />}
+      m="md"
+      maw={640}
+    >
       <ProblemList problems={error.problems ?? []} />
       {onRetry ? (
         <Button size="xs" variant="default" mt="xs" onClick={onRetry}>

@@ -42,7 +42,7 @@ export function StatusBadge({ status, error, unmet = [] }: Props) {
   if (!why) return badge;
   return (
     <Tooltip label={why} multiline maw={420} position="right">
-      <span>{badge}</span>
+      <span style={{ display: "inline-flex" }}>{badge}</span>
     </Tooltip>
   );
 }

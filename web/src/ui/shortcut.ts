@@ -10,7 +10,8 @@ let pressed = NONE;
 /** Typing into a field is never a shortcut, and space on a button presses that button. */
 function isTyping(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  if (target.isContentEditable || /^(input|textarea|select)$/i.test(target.tagName)) return !isCheckbox(target) || key === " ";
+  if (target.isContentEditable || /^(input|textarea|select)$/i.test(target.tagName))
+    return !isCheckbox(target) || key === " ";
   return (key === " " || key === "Enter") && target.closest("button, a, [role=button], summary") !== null;
 }
 
@@ -19,7 +20,14 @@ const isCheckbox = (target: HTMLElement): boolean =>
 
 /** Call the handler of the key, or of the pair that ends with it. */
 export function dispatch(event: KeyboardEvent, handlers: Record<string, () => void>, now: number): void {
-  if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target, event.key)) return;
+  if (
+    event.defaultPrevented ||
+    event.ctrlKey ||
+    event.metaKey ||
+    event.altKey ||
+    isTyping(event.target, event.key)
+  )
+    return;
   const pair = now - previous.at < PAUSE_MS ? `${previous.key} ${event.key}` : "";
   const handler = handlers[pair] ?? (pairStarted(now) ? undefined : handlers[event.key]);
   if (!handler) return;

@@ -4,10 +4,10 @@ import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { sections } from "../model/form";
 import { applications, source } from "../test/scenario";
-import { Failure } from "./State";
 import { SchemaForm } from "./SchemaForm";
-import { dispatch } from "./shortcut";
+import { Failure } from "./State";
 import { lastLine } from "./StatusBadge";
+import { dispatch } from "./shortcut";
 
 let host: HTMLElement;
 let root: Root;
@@ -19,14 +19,21 @@ afterEach(() => {
   act(() => root.unmount());
   host.remove();
 });
-const render = (node: ReactNode) => act(() => root.render(<MantineProvider env="test">{node}</MantineProvider>));
+const render = (node: ReactNode) =>
+  act(() => root.render(<MantineProvider env="test">{node}</MantineProvider>));
 const byTestId = (id: string) => host.querySelector<HTMLInputElement>(`[data-testid="${id}"]`);
 
 /** Type into an input the way React notices. */
 function type(input: HTMLInputElement | HTMLSelectElement, value: string) {
-  const prototype = input instanceof HTMLSelectElement ? HTMLSelectElement.prototype : HTMLInputElement.prototype;
+  const prototype =
+    input instanceof HTMLSelectElement ? HTMLSelectElement.prototype : HTMLInputElement.prototype;
   Object.getOwnPropertyDescriptor(prototype, "value")?.set?.call(input, value);
-  act(() => void input.dispatchEvent(new Event(input instanceof HTMLSelectElement ? "change" : "input", { bubbles: true })));
+  act(
+    () =>
+      void input.dispatchEvent(
+        new Event(input instanceof HTMLSelectElement ? "change" : "input", { bubbles: true }),
+      ),
+  );
 }
 
 describe("the schema form", () => {
@@ -34,7 +41,16 @@ describe("the schema form", () => {
   const onExchange = vi.fn();
   const show = (changes = {}, problems = new Map()) =>
     render(
-      <SchemaForm sections={sections(source(changes))} applications={applications} problems={problems} open={["applications", "radio"]} expanded={false} onOpen={() => {}} onChange={onChange} onExchange={onExchange} />,
+      <SchemaForm
+        sections={sections(source(changes))}
+        applications={applications}
+        problems={problems}
+        open={["applications", "radio"]}
+        expanded={false}
+        onOpen={() => {}}
+        onChange={onChange}
+        onExchange={onExchange}
+      />,
     );
 
   it("has a labelled input for a setting, with its unit beside", () => {
@@ -72,21 +88,43 @@ describe("the schema form", () => {
   });
 
   it("shows a problem at its field", () => {
-    show({}, new Map([["radio.delay", [{ where: "radio.delay", what: "is too large", value: "7", allowed: "0 to 1 s", remedy: "take less" }]]]));
-    expect(host.querySelector('[role="alert"]')?.textContent).toBe("is too large (got 7); allowed: 0 to 1 s; take less");
+    show(
+      {},
+      new Map([
+        [
+          "radio.delay",
+          [
+            {
+              where: "radio.delay",
+              what: "is too large",
+              value: "7",
+              allowed: "0 to 1 s",
+              remedy: "take less",
+            },
+          ],
+        ],
+      ]),
+    );
+    expect(host.querySelector('[role="alert"]')?.textContent).toBe(
+      "is too large (got 7); allowed: 0 to 1 s; take less",
+    );
   });
 });
 
 describe("a failure", () => {
   it("tells the message and every problem", () => {
-    const error = Object.assign(new Error("There is no run 99."), { problems: [{ where: "run", what: "unknown", value: "99", allowed: "", remedy: "see runs" }] });
+    const error = Object.assign(new Error("There is no run 99."), {
+      problems: [{ where: "run", what: "unknown", value: "99", allowed: "", remedy: "see runs" }],
+    });
     render(<Failure error={error} />);
     expect(host.textContent).toContain("There is no run 99.");
     expect(host.textContent).toContain("run: unknown (got 99); see runs");
   });
 
   it("of a run is told by the last line of its traceback", () => {
-    expect(lastLine("Traceback\n  File\nZeroDivisionError: division by zero\n")).toBe("ZeroDivisionError: division by zero");
+    expect(lastLine("Traceback\n  File\nZeroDivisionError: division by zero\n")).toBe(
+      "ZeroDivisionError: division by zero",
+    );
   });
 });
 

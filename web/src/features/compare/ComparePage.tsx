@@ -6,10 +6,23 @@ import { Link, useNavigate } from "@tanstack/react-router";
 import { comparison, runs } from "../../api/queries";
 import type { Comparison } from "../../api/types";
 import { useUnits } from "../../api/units";
-import { type MetricDifference, type ParameterDifference, tally, type Verdict, verdict } from "../../model/compare";
+import {
+  type MetricDifference,
+  type ParameterDifference,
+  tally,
+  type Verdict,
+  verdict,
+} from "../../model/compare";
 import { unitAt } from "../../model/form";
 import type { Run } from "../../model/run";
-import { formatDifference, formatNumber, formatRelative, formatValue, withUnit, words } from "../../model/units";
+import {
+  formatDifference,
+  formatNumber,
+  formatRelative,
+  formatValue,
+  withUnit,
+  words,
+} from "../../model/units";
 import { Icon } from "../../ui/Icon";
 import { Path } from "../../ui/Path";
 import { Empty, Failure, Loading } from "../../ui/State";
@@ -35,7 +48,13 @@ export function ComparePage({ a, b, onChoose }: Props) {
         </Title>
         <Side name="A" run={a} all={all} onChange={(next) => onChoose(next, b)} />
         <Tooltip label="Swap A and B">
-          <ActionIcon variant="default" size={30} aria-label="Swap A and B" data-testid="swap" onClick={() => onChoose(b, a)}>
+          <ActionIcon
+            variant="default"
+            size={30}
+            aria-label="Swap A and B"
+            data-testid="swap"
+            onClick={() => onChoose(b, a)}
+          >
             <Icon name="swap" />
           </ActionIcon>
         </Tooltip>
@@ -48,9 +67,18 @@ export function ComparePage({ a, b, onChoose }: Props) {
 
 function Choose({ few }: { few: boolean }) {
   const navigate = useNavigate();
-  if (!few) return <Empty icon="compare" title="Choose two runs">Pick A and B above, or select two rows in the table of runs.</Empty>;
+  if (!few)
+    return (
+      <Empty icon="compare" title="Choose two runs">
+        Pick A and B above, or select two rows in the table of runs.
+      </Empty>
+    );
   return (
-    <Empty icon="compare" title="There are not two runs yet" action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}>
+    <Empty
+      icon="compare"
+      title="There are not two runs yet"
+      action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}
+    >
       Run a scenario, change a parameter and run it again: the two are compared here.
     </Empty>
   );
@@ -66,11 +94,22 @@ interface SideProps {
 /** Choose a side in place; the line that stands for it in the charts is shown beside. */
 function Side({ name, run, all, onChange }: SideProps) {
   const known = all.some((other) => other.run === run);
-  const choices = all.map((other) => ({ value: String(other.run), label: `#${other.run} ${other.scenario}, ${other.status}` }));
+  const choices = all.map((other) => ({
+    value: String(other.run),
+    label: `#${other.run} ${other.scenario}, ${other.status}`,
+  }));
   return (
     <Group gap={6} wrap="nowrap">
       <svg width="26" height="10" aria-hidden="true">
-        <line x1="0" y1="5" x2="26" y2="5" stroke="currentColor" strokeWidth="2.5" strokeDasharray={name === "B" ? "6 4" : undefined} />
+        <line
+          x1="0"
+          y1="5"
+          x2="26"
+          y2="5"
+          stroke="currentColor"
+          strokeWidth="2.5"
+          strokeDasharray={name === "B" ? "6 4" : undefined}
+        />
       </svg>
       <b>{name}</b>
       <NativeSelect
@@ -79,7 +118,11 @@ function Side({ name, run, all, onChange }: SideProps) {
         data-testid={`compare-${name.toLowerCase()}`}
         value={run === undefined ? "" : String(run)}
         onChange={({ currentTarget: { value } }) => onChange(value === "" ? undefined : Number(value))}
-        data={[{ value: "", label: "Choose a run" }, ...(run !== undefined && !known ? [{ value: String(run), label: `#${run}` }] : []), ...choices]}
+        data={[
+          { value: "", label: "Choose a run" },
+          ...(run !== undefined && !known ? [{ value: String(run), label: `#${run}` }] : []),
+          ...choices,
+        ]}
       />
     </Group>
   );
@@ -106,7 +149,10 @@ function Heads({ comparison: { a, b } }: { comparison: Comparison }) {
     { side: "B", run: b },
   ].map(({ side, run }) => (
     <Table.Th key={side} ta="right">
-      {side}: <Link to="/runs/$run" params={{ run: String(run.run) }} className={classes.link}>#{run.run}</Link>
+      {side}:{" "}
+      <Link to="/runs/$run" params={{ run: String(run.run) }} className={classes.link}>
+        #{run.run}
+      </Link>
     </Table.Th>
   ));
 }
@@ -114,7 +160,9 @@ function Heads({ comparison: { a, b } }: { comparison: Comparison }) {
 function Parameters({ comparison: found }: { comparison: Comparison }) {
   const { a, b, parameters } = found;
   const units = useUnits([a, b]);
-  const rows = parameters.some(({ path }) => path === "seed") ? parameters : [...parameters, ...seedDifference(a, b)];
+  const rows = parameters.some(({ path }) => path === "seed")
+    ? parameters
+    : [...parameters, ...seedDifference(a, b)];
   return (
     <section className={classes.card} data-testid="compare-parameters">
       <h2>What differs</h2>
@@ -138,7 +186,9 @@ function Parameters({ comparison: found }: { comparison: Comparison }) {
           <Table.Tbody>
             {rows.map(({ path, a: one, b: other, unit }) => (
               <Table.Tr key={path}>
-                <Table.Td className={classes.path}><Path path={withUnit(path, unit || unitAt(units, path))} /></Table.Td>
+                <Table.Td className={classes.path}>
+                  <Path path={withUnit(path, unit || unitAt(units, path))} />
+                </Table.Td>
                 <Table.Td ta="right">{formatValue(one)}</Table.Td>
                 <Table.Td ta="right">
                   <b>{formatValue(other)}</b>
@@ -163,7 +213,8 @@ function Parameters({ comparison: found }: { comparison: Comparison }) {
   );
 }
 
-const seedDifference = (a: Run, b: Run): ParameterDifference[] => (a.seed === b.seed ? [] : [{ path: "seed", a: a.seed, b: b.seed, unit: "" }]);
+const seedDifference = (a: Run, b: Run): ParameterDifference[] =>
+  a.seed === b.seed ? [] : [{ path: "seed", a: a.seed, b: b.seed, unit: "" }];
 
 const VERDICTS: Record<Verdict, { color: string; text: string }> = {
   better: { color: "teal", text: "▲ better" },
@@ -216,13 +267,23 @@ function MetricRow({ metric }: { metric: MetricDifference }) {
   const { color, text } = VERDICTS[found];
   return (
     <Table.Tr data-metric={name} data-verdict={found}>
-      <Table.Td title={goal ? `${words(goal)} is better` : "No goal is set"}>{withUnit(words(name), unit)}</Table.Td>
+      <Table.Td title={goal ? `${words(goal)} is better` : "No goal is set"}>
+        {withUnit(words(name), unit)}
+      </Table.Td>
       <Table.Td ta="right">{a === null ? "–" : formatNumber(a)}</Table.Td>
       <Table.Td ta="right">{b === null ? "–" : formatNumber(b)}</Table.Td>
-      <Table.Td ta="right">{difference === null ? "–" : formatDifference(Number(difference.toPrecision(4)))}</Table.Td>
+      <Table.Td ta="right">
+        {difference === null ? "–" : formatDifference(Number(difference.toPrecision(4)))}
+      </Table.Td>
       <Table.Td ta="right">{relative === null ? "–" : formatRelative(relative)}</Table.Td>
       <Table.Td>
-        <Badge size="sm" variant={found === "better" || found === "worse" ? "light" : "transparent"} color={color} tt="none" miw={76}>
+        <Badge
+          size="sm"
+          variant={found === "better" || found === "worse" ? "light" : "transparent"}
+          color={color}
+          tt="none"
+          miw={76}
+        >
           {text}
         </Badge>
       </Table.Td>

@@ -23,10 +23,18 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
   const other = useQuery(runQuery(b.run));
   const [chosen, setChosen] = useState(["speed", "gap"]);
   const [hidden, setHidden] = useState<string[]>([]);
-  const names = useMemo(() => [one.data, other.data].map((run) => (run?.channels ?? []).map(({ name }) => name)), [one.data, other.data]);
+  const names = useMemo(
+    () => [one.data, other.data].map((run) => (run?.channels ?? []).map(({ name }) => name)),
+    [one.data, other.data],
+  );
   const all = useMemo(() => [...new Set(names.flat())], [names]);
   if (!one.data || !other.data) return <Loading what="the traces" />;
-  if (all.length === 0) return <Empty icon="chart" title="No traces">Neither run recorded anything.</Empty>;
+  if (all.length === 0)
+    return (
+      <Empty icon="chart" title="No traces">
+        Neither run recorded anything.
+      </Empty>
+    );
   return (
     <section className={classes.card} aria-label="Charts of both runs" data-testid="compare-charts">
       <Group gap="md" mb={4} className={classes.over}>
@@ -35,7 +43,6 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
       </Group>
       <div className={classes.charts}>
         {chosen.map((name, place) => (
-          // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
           <div key={place}>
             <Both
               a={a.run}
@@ -76,7 +83,11 @@ function Vehicles({ all, hidden, onHidden }: VehiclesProps) {
       autoContrast
       label={words(vehicle)}
       checked={!hidden.includes(vehicle)}
-      onChange={() => onHidden(hidden.includes(vehicle) ? hidden.filter((other) => other !== vehicle) : [...hidden, vehicle])}
+      onChange={() =>
+        onHidden(
+          hidden.includes(vehicle) ? hidden.filter((other) => other !== vehicle) : [...hidden, vehicle],
+        )
+      }
     />
   ));
 }
@@ -96,16 +107,27 @@ interface BothProps {
 
 function Both({ a, b, name, all, had, hidden, lead }: BothProps) {
   const dark = useDark();
-  const channels = useMemo(() => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)), [name, all, hidden]);
+  const channels = useMemo(
+    () => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)),
+    [name, all, hidden],
+  );
   // A run is asked only for what it has recorded.
   const [ofA, ofB] = had.map((known) => channels.filter((channel) => known.includes(channel)));
   const one = useQuery(trace(a, ofA ?? [], POINTS));
   const other = useQuery(trace(b, ofB ?? [], POINTS));
   const lines = useMemo<Line[]>(() => linesOf(channels, all, dark), [channels, all, dark]);
-  const data = useMemo<Columns>(() => merge(one.data ?? NOTHING, other.data ?? NOTHING, channels), [one.data, other.data, channels]);
+  const data = useMemo<Columns>(
+    () => merge(one.data ?? NOTHING, other.data ?? NOTHING, channels),
+    [one.data, other.data, channels],
+  );
   const error = one.error ?? other.error;
   if (error) return <Failure error={error} />;
-  if (channels.length === 0) return <Empty icon="chart" title="Nothing to draw">No shown vehicle has this quantity.</Empty>;
+  if (channels.length === 0)
+    return (
+      <Empty icon="chart" title="Nothing to draw">
+        No shown vehicle has this quantity.
+      </Empty>
+    );
   if (one.isLoading || other.isLoading) return <Loading what="the traces" />;
   const { label, unit } = quantity(name);
   return (

@@ -60,7 +60,13 @@ function Detail({ run }: { run: RunDetail }) {
       <div className={classes.column}>
         <Charts run={run} />
         <Card title="Events">
-          {run.events.length ? <EventList events={run.events} /> : <Text size="sm" c="dimmed">Nothing noteworthy happened.</Text>}
+          {run.events.length ? (
+            <EventList events={run.events} />
+          ) : (
+            <Text size="sm" c="dimmed">
+              Nothing noteworthy happened.
+            </Text>
+          )}
         </Card>
       </div>
     </article>
@@ -73,14 +79,33 @@ function Ways({ run }: { run: RunDetail }) {
   return (
     <Group gap="xs" ml="auto">
       {run.parent === null ? null : (
-        <Button size="xs" variant="default" leftSection={<Icon name="compare" size={14} />} onClick={() => navigate({ to: "/compare", search: { a: run.parent ?? undefined, b: run.run } })}>
+        <Button
+          size="xs"
+          variant="default"
+          leftSection={<Icon name="compare" size={14} />}
+          onClick={() => navigate({ to: "/compare", search: { a: run.parent ?? undefined, b: run.run } })}
+        >
           Compare with its parent #{run.parent}
         </Button>
       )}
-      <Button size="xs" variant="default" leftSection={<Icon name="eye" size={14} />} onClick={() => navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { run: run.run } })}>
+      <Button
+        size="xs"
+        variant="default"
+        leftSection={<Icon name="eye" size={14} />}
+        onClick={() =>
+          navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { run: run.run } })
+        }
+      >
         Open in the studio
       </Button>
-      <Button size="xs" data-testid="tune" leftSection={<Icon name="branch" size={14} />} onClick={() => navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { from: run.run } })}>
+      <Button
+        size="xs"
+        data-testid="tune"
+        leftSection={<Icon name="branch" size={14} />}
+        onClick={() =>
+          navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { from: run.run } })
+        }
+      >
         Tune from here
       </Button>
     </Group>
@@ -100,7 +125,12 @@ const GOALS = { higher: "higher is better", lower: "lower is better" };
 
 function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: readonly string[] }) {
   const rows = Object.entries(metrics);
-  if (rows.length === 0) return <Text size="sm" c="dimmed">No metrics: they are computed when a run ends.</Text>;
+  if (rows.length === 0)
+    return (
+      <Text size="sm" c="dimmed">
+        No metrics: they are computed when a run ends.
+      </Text>
+    );
   return (
     <Table verticalSpacing={3} horizontalSpacing={6} fz="sm" data-testid="metrics">
       <Table.Tbody>
@@ -132,7 +162,15 @@ function Unmet({ sentence }: { sentence: string | undefined }) {
   if (!sentence) return null;
   return (
     <Tooltip label={sentence}>
-      <Badge size="xs" color="orange" variant="light" tt="none" ml={6} tabIndex={0} aria-label={`Goal not met: ${sentence}`}>
+      <Badge
+        size="xs"
+        color="orange"
+        variant="light"
+        tt="none"
+        ml={6}
+        tabIndex={0}
+        aria-label={`Goal not met: ${sentence}`}
+      >
         goal not met
       </Badge>
     </Tooltip>
@@ -143,7 +181,12 @@ function Parameters({ run }: { run: RunDetail }) {
   const { parameters } = run;
   const units = useUnits([run]);
   const rows = Object.entries(fromSet(parameters));
-  if (rows.length === 0) return <Text size="sm" c="dimmed">None: the scenario ran as it stands in its file.</Text>;
+  if (rows.length === 0)
+    return (
+      <Text size="sm" c="dimmed">
+        None: the scenario ran as it stands in its file.
+      </Text>
+    );
   return (
     <dl className={classes.facts}>
       {rows.map(([path, value]) => (
@@ -173,7 +216,9 @@ function Facts({ run }: { run: RunDetail }) {
     <dl className={classes.facts}>
       <Fact name="Scenario">{run.scenario}</Fact>
       <Fact name="Parent">{run.parent === null ? "none" : <RunLink run={run.parent} />}</Fact>
-      <Fact name="Children">{children.length === 0 ? "none" : children.map((child) => <RunLink key={child} run={child} />)}</Fact>
+      <Fact name="Children">
+        {children.length === 0 ? "none" : children.map((child) => <RunLink key={child} run={child} />)}
+      </Fact>
       <Fact name="Seed">{run.seed}</Fact>
       <Fact name="Created">{formatMoment(run.created)}</Fact>
       <Fact name="Simulated">{run.sim_time_s === null ? "–" : formatDuration(run.sim_time_s)}</Fact>
@@ -199,15 +244,20 @@ function RunLink({ run }: { run: number }) {
   );
 }
 
-const Hash = ({ text }: { text: string | null }) => (text ? <Code style={{ overflowWrap: "anywhere" }}>{text}</Code> : "–");
+const Hash = ({ text }: { text: string | null }) =>
+  text ? <Code style={{ overflowWrap: "anywhere" }}>{text}</Code> : "–";
 
 function Charts({ run }: { run: RunDetail }) {
   const names = useMemo(() => run.channels.map(({ name }) => name), [run.channels]);
   const quantities = quantitiesOf(names);
   const [chosen, setChosen] = useState(["speed", "gap"]);
-  if (names.length === 0) return <Empty icon="chart" title="No traces">This run recorded nothing.</Empty>;
+  if (names.length === 0)
+    return (
+      <Empty icon="chart" title="No traces">
+        This run recorded nothing.
+      </Empty>
+    );
   return chosen.map((name, place) => (
-    // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
     <section key={place} className={classes.card}>
       <QuantityChart
         run={run.run}
@@ -243,7 +293,10 @@ function QuantityChart({ run, name, all, lead }: ChartProps) {
       return { key: channel, label: words(vehicle), color: lineColor(vehicles.indexOf(vehicle), dark) };
     });
   }, [channels, all, dark]);
-  const columns = useMemo<Columns>(() => (data ? [data.time, ...channels.map((channel) => data.channels[channel]?.values ?? [])] : [[]]), [data, channels]);
+  const columns = useMemo<Columns>(
+    () => (data ? [data.time, ...channels.map((channel) => data.channels[channel]?.values ?? [])] : [[]]),
+    [data, channels],
+  );
   if (error) return <Failure error={error} />;
   if (!data) return <Loading what="the trace" />;
   const { label, unit } = quantity(name);

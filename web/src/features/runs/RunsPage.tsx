@@ -8,8 +8,8 @@ import { runs } from "../../api/queries";
 import { countByStatus, type Run } from "../../model/run";
 import { filtered } from "../../model/table";
 import { Icon } from "../../ui/Icon";
-import { useShortcuts } from "../../ui/shortcut";
 import { Empty, Failure, Loading } from "../../ui/State";
+import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Runs.module.css";
 import { RunsTable } from "./RunsTable";
 
@@ -37,8 +37,13 @@ export function RunsPage({ view, onView }: Props) {
 function NoRuns() {
   const navigate = useNavigate();
   return (
-    <Empty icon="table" title="No runs yet" action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}>
-      Every run of a scenario is kept here with its parameters, metrics and traces. Start the first one in the studio.
+    <Empty
+      icon="table"
+      title="No runs yet"
+      action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}
+    >
+      Every run of a scenario is kept here with its parameters, metrics and traces. Start the first one in the
+      studio.
     </Empty>
   );
 }
@@ -54,7 +59,9 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly Run[] }) {
     return all.filter((run) => hits.has(run) || selected.includes(run.run));
   }, [all, q, selected]);
   const toggle = (run: number) =>
-    setSelected(selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-2));
+    setSelected(
+      selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-2),
+    );
 
   return (
     <div className={classes.page}>
@@ -67,12 +74,25 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly Run[] }) {
         </Text>
         <Counts runs={all} />
         {scenario ? (
-          <Button size="compact-xs" variant="light" rightSection={<Icon name="close" size={12} />} aria-label={`Show the runs of all scenarios, not only ${scenario}`} onClick={() => onView({ ...view, scenario: undefined })}>
+          <Button
+            size="compact-xs"
+            variant="light"
+            rightSection={<Icon name="close" size={12} />}
+            aria-label={`Show the runs of all scenarios, not only ${scenario}`}
+            onClick={() => onView({ ...view, scenario: undefined })}
+          >
             {scenario}
           </Button>
         ) : null}
         <Group gap="sm" ml="auto">
-          <Switch size="xs" label="Only columns that vary" checked={view.varying !== false} onChange={(event) => onView({ ...view, varying: event.currentTarget.checked ? undefined : false })} />
+          <Switch
+            size="xs"
+            label="Only columns that vary"
+            checked={view.varying !== false}
+            onChange={(event) =>
+              onView({ ...view, varying: event.currentTarget.checked ? undefined : false })
+            }
+          />
           <TextInput
             ref={search}
             size="xs"
@@ -87,7 +107,15 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly Run[] }) {
         </Group>
       </Group>
       {shown.length === 0 ? (
-        <Empty icon="search" title={`No run matches “${q}”`} action={<Button size="xs" variant="default" onClick={() => onView({ ...view, q: undefined })}>Clear the filter</Button>}>
+        <Empty
+          icon="search"
+          title={`No run matches “${q}”`}
+          action={
+            <Button size="xs" variant="default" onClick={() => onView({ ...view, q: undefined })}>
+              Clear the filter
+            </Button>
+          }
+        >
           The filter looks at the number, scenario, status, error, seed, parent and what was set.
         </Empty>
       ) : (

@@ -1,8 +1,15 @@
 /** The table itself: grouped headers with units, sorting, and rows drawn only where they are seen. */
 
 import { Checkbox, VisuallyHidden } from "@mantine/core";
-import { columnVisibilityFeature, rowSortingFeature, tableFeatures, useTable, type ColumnDef, type SortingState } from "@tanstack/react-table";
 import { useNavigate } from "@tanstack/react-router";
+import {
+  type ColumnDef,
+  columnVisibilityFeature,
+  rowSortingFeature,
+  type SortingState,
+  tableFeatures,
+  useTable,
+} from "@tanstack/react-table";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useMemo, useRef } from "react";
 import { useUnits } from "../../api/units";
@@ -18,13 +25,69 @@ const ROW_HEIGHT = 33;
 
 /** What every run has, whatever was set or measured. */
 const FIXED: Column[] = [
-  { id: "run", group: "run", title: "Run", unit: "", name: "Number of the run", numeric: false, value: ({ run }) => run },
-  { id: "scenario", group: "run", title: "Scenario", unit: "", name: "Scenario", numeric: false, value: ({ scenario }) => scenario },
-  { id: "status", group: "run", title: "Status", unit: "", name: "Status", numeric: false, value: ({ status }) => status },
-  { id: "parent", group: "run", title: "Parent", unit: "", name: "The run it descends from", numeric: false, value: ({ parent }) => parent },
-  { id: "created", group: "run", title: "Created", unit: "", name: "When it was started", numeric: false, value: ({ created }) => created },
-  { id: "seed", group: "run", title: "Seed", unit: "", name: "Seed of the random numbers", numeric: true, value: ({ seed }) => seed },
-  { id: "sim_time", group: "run", title: "Simulated", unit: "s", name: "Simulated time", numeric: true, value: ({ sim_time_s }) => sim_time_s },
+  {
+    id: "run",
+    group: "run",
+    title: "Run",
+    unit: "",
+    name: "Number of the run",
+    numeric: false,
+    value: ({ run }) => run,
+  },
+  {
+    id: "scenario",
+    group: "run",
+    title: "Scenario",
+    unit: "",
+    name: "Scenario",
+    numeric: false,
+    value: ({ scenario }) => scenario,
+  },
+  {
+    id: "status",
+    group: "run",
+    title: "Status",
+    unit: "",
+    name: "Status",
+    numeric: false,
+    value: ({ status }) => status,
+  },
+  {
+    id: "parent",
+    group: "run",
+    title: "Parent",
+    unit: "",
+    name: "The run it descends from",
+    numeric: false,
+    value: ({ parent }) => parent,
+  },
+  {
+    id: "created",
+    group: "run",
+    title: "Created",
+    unit: "",
+    name: "When it was started",
+    numeric: false,
+    value: ({ created }) => created,
+  },
+  {
+    id: "seed",
+    group: "run",
+    title: "Seed",
+    unit: "",
+    name: "Seed of the random numbers",
+    numeric: true,
+    value: ({ seed }) => seed,
+  },
+  {
+    id: "sim_time",
+    group: "run",
+    title: "Simulated",
+    unit: "s",
+    name: "Simulated time",
+    numeric: true,
+    value: ({ sim_time_s }) => sim_time_s,
+  },
 ];
 
 /** These say what a row is, so they stay even when all rows agree. */
@@ -46,9 +109,12 @@ interface Props {
 
 export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props) {
   const units = useUnits(all);
-  const columns = useMemo(() => [...FIXED, ...parameterColumns(all, units), ...metricColumns(all)], [all, units]);
+  const columns = useMemo(
+    () => [...FIXED, ...parameterColumns(all, units), ...metricColumns(all)],
+    [all, units],
+  );
   const sorting = readSort(view.sort);
-  const data = useMemo(() => ordered(runs, columns, sorting[0]), [runs, columns, view.sort]); // biome-ignore lint/correctness/useExhaustiveDependencies: `sorting` is read from `view.sort`
+  const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0]), [runs, columns, view.sort]);
   const table = useTable({
     features,
     data,
@@ -57,11 +123,17 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
     manualSorting: true,
     enableMultiSort: false,
     state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false) },
-    onSortingChange: (next) => onView({ ...view, sort: writeSort(typeof next === "function" ? next(sorting) : next) }),
+    onSortingChange: (next) =>
+      onView({ ...view, sort: writeSort(typeof next === "function" ? next(sorting) : next) }),
   });
   const scroller = useRef<HTMLDivElement>(null);
   const rows = table.getRowModel().rows;
-  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => scroller.current, estimateSize: () => ROW_HEIGHT, overscan: 12 });
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => scroller.current,
+    estimateSize: () => ROW_HEIGHT,
+    overscan: 12,
+  });
   const items = virtual.getVirtualItems();
   const above = items[0]?.start ?? 0;
   const below = virtual.getTotalSize() - (items.at(-1)?.end ?? 0);
@@ -73,14 +145,27 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
         <thead>
           {table.getHeaderGroups().map((group, level) => (
             <tr key={group.id}>
-              <th className={classes.pick}>{level === 0 ? null : <VisuallyHidden>Select to compare</VisuallyHidden>}</th>
+              <th className={classes.pick}>
+                {level === 0 ? null : <VisuallyHidden>Select to compare</VisuallyHidden>}
+              </th>
               {group.headers.map((header) =>
                 level === 0 ? (
-                  <th key={header.id} colSpan={header.colSpan} scope="colgroup" className={classes.group} data-group={header.column.id}>
-                    {String(header.column.columnDef.header ?? "")}
+                  <th
+                    key={header.id}
+                    colSpan={header.colSpan}
+                    scope="colgroup"
+                    className={classes.group}
+                    data-group={header.column.id}
+                  >
+                    <span className={classes.groupName}>{String(header.column.columnDef.header ?? "")}</span>
                   </th>
                 ) : (
-                  <SortHeader key={header.id} column={byId(columns, header.column.id)} sorted={header.column.getIsSorted()} onSort={() => header.column.toggleSorting(undefined)} />
+                  <SortHeader
+                    key={header.id}
+                    column={byId(columns, header.column.id)}
+                    sorted={header.column.getIsSorted()}
+                    onSort={() => header.column.toggleSorting(undefined)}
+                  />
                 ),
               )}
             </tr>
@@ -107,12 +192,13 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
   );
 }
 
-const byId = (columns: readonly Column[], id: string): Column => columns.find((column) => column.id === id) as Column;
+const byId = (columns: readonly Column[], id: string): Column =>
+  columns.find((column) => column.id === id) as Column;
 
 /** Room for the rows that are not drawn. */
 function Gap({ height, width }: { height: number; width: number }) {
   return height > 0 ? (
-    <tr aria-hidden="true">
+    <tr>
       <td colSpan={width} style={{ height, padding: 0, border: 0 }} />
     </tr>
   ) : null;
@@ -122,13 +208,28 @@ function grouped(columns: readonly Column[]): ColumnDef<typeof features, Run>[] 
   const groups = (["run", "parameters", "metrics"] as const).map((group) => ({
     id: group,
     header: GROUP_TITLES[group],
-    columns: columns.filter((column) => column.group === group).map(({ id, title, value }) => ({ id, header: title, accessorFn: (run: Run) => value(run) ?? undefined })),
+    columns: columns
+      .filter((column) => column.group === group)
+      .map(({ id, title, value }) => ({
+        id,
+        header: title,
+        accessorFn: (run: Run) => value(run) ?? undefined,
+      })),
   }));
   return groups.filter(({ columns: own }) => own.length > 0);
 }
 
-function visibility(columns: readonly Column[], runs: readonly Run[], varyingOnly: boolean): Record<string, boolean> {
-  return Object.fromEntries(columns.map((column) => [column.id, ALWAYS.has(column.id) || !varyingOnly || runs.length < 2 || varies(column, runs)]));
+function visibility(
+  columns: readonly Column[],
+  runs: readonly Run[],
+  varyingOnly: boolean,
+): Record<string, boolean> {
+  return Object.fromEntries(
+    columns.map((column) => [
+      column.id,
+      ALWAYS.has(column.id) || !varyingOnly || runs.length < 2 || varies(column, runs),
+    ]),
+  );
 }
 
 /** `-metric:minimum_gap` in the address is that column, falling. */
@@ -137,9 +238,14 @@ function readSort(sort: string | undefined): SortingState {
   return sort.startsWith("-") ? [{ id: sort.slice(1), desc: true }] : [{ id: sort, desc: false }];
 }
 
-const writeSort = ([first]: SortingState): string | undefined => (first ? `${first.desc ? "-" : ""}${first.id}` : undefined);
+const writeSort = ([first]: SortingState): string | undefined =>
+  first ? `${first.desc ? "-" : ""}${first.id}` : undefined;
 
-function ordered(runs: readonly Run[], columns: readonly Column[], sort: SortingState[number] | undefined): Run[] {
+function ordered(
+  runs: readonly Run[],
+  columns: readonly Column[],
+  sort: SortingState[number] | undefined,
+): Run[] {
   const column = columns.find(({ id }) => id === sort?.id);
   return column && sort ? sorted(runs, column.value, sort.desc) : [...runs];
 }
@@ -154,7 +260,13 @@ const ARIA_SORT = { asc: "ascending", desc: "descending" } as const;
 
 function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
   return (
-    <th scope="col" title={column.name} data-numeric={column.numeric || undefined} data-sticky={column.id === "run" || undefined} aria-sort={direction ? ARIA_SORT[direction] : "none"}>
+    <th
+      scope="col"
+      title={column.name}
+      data-numeric={column.numeric || undefined}
+      data-sticky={column.id === "run" || undefined}
+      aria-sort={direction ? ARIA_SORT[direction] : "none"}
+    >
       <button type="button" className={classes.sort} onClick={onSort}>
         {withUnit(column.title, column.unit)}
         {direction ? <Icon name={direction === "asc" ? "up" : "down"} size={12} /> : null}
@@ -172,7 +284,11 @@ interface RowProps {
 
 function RunRow({ run, columns, selected, onToggle }: RowProps) {
   const navigate = useNavigate();
-  const open = () => navigate({ to: "/runs/$run", params: { run: String(run.run) } });
+  const open = (event?: { target: EventTarget }) => {
+    // Picking a run is not opening it.
+    if (event?.target instanceof Element && event.target.closest("td")?.matches(`.${classes.pick}`)) return;
+    navigate({ to: "/runs/$run", params: { run: String(run.run) } });
+  };
   const onKey = (event: KeyboardEvent) => {
     if (event.key === "Enter" && event.target === event.currentTarget) open();
     if (event.key === "x" && event.target === event.currentTarget) onToggle();
@@ -180,13 +296,28 @@ function RunRow({ run, columns, selected, onToggle }: RowProps) {
     if (event.key === "ArrowUp") (event.currentTarget.previousElementSibling as HTMLElement | null)?.focus();
   };
   return (
-    <tr tabIndex={0} data-run={run.run} data-selected={selected || undefined} onClick={open} onKeyDown={onKey}>
-      {/* Picking a run is not opening it. */}
-      <td className={classes.pick} onClick={(event) => event.stopPropagation()}>
-        <Checkbox size="xs" checked={selected} onChange={onToggle} aria-label={`Select run ${run.run} to compare`} data-testid={`select-${run.run}`} />
+    <tr
+      tabIndex={0}
+      data-run={run.run}
+      data-selected={selected || undefined}
+      onClick={open}
+      onKeyDown={onKey}
+    >
+      <td className={classes.pick}>
+        <Checkbox
+          size="xs"
+          checked={selected}
+          onChange={onToggle}
+          aria-label={`Select run ${run.run} to compare`}
+          data-testid={`select-${run.run}`}
+        />
       </td>
       {columns.map((column) => (
-        <td key={column.id} data-numeric={column.numeric || undefined} data-sticky={column.id === "run" || undefined}>
+        <td
+          key={column.id}
+          data-numeric={column.numeric || undefined}
+          data-sticky={column.id === "run" || undefined}
+        >
           <Cell column={column} run={run} />
         </td>
       ))}
@@ -208,7 +339,10 @@ function Cell({ column, run }: { column: Column; run: Run }) {
     case "sim_time":
       return run.sim_time_s === null ? "–" : formatNumber(Number(run.sim_time_s.toFixed(2)));
     default:
-      return value === null || value === undefined ? <span className={classes.none}>–</span> : formatValue(value);
+      return value === null || value === undefined ? (
+        <span className={classes.none}>–</span>
+      ) : (
+        formatValue(value)
+      );
   }
 }
-

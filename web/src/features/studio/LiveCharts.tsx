@@ -28,12 +28,12 @@ export function LiveCharts({ samples, version, duration }: Props) {
       </div>
     );
   }
-  const choose = (place: number, name: string) => setChosen(chosen.map((old, index) => (index === place ? name : old)));
+  const choose = (place: number, name: string) =>
+    setChosen(chosen.map((old, index) => (index === place ? name : old)));
   return (
     <div className={classes.charts}>
       {chosen.map((name, place) => (
         <LiveChart
-          // biome-ignore lint/suspicious/noArrayIndexKey: the two places are fixed
           key={place}
           name={name}
           samples={samples}
@@ -59,8 +59,11 @@ function LiveChart({ name, samples, version, duration, onChoose }: ChartProps) {
   const names = Object.keys(samples.channels).join(" ");
   const shown = useMemo(() => drawn(name, names.split(" ")), [name, names]);
   const lines = useMemo(() => linesOf(shown, names.split(" "), dark), [shown, names, dark]);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: the columns grow in place, `version` tells when
-  const data = useMemo<Columns>(() => [samples.time, ...shown.map((channel) => samples.channels[channel] ?? [])], [samples, shown, version]);
+  // The columns grow in place, `version` tells when.
+  const data = useMemo<Columns>(
+    () => [samples.time, ...shown.map((channel) => samples.channels[channel] ?? [])],
+    [samples, shown, version],
+  );
   const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>

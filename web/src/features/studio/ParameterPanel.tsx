@@ -1,8 +1,28 @@
 /** The parameters of the scenario: search, what is changed, what is wrong, and the form. */
 
-import { Alert, Badge, Button, CloseButton, Collapse, ScrollArea, Text, TextInput, Tooltip, UnstyledButton } from "@mantine/core";
+import {
+  Alert,
+  Badge,
+  Button,
+  CloseButton,
+  Collapse,
+  ScrollArea,
+  Text,
+  TextInput,
+  Tooltip,
+  UnstyledButton,
+} from "@mantine/core";
 import { useMemo, useRef, useState } from "react";
-import { type Application, type Exchange, exchangesOf, type Field, fieldsOf, matching, placed, type Section } from "../../model/form";
+import {
+  type Application,
+  type Exchange,
+  exchangesOf,
+  type Field,
+  fieldsOf,
+  matching,
+  placed,
+  type Section,
+} from "../../model/form";
 import type { Json, Problem } from "../../model/run";
 import { formatValue } from "../../model/units";
 import { Icon } from "../../ui/Icon";
@@ -23,7 +43,16 @@ interface Props {
   onForgetParent: () => void;
 }
 
-export function ParameterPanel({ sections, applications, problems, parent, onChange, onExchange, onResetAll, onForgetParent }: Props) {
+export function ParameterPanel({
+  sections,
+  applications,
+  problems,
+  parent,
+  onChange,
+  onExchange,
+  onResetAll,
+  onForgetParent,
+}: Props) {
   const [query, setQuery] = useState("");
   const [open, setOpen] = useState<string[]>(["applications"]);
   const search = useRef<HTMLInputElement>(null);
@@ -40,7 +69,11 @@ export function ParameterPanel({ sections, applications, problems, parent, onCha
           placeholder="Search parameters (/)"
           aria-label="Search parameters"
           leftSection={<Icon name="search" size={14} />}
-          rightSection={query ? <CloseButton size="xs" aria-label="Clear the search" onClick={() => setQuery("")} /> : null}
+          rightSection={
+            query ? (
+              <CloseButton size="xs" aria-label="Clear the search" onClick={() => setQuery("")} />
+            ) : null
+          }
           value={query}
           onChange={(event) => setQuery(event.currentTarget.value)}
         />
@@ -71,7 +104,10 @@ export function ParameterPanel({ sections, applications, problems, parent, onCha
 }
 
 function byField(problems: readonly Problem[], sections: readonly Section[]) {
-  const paths = [...fieldsOf(sections).map(({ path }) => path), ...exchangesOf(sections).map(({ path }) => path)];
+  const paths = [
+    ...fieldsOf(sections).map(({ path }) => path),
+    ...exchangesOf(sections).map(({ path }) => path),
+  ];
   return placed(problems, paths);
 }
 
@@ -79,7 +115,14 @@ function byField(problems: readonly Problem[], sections: readonly Section[]) {
 function General({ problems }: { problems: readonly Problem[] }) {
   if (problems.length === 0) return null;
   return (
-    <Alert color="red" p="xs" m="xs" icon={<Icon name="warning" />} title="This scenario cannot be run">
+    <Alert
+      color="red"
+      variant="outline"
+      p="xs"
+      m="xs"
+      icon={<Icon name="warning" />}
+      title="This scenario cannot be run"
+    >
       <ProblemList problems={problems} />
     </Alert>
   );
@@ -116,10 +159,24 @@ function Changed({ sections, onChange, onExchange, onResetAll }: ChangedProps) {
       <Collapse expanded={open}>
         <ul className={classes.changes}>
           {exchanges.map((exchange) => (
-            <Change key={exchange.path} path={exchange.path} from={exchange.initial} to={exchange.value} unit="" onReset={() => onExchange(exchange, exchange.initial)} />
+            <Change
+              key={exchange.path}
+              path={exchange.path}
+              from={exchange.initial}
+              to={exchange.value}
+              unit=""
+              onReset={() => onExchange(exchange, exchange.initial)}
+            />
           ))}
           {fields.map((field) => (
-            <Change key={field.path} path={field.path} from={field.initial} to={field.value} unit={field.unit} onReset={() => onChange(field, field.initial)} />
+            <Change
+              key={field.path}
+              path={field.path}
+              from={field.initial}
+              to={field.value}
+              unit={field.unit}
+              onReset={() => onChange(field, field.initial)}
+            />
           ))}
         </ul>
       </Collapse>

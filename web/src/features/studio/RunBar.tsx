@@ -46,7 +46,14 @@ export function RunBar(props: Props) {
   const live = isLive(progress?.status);
   return (
     <div className={classes.bar} role="toolbar" aria-label="Run control">
-      <Button size="xs" data-testid="run" leftSection={<Icon name="run" size={14} />} onClick={onRun} disabled={live} loading={starting}>
+      <Button
+        size="xs"
+        data-testid="run"
+        leftSection={<Icon name="run" size={14} />}
+        onClick={onRun}
+        disabled={live}
+        loading={starting}
+      >
         {progress && !live ? "Run again" : "Run"}
       </Button>
       <Motion {...props} />
@@ -59,10 +66,21 @@ export function RunBar(props: Props) {
         value={String(pace)}
         onChange={({ currentTarget: { value } }) => onPace(value === "fast" ? value : Number(value))}
       />
-      <label className={classes.seed}>
-        Seed
-        <NumberInput size="xs" w={72} data-testid="seed" min={0} allowDecimal={false} allowNegative={false} disabled={live} value={seed} onChange={(value) => value !== "" && onSeed(Number(value))} />
-      </label>
+      <span className={classes.seed}>
+        <label htmlFor="seed">Seed</label>
+        <NumberInput
+          size="xs"
+          w={72}
+          id="seed"
+          data-testid="seed"
+          min={0}
+          allowDecimal={false}
+          allowNegative={false}
+          disabled={live}
+          value={seed}
+          onChange={(value) => value !== "" && onSeed(Number(value))}
+        />
+      </span>
       <TimeShown progress={progress} duration={progress?.duration || props.duration} />
     </div>
   );
@@ -76,9 +94,21 @@ function Motion({ progress, onPause, onResume, onStep, onStop }: Props) {
       {status === "paused" ? (
         <Press id="resume" icon="run" label="Resume (space)" onClick={onResume} />
       ) : (
-        <Press id="pause" icon="pause" label="Pause (space)" onClick={onPause} disabled={status !== "running"} />
+        <Press
+          id="pause"
+          icon="pause"
+          label="Pause (space)"
+          onClick={onPause}
+          disabled={status !== "running"}
+        />
       )}
-      <Press id="step" icon="step" label="Step one tick, 20 ms (.)" onClick={onStep} disabled={status === "running" || status === "starting"} />
+      <Press
+        id="step"
+        icon="step"
+        label="Step one tick, 20 ms (.)"
+        onClick={onStep}
+        disabled={status === "running" || status === "starting"}
+      />
       <Press id="stop" icon="stop" label="Stop" onClick={onStop} disabled={!isLive(status)} />
     </ActionIcon.Group>
   );
@@ -95,7 +125,14 @@ interface PressProps {
 function Press({ id, icon, label, onClick, disabled = false }: PressProps) {
   return (
     <Tooltip label={label}>
-      <ActionIcon size={30} variant="default" data-testid={id} aria-label={label} onClick={onClick} disabled={disabled}>
+      <ActionIcon
+        size={30}
+        variant="default"
+        data-testid={id}
+        aria-label={label}
+        onClick={onClick}
+        disabled={disabled}
+      >
         <Icon name={icon} />
       </ActionIcon>
     </Tooltip>
@@ -117,7 +154,9 @@ function TimeShown({ progress, duration }: { progress: Progressing | undefined; 
         {progress ? (
           <span className={classes.runState}>
             <Text span size="xs" c="dimmed" title="Simulated seconds per second of real time">
-              {isLive(progress.status) ? `${formatNumber(Number(progress.factor.toFixed(2)))} × real time` : ""}
+              {progress.status === "running"
+                ? `${formatNumber(Number(progress.factor.toFixed(2)))} × real time`
+                : ""}
             </Text>
             <Text span size="xs" fw={600} data-testid="current-run">
               #{progress.run}
@@ -126,7 +165,11 @@ function TimeShown({ progress, duration }: { progress: Progressing | undefined; 
           </span>
         ) : null}
       </div>
-      <Progress size="sm" value={duration > 0 ? Math.min(100, (100 * time) / duration) : 0} aria-label="Simulated part of the run" />
+      <Progress
+        size="sm"
+        value={duration > 0 ? Math.min(100, (100 * time) / duration) : 0}
+        aria-label="Simulated part of the run"
+      />
     </div>
   );
 }

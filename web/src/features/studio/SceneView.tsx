@@ -34,6 +34,8 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
   }, []);
   const { ready, send } = useBridge(frame, follow);
 
+  // A scene that has just become ready must be told everything again.
+  // `ready` counts how often that was.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
   useEffect(() => {
     send({ studio: "follow", vehicle: followed });
@@ -47,7 +49,13 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
 
   return (
     <div className={classes.scene}>
-      <iframe ref={frame} title="3D scene" src="/scene/" data-testid="scene-frame" className={classes.frame} />
+      <iframe
+        ref={frame}
+        title="3D scene"
+        src="/scene/"
+        data-testid="scene-frame"
+        className={classes.frame}
+      />
       {active ? (
         <div className={classes.look}>
           <NativeSelect
@@ -58,7 +66,14 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
             onChange={({ currentTarget: { value } }) => follow(value === "" ? null : Number(value))}
             data={followChoices(vehicles)}
           />
-          <SegmentedControl size="xs" aria-label="View" data={VIEWS} value={view} onChange={(value) => choose(value as View)} />
+          <SegmentedControl
+            size="xs"
+            transitionDuration={0}
+            aria-label="View"
+            data={VIEWS}
+            value={view}
+            onChange={(value) => choose(value as View)}
+          />
         </div>
       ) : null}
       <span className={classes.attribution} data-testid="attribution">
@@ -70,7 +85,8 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
 
 /** The platoon first, the surrounding traffic in a group of its own. */
 function followChoices(vehicles: readonly SceneVehicle[]) {
-  const items = (some: readonly SceneVehicle[]) => some.map(({ name, index }) => ({ value: String(index), label: words(name) }));
+  const items = (some: readonly SceneVehicle[]) =>
+    some.map(({ name, index }) => ({ value: String(index), label: words(name) }));
   const platoon = vehicles.filter(({ name }) => !isTraffic(name));
   const traffic = vehicles.filter(({ name }) => isTraffic(name));
   return [

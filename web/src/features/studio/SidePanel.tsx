@@ -25,7 +25,16 @@ export const SidePanel = memo(function SidePanel({ scenario, run, events }: Prop
     <Tabs defaultValue="runs" className={classes.side} keepMounted={false}>
       <Tabs.List>
         <Tabs.Tab value="runs">Runs</Tabs.Tab>
-        <Tabs.Tab value="events" rightSection={events.length ? <Badge size="xs" variant="light">{events.length}</Badge> : null}>
+        <Tabs.Tab
+          value="events"
+          rightSection={
+            events.length ? (
+              <Badge size="xs" variant="light">
+                {events.length}
+              </Badge>
+            ) : null
+          }
+        >
           Events
         </Tabs.Tab>
       </Tabs.List>
@@ -53,13 +62,23 @@ function History({ scenario, shown }: { scenario: string; shown: number | undefi
   }
   // The third choice replaces the older of the first two: a comparison has two sides.
   const toggle = (number: number) =>
-    setSelected(selected.includes(number) ? selected.filter((other) => other !== number) : [...selected, number].slice(-2));
+    setSelected(
+      selected.includes(number)
+        ? selected.filter((other) => other !== number)
+        : [...selected, number].slice(-2),
+    );
   const [a, b] = [...selected].sort((one, other) => one - other);
   return (
     <>
       <ScrollArea className={classes.history} type="auto">
         {data.map((run) => (
-          <HistoryRow key={run.run} run={run} shown={run.run === shown} selected={selected.includes(run.run)} onToggle={() => toggle(run.run)} />
+          <HistoryRow
+            key={run.run}
+            run={run}
+            shown={run.run === shown}
+            selected={selected.includes(run.run)}
+            onToggle={() => toggle(run.run)}
+          />
         ))}
       </ScrollArea>
       <div className={classes.sideFoot}>
@@ -90,8 +109,18 @@ interface RowProps {
 
 function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
   return (
-    <div className={classes.historyRow} data-testid="history-row" data-run={run.run} data-shown={shown || undefined}>
-      <Checkbox size="xs" checked={selected} onChange={onToggle} aria-label={`Select run ${run.run} to compare`} />
+    <div
+      className={classes.historyRow}
+      data-testid="history-row"
+      data-run={run.run}
+      data-shown={shown || undefined}
+    >
+      <Checkbox
+        size="xs"
+        checked={selected}
+        onChange={onToggle}
+        aria-label={`Select run ${run.run} to compare`}
+      />
       <Link to="/runs/$run" params={{ run: String(run.run) }} className={classes.historyRun}>
         #{run.run}
       </Link>
@@ -107,7 +136,9 @@ function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
 
 /** What was set for the run, in one line. */
 function settingText({ parameters, parent }: Run): string {
-  const set = Object.entries(fromSet(parameters)).map(([path, value]) => `${words(leaf(path))} ${formatValue(value)}`);
+  const set = Object.entries(fromSet(parameters)).map(
+    ([path, value]) => `${words(leaf(path))} ${formatValue(value)}`,
+  );
   return set.length ? set.join(", ") : parent === null ? "As in the file" : "Nothing changed";
 }
 

@@ -16,13 +16,17 @@ interface Bridge {
 }
 
 /** Talk to the scene; only messages of our own frame and origin are believed. Its keys count as the page's. */
-export function useBridge(frame: RefObject<HTMLIFrameElement | null>, onPicked: (vehicle: number) => void): Bridge {
+export function useBridge(
+  frame: RefObject<HTMLIFrameElement | null>,
+  onPicked: (vehicle: number) => void,
+): Bridge {
   const [ready, setReady] = useState(0);
   useEffect(() => {
     const listen = ({ origin, source, data }: MessageEvent) => {
       if (origin !== location.origin || source !== frame.current?.contentWindow) return;
       if (data?.studio === "ready") setReady((count) => count + 1);
-      if (data?.studio === "key") window.dispatchEvent(new KeyboardEvent("keydown", { ...data, bubbles: true }));
+      if (data?.studio === "key")
+        window.dispatchEvent(new KeyboardEvent("keydown", { ...data, bubbles: true }));
       if (data?.studio === "picked" && typeof data.vehicle === "number") onPicked(data.vehicle);
     };
     window.addEventListener("message", listen);

@@ -22,7 +22,10 @@ export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => vo
     defaultValue: FRESH,
     getInitialValueInEffect: false,
   });
-  const update = useCallback((part: Partial<Draft>) => store((before) => ({ ...FRESH, ...before, ...part })), [store]);
+  const update = useCallback(
+    (part: Partial<Draft>) => store((before) => ({ ...FRESH, ...before, ...part })),
+    [store],
+  );
   const draft = useMemo(() => ({ ...FRESH, ...stored }), [stored]);
   return [draft, update];
 }

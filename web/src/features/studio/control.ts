@@ -1,0 +1,85 @@
+/** What the buttons of the run bar do, and where a new run's setting comes from. */
+
+import { useQuery } from "@tanstack/react-query";
+import { useNavigate } from "@tanstack/react-router";
+import { useEffect } from "react";
+import type { LiveState } from "../../api/live";
+import * as queries from "../../api/queries";
+import { fromSet } from "../../model/form";
+import { isLive } from "../../model/run";
+import { notifyError } from "../../ui/notify";
+import type { Draft } from "./draft";
+import type { Controls } from "./RunBar";
+
+interface ControlProps {
+  id: string;
+  draft: Draft;
+  update: (part: Partial<Draft>) => void;
+  seed: number;
+  live: LiveState | undefined;
+  run: number | undefined;
+}
+
+/** What the buttons of the run bar do. */
+export function useControl({
+  id,
+  draft,
+  update,
+  seed,
+  live,
+  run,
+}: ControlProps): Controls & { starting: boolean } {
+  const start = useStarter({ id, draft, update, seed });
+  const order = queries.useOrder();
+  const pace = queries.usePace();
+  const tell = (what: queries.Order) => {
+    if (run !== undefined) order.mutate({ run, order: what }, { onError: notifyError });
+  };
+  return {
+    starting: start.isPending,
+    onRun: () => start.begin(false),
+    onPause: () => tell("pause"),
+    onResume: () => tell("resume"),
+    onStop: () => tell("stop"),
+    onStep: () => (live && isLive(live.status) ? tell("step") : start.begin(true)),
+    onSeed: (seed) => update({ seed }),
+    onPace: (next) => {
+      update({ pace: next });
+      if (run !== undefined && live && isLive(live.status))
+        pace.mutate({ run, pace: next }, { onError: notifyError });
+    },
+  };
+}
+
+/** Start a run of the draft and show it; the one after it will be its child. */
+function useStarter({ id, draft, update, seed }: Pick<ControlProps, "id" | "draft" | "update" | "seed">) {
+  const start = queries.useStart();
+  const order = queries.useOrder();
+  const navigate = useNavigate();
+  const begin = (paused: boolean) => {
+    if (start.isPending) return;
+    const { changes, pace, parent } = draft;
+    const body = { scenario: id, set: changes, seed, pace, paused, ...(parent === null ? {} : { parent }) };
+    start.mutate(body, {
+      onError: notifyError,
+      onSuccess: ({ run }) => {
+        update({ parent: run });
+        // A first step out of rest is one step, too; a run that is not up yet just stays at its start.
+        if (paused) order.mutate({ run, order: "step" });
+        navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run } });
+      },
+    });
+  };
+  return { begin, isPending: start.isPending };
+}
+
+/** "Tune from here": take over the setting of a run, once. */
+export function useTakeOver(id: string, from: number | undefined, update: (part: Partial<Draft>) => void) {
+  const navigate = useNavigate();
+  const { data } = useQuery({ ...queries.run(from ?? 0), enabled: from !== undefined });
+  useEffect(() => {
+    if (from === undefined || data?.run !== from) return;
+    update({ changes: fromSet(data.parameters), seed: data.seed, parent: from });
+    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run: from }, replace: true });
+  }, [from, data, id, navigate, update]);
+}

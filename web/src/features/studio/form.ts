@@ -1,0 +1,50 @@
+/** The parameter form of a scenario, as the page and the server see it. */
+
+import { useDebouncedValue } from "@mantine/hooks";
+import { useQuery } from "@tanstack/react-query";
+import { useCallback, useMemo } from "react";
+import * as queries from "../../api/queries";
+import { sections } from "../../model/form";
+import type { Changes } from "../../model/run";
+
+const NONE: never[] = [];
+
+/** The form of a scenario with the user's changes, and what the server says about them. */
+export function useForm(id: string, changes: Changes) {
+  const scenario = useQuery(queries.scenario(id));
+  const applications = useQuery(queries.applications);
+  const { document, schema } = scenario.data ?? {};
+  const known = applications.data ?? NONE;
+  const form = useMemo(
+    () => (document && schema ? sections({ document, schema, applications: known, changes }) : undefined),
+    [document, schema, known, changes],
+  );
+  const [settled] = useDebouncedValue(changes, 300);
+  const { data: checked } = useQuery({ ...queries.check(id, settled), enabled: form !== undefined });
+  const { refetch: again } = scenario;
+  const { refetch: andApplications } = applications;
+  const retry = useCallback(() => void Promise.all([again(), andApplications()]), [again, andApplications]);
+  const error = scenario.error ?? applications.error;
+  return useMemo(
+    () => ({
+      sections: form,
+      applications: known,
+      ok: checked?.ok ?? false,
+      problems: checked?.problems ?? NONE,
+      duration: durationOf(checked?.document ?? document),
+      seed: typeof document?.seed === "number" ? document.seed : 1,
+      error,
+      retry,
+    }),
+    [form, known, checked, document, error, retry],
+  );
+}
+
+export type Form = ReturnType<typeof useForm>;
+
+/** How long the scenario runs [s], wherever the document says it. */
+export function durationOf(document: unknown): number {
+  const { clock, duration } = (document ?? {}) as { clock?: { duration?: unknown }; duration?: unknown };
+  const found = clock?.duration ?? duration;
+  return typeof found === "number" ? found : 0;
+}

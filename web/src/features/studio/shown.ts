@@ -1,0 +1,76 @@
+/** The run that the studio shows: live or stored, in one shape. */
+
+import { useQuery } from "@tanstack/react-query";
+import { useEffect, useMemo, useState } from "react";
+import { type LiveState, useLive } from "../../api/live";
+import * as queries from "../../api/queries";
+import { isTraffic, parts } from "../../model/channel";
+import { isLive, type RunDetail } from "../../model/run";
+import type { Samples } from "../../model/samples";
+import { durationOf } from "./form";
+import type { Progressing } from "./RunBar";
+
+const NONE: never[] = [];
+
+/** The run in the address: its live state while it goes, its stored trace otherwise. */
+export function useShownRun(run: number | undefined) {
+  const stored = useQuery({ ...queries.run(run ?? 0), enabled: run !== undefined });
+  const detail = run === undefined ? undefined : stored.data;
+  const [followed, follow] = useState<number>();
+  const going = isLive(detail?.status);
+  useEffect(() => {
+    if (going) follow(run);
+  }, [going, run]);
+  const live = useLive(followed === run ? run : undefined);
+  // The process of a run may die without a last word; what is stored then counts.
+  const lost = live !== undefined && !live.connected && detail !== undefined && !going;
+  useEffect(() => {
+    if (lost) follow(undefined);
+  }, [lost]);
+  const samples = useStoredSamples(live ? undefined : detail);
+  return {
+    live,
+    samples: live?.samples ?? samples,
+    version: live?.version ?? 0,
+    events: live?.events ?? detail?.events ?? NONE,
+    progress: live ? fromLive(live) : detail ? fromStored(detail) : undefined,
+  };
+}
+
+const fromLive = ({ run, status, time, duration_s, real_time_factor, error }: LiveState): Progressing => ({
+  run,
+  status,
+  time,
+  duration: duration_s,
+  factor: real_time_factor,
+  error,
+});
+
+const fromStored = ({ run, status, sim_time_s, error, document }: RunDetail): Progressing => ({
+  run,
+  status,
+  time: sim_time_s ?? 0,
+  duration: durationOf(document) || (sim_time_s ?? 0),
+  factor: 0,
+  error,
+});
+
+/** The trace of a finished run in the same shape as live samples. */
+function useStoredSamples(run: RunDetail | undefined): Samples | undefined {
+  const finished = run !== undefined && !isLive(run.status);
+  const channels = finished ? run.channels.map(({ name }) => name).filter(isCharted) : NONE;
+  const { data } = useQuery(queries.trace(run?.run ?? 0, channels));
+  return useMemo(() => {
+    if (!finished || !data) return undefined;
+    const columns = Object.entries(data.channels).map(([name, { values }]) => [name, values] as const);
+    return { time: data.time, channels: Object.fromEntries(columns) };
+  }, [data, finished]);
+}
+
+/** The quantities that a live run sends, too. */
+const CHARTED = new Set(["speed", "gap", "acceleration", "time_gap"]);
+
+function isCharted(channel: string): boolean {
+  const { vehicle, quantity } = parts(channel);
+  return CHARTED.has(quantity) && !isTraffic(vehicle);
+}
