@@ -266,13 +266,13 @@ def print_table(header: list[str], rows: list[list[str]]) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    console = Console(markup=False, highlight=False)
+    console = Console(markup=False, highlight=False, width=None if sys.stdout.isatty() else PIPED_WIDTH)
     table = Table(box=SIMPLE_HEAD)
     for column in header:
         table.add_column(Text(column), overflow="fold")
     for row in rows:
         table.add_row(*map(Text, row))
-    console.print(table, width=None if console.is_terminal else PIPED_WIDTH)
+    console.print(table)
 
 
 def settings(parameters: dict[str, Any]) -> str:

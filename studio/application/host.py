@@ -10,7 +10,6 @@ import hashlib
 import os
 import sys
 import traceback
-from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
@@ -25,13 +24,9 @@ from studio.errors import ApplicationError
 
 TEMPLATE = '''"""Calls {name} for all its cars."""
 
-from collections import namedtuple
-
 from studio.application.contract import Clock, Front, Message, Observation, Own
 from studio.compiled import compiled
-from {module} import Memory, decide
-
-Parameters = namedtuple("Parameters", {parameter_names})
+from {module} import Memory, ParameterTuple, decide
 
 
 @compiled
@@ -44,7 +39,7 @@ def run(columns, parameters, memory, observed, commands):
             Front({front}),
             Message({message}),
         )
-        remembered, command = decide(Parameters({parameters}), Memory({memory}), observation)
+        remembered, command = decide(ParameterTuple({parameters}), Memory({memory}), observation)
 {store}
         commands[0, v] = command.acceleration
         commands[1, v] = command.steering
@@ -92,7 +87,7 @@ def python_loop(application: Application) -> Callable:
     def run(columns, parameters, memory, observed, commands):
         for j, v in enumerate(columns):
             remembered, command = module.decide(
-                parameter_tuple(application)(*parameters[:, j].tolist()),
+                module.ParameterTuple(*parameters[:, j].tolist()),
                 module.Memory(*memory[:, j].tolist()),
                 observation_of(observed[:, j].tolist()),
             )
@@ -117,14 +112,6 @@ def observation_of(values: list[float]) -> Observation:
         parts.append(part(**{key: bool(value) if key in FLAGS else value for key, value in fields.items()}))
         start += len(part._fields)
     return Observation(*parts)
-
-
-def parameter_tuple(application: Application) -> type:
-    """The parameters as a NamedTuple of floats, made once per application."""
-    module = application.module
-    if not hasattr(module, "_ParameterTuple"):
-        module._ParameterTuple = namedtuple("Parameters", list(module.Parameters.model_fields))
-    return module._ParameterTuple
 
 
 def compiled_loop(application: Application) -> Callable:
@@ -162,7 +149,6 @@ def loop_source(application: Application) -> str:
     return TEMPLATE.format(
         name=application.name,
         module=application.module.__name__,
-        parameter_names=list(application.module.Parameters.model_fields),
         clock=part(Clock._fields),
         own=part(Own._fields),
         front=part(Front._fields),

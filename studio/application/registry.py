@@ -7,6 +7,7 @@ given once.
 
 import sys
 import traceback
+from collections import namedtuple
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import entry_points
@@ -67,8 +68,14 @@ def register(name: str, module: ModuleType) -> Application:
             f"The application {name!r} does not keep the contract.",
             [Problem(module.__name__, f"has no {part}", "", ", ".join(NEEDED)) for part in missing],
         )
+    module.ParameterTuple = parameter_tuple(module)
     _registered[name] = Application(name, module)
     return _registered[name]
+
+
+def parameter_tuple(module: ModuleType) -> type:
+    """The parameters as a NamedTuple, for `decide`. It belongs to the module: cached machine code finds it there by name."""
+    return namedtuple("ParameterTuple", list(module.Parameters.model_fields), module=module.__name__)
 
 
 @cache

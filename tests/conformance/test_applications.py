@@ -1,0 +1,90 @@
+"""Every registered application keeps the contract."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from studio.application import registry
+from studio.application.contract import Clock, Command, Front, Message, Observation, Own
+from studio.application.host import compiled_loop, first_memory, observation_rows, python_loop
+
+NAMES = sorted(registry.known())
+speeds, accelerations = st.floats(0, 60), st.floats(-10, 10)
+observations = st.builds(
+    Observation,
+    st.builds(Clock, st.floats(0, 1e4), st.sampled_from([0.01, 0.02, 0.1])),
+    st.builds(Own, speeds, accelerations, st.floats(-1, 1), st.floats(-0.6, 0.6), speeds, accelerations),
+    st.builds(Front, st.booleans(), st.floats(0, 300), st.floats(-60, 60), st.floats(-1.6, 1.6)),
+    st.builds(Message, st.booleans(), st.floats(0, 1e4), st.floats(-1e4, 1e4), st.floats(-1e4, 1e4), speeds, accelerations, accelerations),
+)
+
+
+@pytest.fixture(params=NAMES)
+def application(request):
+    return registry.find(request.param)
+
+
+def defaults(application):
+    return application.module.ParameterTuple(*[float(value) for value in application.parameters({}).values()])
+
+
+def test_the_built_ins_are_there():
+    assert {"acc", "cacc"} <= set(NAMES)
+
+
+def test_parameters_have_units_ranges_and_defaults(application):
+    for name, field in application.module.Parameters.model_json_schema()["properties"].items():
+        assert "default" in field and "title" in field, name
+        assert field.get("type") in ("boolean", "integer") or "unit" in field, name
+        assert field.get("type") == "boolean" or {"minimum", "exclusiveMinimum"} & set(field), name
+
+
+def test_unknown_parameters_are_refused(application):
+    with pytest.raises(ValidationError):
+        application.parameters({"no_such_parameter": 1})
+
+
+@settings(max_examples=100)
+@given(observation=observations)
+@pytest.mark.parametrize("name", NAMES)
+def test_any_observation_gives_a_command(name, observation):
+    """Finite or left to the driver; the same question gets the same answer; memory is floats."""
+    application = registry.find(name)
+    memory = application.module.Memory()
+    answers = [application.module.decide(defaults(application), memory, observation) for _ in range(2)]
+    remembered, command = answers[0]
+    assert isinstance(command, Command) and len(remembered) == len(memory)
+    assert all(math.isfinite(value) for value in remembered)
+    assert all(math.isnan(value) or math.isfinite(value) for value in command)
+    assert pickle.dumps(answers[0]) == pickle.dumps(answers[1])
+
+
+def test_compiled_and_interpreted_agree(application):
+    """The loop that runs in the world, and the same `decide` called as plain Python functions, car by car."""
+    if not application.compiled:
+        return
+    rng = np.random.default_rng(3)
+    n = 50
+    observed = rng.normal(size=(len(observation_rows()), n)) * 5
+    observed[1] = 0.02
+    observed[[8, 12]] = rng.integers(0, 2, (2, n))
+    results = []
+    for loop in (compiled_loop(application), python_loop(application)):
+        memory = np.tile(np.array(first_memory(application))[:, None], n)
+        parameters = np.tile(np.array(defaults(application))[:, None], n)
+        commands = np.full((2, n), np.nan)
+        for _ in range(3):
+            loop(np.arange(n), parameters, memory, observed, commands)
+        results.append((memory, commands))
+    np.testing.assert_allclose(results[0][0], results[1][0], rtol=1e-12)
+    np.testing.assert_allclose(results[0][1], results[1][1], rtol=1e-12)
+
+
+def test_a_name_is_given_once(application):
+    with pytest.raises(Exception, match="taken"):
+        registry.register(application.name, application.module)

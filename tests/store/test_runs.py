@@ -1,0 +1,162 @@
+"""The run database: what goes in comes out; what is no database is refused; a killed run says so."""
+
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from studio import job
+from studio.errors import StoreError, UnknownError
+from studio.store import trace
+from studio.store.comparison import compare
+from studio.store.runs import open_runs
+
+
+@pytest.fixture(scope="module")
+def kept(sample, tmp_path_factory):
+    """A database with a run of 4 s and its child with ACC, and the first run's result."""
+    runs = open_runs(tmp_path_factory.mktemp("db") / "runs.db")
+    first = job.run(job.load(sample, {"clock.duration": 4}), runs=runs)
+    child = job.load(sample, {"clock.duration": 4, "applications.platoon.application": "acc"})
+    job.run(child, runs=runs, parent=first.row.run, seed=5)
+    return runs, first
+
+
+def test_a_run_is_found_as_it_was(kept):
+    runs, first = kept
+    row = runs.find(first.row.run)
+    assert (row.status, row.seed, row.parent, row.state_hash) == ("done", 1, None, first.state_hash)
+    assert row.parameters == {"clock.duration": 4}
+    assert row.metrics == first.metrics
+    assert runs.document(row)["clock"]["duration"] == 4
+
+
+def test_traces_keep_all_bits(kept):
+    runs, first = kept
+    columns = runs.trace(first.row.run, ["follower_1.speed", "leader.gap"])
+    assert columns["follower_1.speed"].tobytes() == first.trace("follower_1.speed").tobytes()
+    assert columns["time"].tobytes() == first.time.tobytes()
+    assert {"name": "leader.gap", "unit": "m", "label": "Gap to the car ahead"} in runs.channels(first.row.run)
+
+
+def test_newest_first_and_lineage(kept):
+    runs, first = kept
+    assert [row.run for row in runs.select()] == [2, 1]
+    assert runs.find(2).parent == 1 and runs.find(2).seed == 5
+
+
+def test_comparison(kept):
+    runs, _ = kept
+    result = compare(runs, 1, 2)
+    differing = {each["path"]: each for each in result["parameters"]}
+    assert differing["applications.platoon.application"]["a"] == "cacc"
+    assert differing["seed"]["b"] == 5
+    assert differing["applications.platoon.parameters.k_p"]["b"] is None  # on one side only: shown, not dropped
+    assert "clock.duration" not in differing
+    gap = next(each for each in result["metrics"] if each["name"] == "min_gap")
+    assert gap["difference"] == pytest.approx(gap["b"] - gap["a"]) and gap["unit"] == "m"
+
+
+@pytest.mark.parametrize("wrong", [99, -1])
+def test_an_unknown_run(kept, wrong):
+    with pytest.raises(UnknownError, match=f"no run {wrong}.*newest is 2"):
+        kept[0].find(wrong)
+
+
+def test_an_unknown_channel(kept):
+    with pytest.raises(UnknownError, match="did you mean 'leader.speed'"):
+        kept[0].trace(1, ["leader.sped"])
+
+
+def test_an_unknown_parent_leaves_no_row(kept, sample):
+    runs, _ = kept
+    with pytest.raises(UnknownError):
+        job.run(job.load(sample, {"clock.duration": 1}), runs=runs, parent=77)
+    assert len(runs.select()) == 2
+
+
+def test_a_refused_scenario_leaves_no_row(kept, sample):
+    runs, _ = kept
+    with pytest.raises(Exception, match="beyond the end"):
+        job.run(job.load(sample, {"vehicles.leader.position.along": 1e5}), runs=runs)
+    assert len(runs.select()) == 2
+
+
+def test_decimation_keeps_the_peaks():
+    time_ = np.linspace(0, 60, 3001)
+    values = np.sin(time_)
+    values[1234] = 9.0
+    thin = trace.decimate({"time": time_, "a": values}, 200)
+    assert thin["time"].size <= 202 and thin["a"].max() == 9.0
+    assert thin["time"][0] == 0 and thin["time"][-1] == 60
+    assert (np.diff(thin["time"]) > 0).all()
+
+
+@pytest.mark.parametrize(("content", "words"), [(b"hello, I am a text file of some length" * 10, "not a database"), (b"SQLite format 3\0" + b"x" * 200, "cannot be used|not a database")])
+def test_a_file_that_is_no_database(tmp_path, content, words):
+    path = tmp_path / "runs.db"
+    path.write_bytes(content)
+    with pytest.raises(StoreError, match=words):
+        open_runs(path)
+    assert path.read_bytes() == content
+
+
+def test_somebody_elses_database(tmp_path):
+    path = tmp_path / "music.db"
+    connection = sqlite3.connect(path)
+    connection.execute("create table songs (name text)")
+    connection.commit()
+    connection.close()
+    with pytest.raises(StoreError, match="songs"):
+        open_runs(path)
+
+
+def test_a_folder_and_a_missing_folder(tmp_path):
+    with pytest.raises(StoreError, match="folder"):
+        open_runs(tmp_path)
+    with pytest.raises(StoreError, match="cannot be opened"):
+        open_runs(tmp_path / "no" / "runs.db")
+
+
+def test_a_read_only_database():
+    """As a user who may not write: a process that gives up root, if it has it, once everything is imported."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "runs.db"
+        open_runs(path).close()
+        path.chmod(0o444)
+        Path(folder).chmod(0o555)
+        code = (
+            "import os, sqlite_utils; from studio.store.runs import open_runs;"
+            f"os.getuid() or os.setuid(65534); open_runs({str(path)!r})"
+        )
+        told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        Path(folder).chmod(0o755)
+    assert "StoreError" in told.stderr and "read-only" in told.stderr, told.stderr
+
+
+def test_a_killed_run_says_so(sample, tmp_path):
+    """A process is killed half-way; its row says killed, and later runs are not disturbed."""
+    db = tmp_path / "runs.db"
+    code = (
+        "from studio import job; from studio.store.runs import open_runs;"
+        f"job.run(job.load({str(sample)!r}, {{'clock.duration': 3600}}), runs=open_runs({str(db)!r}))"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code])
+    runs = None
+    for _ in range(600):
+        time.sleep(0.1)
+        if db.exists() and (runs := open_runs(db)).select():
+            break
+    assert runs.find(1).status == "running"
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    row = runs.find(1)
+    assert row.status == "killed" and "process" in row.error
+    assert row.metrics == {} and runs.channels(1) == []
+    assert job.run(job.load(sample, {"clock.duration": 1}), runs=runs).row.run == 2

@@ -1,0 +1,161 @@
+"""The command line as a user types it."""
+
+import json
+import re
+import socket
+import subprocess
+import sys
+
+import pytest
+
+
+def studio(*arguments, cwd):
+    """Runs the command; returns exit code, output, errors."""
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=300)
+    return done.returncode, done.stdout, done.stderr
+
+
+SHORT = ("--set", "clock.duration=3")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, sample):
+    """A working folder with a run of 3 s and its child with another headway."""
+    cwd = tmp_path_factory.mktemp("work")
+    first = studio("run", sample, *SHORT, "--json", cwd=cwd)
+    child = studio("run", sample, *SHORT, "--set", "applications.platoon.parameters.headway=0.9", "--parent", 1, "--json", cwd=cwd)
+    assert first[0] == child[0] == 0, first[2] + child[2]
+    return cwd, json.loads(first[1]), json.loads(child[1])
+
+
+def test_run_prints_one_object(folder):
+    _, run, _ = folder
+    wanted = {"run", "scenario", "scenario_hash", "seed", "status", "state_hash", "code_version", "sim_time_s", "wall_time_s", "parameters", "metrics"}
+    assert wanted <= set(run)
+    assert run["status"] == "done" and run["sim_time_s"] == 3.0 and run["parameters"] == {"clock.duration": 3}
+    assert run["metrics"]["min_gap"]["unit"] == "m" and run["metrics"]["min_gap"]["goal"] == "higher"
+    assert re.fullmatch("[0-9a-f]{64}", run["state_hash"])
+
+
+def test_a_fresh_process_gives_the_same_bits(folder, sample):
+    cwd, run, child = folder
+    again = json.loads(studio("run", sample, *SHORT, "--json", "--db", "other.db", cwd=cwd)[1])
+    other = json.loads(studio("run", sample, *SHORT, "--seed", 2, "--json", "--db", "other.db", cwd=cwd)[1])
+    assert again["state_hash"] == run["state_hash"] and again["metrics"] == run["metrics"]
+    assert other["state_hash"] != run["state_hash"] and child["state_hash"] != run["state_hash"]
+
+
+def test_python_finds_the_same(folder, sample):
+    """The example of the package's docstring; its run has the command line's bits."""
+    import studio as package
+
+    scenario = package.load(sample, {"clock.duration": 3})
+    run = package.run(scenario, seed=1)
+    assert run.state_hash == folder[1]["state_hash"]
+    assert run.metrics["min_ttc"].value == folder[1]["metrics"]["min_ttc"]["value"]
+    assert run.trace("follower_1.speed").shape == run.time.shape == (151,)
+
+
+def test_list_show_compare(folder):
+    cwd, run, child = folder
+    listed = json.loads(studio("runs", "--json", cwd=cwd)[1])
+    assert [each["run"] for each in listed] == [2, 1] and listed[0]["parent"] == 1
+    assert json.loads(studio("show", 2, "--json", cwd=cwd)[1]) == child
+    compared = json.loads(studio("compare", 1, 2, "--json", cwd=cwd)[1])
+    assert [each["path"] for each in compared["parameters"]] == ["applications.platoon.parameters.headway"]
+    assert compared["parameters"][0] | {"unit": ""} == {"path": "applications.platoon.parameters.headway", "a": 0.6, "b": 0.9, "unit": ""}
+    assert {each["name"] for each in compared["metrics"]} == set(run["metrics"])
+
+
+def test_tables_for_people(folder):
+    cwd, *_ = folder
+    assert "min TTC [s]" in studio("runs", cwd=cwd)[1]
+    assert "min_gap [m]" in studio("show", 1, cwd=cwd)[1]
+    assert "headway" in studio("compare", 1, 2, cwd=cwd)[1]
+
+
+def test_check_and_schema(folder, sample):
+    cwd, *_ = folder
+    code, out, _ = studio("check", sample, cwd=cwd)
+    assert code == 0 and "25 vehicles" in out and "© OpenStreetMap contributors" in out
+    schema = json.loads(studio("schema", cwd=cwd)[1])
+    assert schema["$defs"]["Clock"]["properties"]["duration"]["unit"] == "s"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("run", "{sample}", "--set", "clock.duraton=3"), ["clock.duraton", "did you mean 'clock.duration'"]),
+        (("run", "{sample}", "--set", "clock.duration=-3"), ["clock.duration", "-3", "> 0"]),
+        (("run", "{sample}", "--set", "nonsense"), ["--set", "PATH=VALUE"]),
+        (("run", "{sample}", "--seed", "-1"), ["seed", "-1"]),
+        (("run", "{sample}", "--parent", "99"), ["99", "the newest is 2"]),
+        (("run", "missing.yaml"), ["missing.yaml", "does not exist"]),
+        (("run", "{sample}", "--db", "no/such/runs.db"), ["runs.db", "cannot be opened"]),
+        (("run", "{sample}", "--applications", "nowhere"), ["nowhere", "folder"]),
+        (("show", "99"), ["no run 99", "the newest is 2"]),
+        (("compare", "1", "99"), ["no run 99"]),
+        (("runs", "--db", "absent.db"), ["absent.db", "does not exist"]),
+        (("check", "runs.db"), ["runs.db", "text file"]),
+        (("serve", "--scenarios", "nowhere", "--no-browser", "--port", "0"), ["nowhere", "folder"]),
+        (("serve", "--db", "{sample}", "--no-browser", "--port", "0"), ["not a database"]),
+        (("serve", "--host", "203.0.113.7", "--no-browser"), ["203.0.113.7"]),
+    ],
+)
+def test_bad_input_ends_with_code_2_and_a_clear_message(folder, sample, arguments, words):
+    cwd, *_ = folder
+    code, out, errors = studio(*[each.format(sample=sample) for each in arguments], cwd=cwd)
+    assert code == 2, out + errors
+    for word in words:
+        assert word in errors
+    assert "Traceback" not in errors and out == ""
+    assert len(json.loads(studio("runs", "--json", cwd=cwd)[1])) == 2  # nothing was written
+
+
+def test_a_port_in_use(folder):
+    cwd, *_ = folder
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        code, _, errors = studio("--port", port, "--no-browser", cwd=cwd)
+    assert code == 2 and f"port {port}" in errors and f"--port {port + 1}" in errors
+
+
+BROKEN = '''
+"""Raises after a second."""
+from typing import NamedTuple
+from pydantic import BaseModel
+from studio.application.contract import LEAVE, Command
+
+TITLE = "Broken"
+
+class Parameters(BaseModel):
+    pass
+
+class Memory(NamedTuple):
+    pass
+
+def decide(parameters, memory, observation):
+    if observation.clock.time > 1.0:
+        raise RuntimeError("the idea was not so good")
+    return memory, Command(LEAVE, LEAVE)
+'''
+
+
+def test_an_application_that_raises_fails_its_run(folder, sample, tmp_path):
+    cwd, *_ = folder
+    (tmp_path / "broken.py").write_text(BROKEN)
+    code, out, _ = studio(
+        "run", sample, "--applications", tmp_path, "--set", "applications.platoon.application=broken", *SHORT,
+        "--db", tmp_path / "failed.db", "--json", cwd=cwd,
+    )  # fmt: skip
+    run = json.loads(out)
+    assert code == 1 and run["status"] == "failed"
+    assert "the idea was not so good" in run["error"] and "broken.py" in run["error"] and "Traceback" in run["error"]
+    assert 1.0 <= run["sim_time_s"] < 1.1
+
+
+def test_an_application_that_does_not_load(folder, sample, tmp_path):
+    cwd, *_ = folder
+    (tmp_path / "mine.py").write_text("import no_such_module")
+    code, _, errors = studio("check", sample, "--applications", tmp_path, cwd=cwd)
+    assert code == 2 and "mine.py" in errors and "no_such_module" in errors
