@@ -159,6 +159,8 @@ describe("search and problems", () => {
       paths(),
     );
     expect([...map.keys()]).toEqual(["radio.delay", "radio.loss", ""]);
+    const nested = { ...problem, where: "file.yaml: applications.platoon.parameters: headway" };
+    expect([...placed([nested], paths()).keys()]).toEqual(["applications.platoon.parameters.headway"]);
   });
 });
 

@@ -314,13 +314,17 @@ export function matching(all: readonly Section[], query: string): Section[] {
 
 const notEmpty = ({ fields, sections: inner }: Section): boolean => fields.length > 0 || inner.length > 0;
 
+/** The paths that a place may mean: the server writes `file.yaml: applications.platoon.parameters: headway`. */
+function tails(where: string): string[] {
+  const parts = where.split(": ");
+  return parts.map((_, index) => parts.slice(index).join("."));
+}
+
 /** Problems by the path of the field where they stand; the rest under the empty path. */
 export function placed(problems: readonly Problem[], paths: readonly string[]): Map<string, Problem[]> {
   const result = new Map<string, Problem[]>();
   for (const problem of problems) {
-    // The server writes `file.yaml: path`.
-    const where = problem.where.slice(problem.where.lastIndexOf(": ") + 1).trim();
-    const path = paths.includes(where) ? where : "";
+    const path = tails(problem.where).find((tail) => paths.includes(tail)) ?? "";
     result.set(path, [...(result.get(path) ?? []), problem]);
   }
   return result;
