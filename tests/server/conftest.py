@@ -1,0 +1,46 @@
+"""One server for the tests of REST and live runs."""
+
+import pytest
+
+from tests.server.server import served
+
+BROKEN = '''
+"""Raises after half a second."""
+from typing import NamedTuple
+from pydantic import BaseModel
+from studio.application.contract import LEAVE, Command
+
+TITLE = "Broken"
+
+class Parameters(BaseModel):
+    pass
+
+class Memory(NamedTuple):
+    pass
+
+def decide(parameters, memory, observation):
+    if observation.clock.time > 0.5:
+        raise RuntimeError("the idea was not so good")
+    return memory, Command(LEAVE, LEAVE)
+'''
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory, sample):
+    """Client, database and process of a server with the samples, a broken scenario and a broken application."""
+    folder = tmp_path_factory.mktemp("server")
+    scenarios = folder / "scenarios"
+    scenarios.mkdir()
+    (scenarios / "maps").symlink_to(sample.parent / "maps")
+    (scenarios / sample.name).write_bytes(sample.read_bytes())
+    (scenarios / "bad.yaml").write_text("title: bad\nclok: {}\n")
+    (folder / "applications").mkdir()
+    (folder / "applications" / "broken.py").write_text(BROKEN)
+    with served(folder, "--applications", folder / "applications") as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def client(server):
+    """The HTTP client of that server."""
+    return server[0]

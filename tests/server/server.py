@@ -1,0 +1,27 @@
+"""A real server in a process of its own, as a user starts it."""
+
+import re
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import httpx
+
+START_PATIENCE = 180.0  # [s] the first start compiles
+
+
+@contextmanager
+def served(folder: Path, *options):
+    """Starts `studio` in a folder; gives an HTTP client and the database's path; ends it."""
+    log = (folder / "server.log").open("w+")
+    command = [sys.executable, "-m", "studio.cli", "--port", "0", "--no-browser", *map(str, options)]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=log, text=True)
+    try:
+        address = re.search(r"http://\S+", process.stdout.readline()).group()
+        with httpx.Client(base_url=address, timeout=START_PATIENCE) as client:
+            yield client, folder / "runs.db", process
+    finally:
+        process.terminate()
+        process.wait(30)
+        log.close()

@@ -1,0 +1,141 @@
+"""Live runs: orders, news, what a crash leaves behind."""
+
+import json
+import os
+import signal
+import time
+
+import psutil
+import pytest
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+SCENARIO = "grosser_stern_platoon"
+
+
+def start(client, **options):
+    answer = client.post("/api/live", json={"scenario": SCENARIO, **options})
+    assert answer.status_code == 201, answer.text
+    return answer.json()["run"]
+
+
+def news(client, run, **options):
+    """The socket of a live run."""
+    address = str(client.base_url).replace("http", "ws").rstrip("/")
+    return connect(f"{address}/api/live/{run}/socket", **options)
+
+
+def until(socket, wanted, patience=60.0):
+    """Messages up to the first that is wanted."""
+    seen, end = [], time.monotonic() + patience
+    while time.monotonic() < end:
+        seen.append(json.loads(socket.recv(timeout=patience)))
+        if wanted(seen[-1]):
+            return seen
+    raise AssertionError(f"waited in vain; last: {seen[-1:]}")
+
+
+def is_state(status):
+    return lambda message: message["type"] == "state" and message["status"] == status
+
+
+def test_pause_step_pace_stop(client):
+    run = start(client, set={"clock.duration": 30}, paused=True)
+    with news(client, run) as socket:
+        paused = until(socket, is_state("paused"))[-1]
+        assert paused["time"] == 0.0 and paused["duration_s"] == 30
+        client.post(f"/api/live/{run}/step")
+        assert until(socket, lambda m: m["type"] == "state" and m["time"] > 0)[-1]["time"] == pytest.approx(0.02)
+        client.post(f"/api/live/{run}/pace", json={"pace": 8})
+        client.post(f"/api/live/{run}/resume")
+        running = until(socket, lambda m: m["type"] == "state" and m["time"] > 2)[-1]
+        assert running["pace"] == 8
+        client.post(f"/api/live/{run}/stop")
+        end = until(socket, lambda m: m["type"] == "end")[-1]
+    assert end["status"] == "stopped"
+    row = client.get(f"/api/runs/{run}").json()
+    assert row["status"] == "stopped" and row["metrics"]["min_gap"]["value"] > 0 and row["sim_time_s"] < 30
+    assert client.post(f"/api/live/{run}/pause").status_code == 409
+
+
+def test_pace_is_kept(client):
+    """At pace 2 four simulated seconds take two real ones."""
+    run = start(client, set={"clock.duration": 60}, pace=2)
+    with news(client, run) as socket:
+        until(socket, lambda m: m["type"] == "state" and m["time"] > 1)
+        began = time.monotonic()
+        first = until(socket, lambda m: m["type"] == "state")[-1]["time"]
+        last = until(socket, lambda m: m["type"] == "state" and m["time"] > first + 4)[-1]["time"]
+        took = time.monotonic() - began
+    client.post(f"/api/live/{run}/stop")
+    assert (last - first) / took == pytest.approx(2.0, rel=0.2)
+
+
+def test_samples_and_events(client):
+    """As fast as possible; a late listener gets everything so far."""
+    run = start(client, set={"clock.duration": 22}, pace="fast")
+    with news(client, run) as socket:
+        until(socket, lambda m: m["type"] == "end")
+    with news(client, run) as late:
+        seen = until(late, lambda m: m["type"] == "end")
+    samples = seen[0]
+    assert samples["type"] == "samples" and samples["time"][0] == 0 and samples["time"][-1] == pytest.approx(22)
+    assert len(samples["channels"]["follower_1.gap"]) == len(samples["time"]) > 200
+    assert any(each["type"] == "event" and "hard_brake" in each["text"] and each["time"] == 20 for each in seen)
+
+
+def test_a_live_run_has_the_bits_of_any_other(client):
+    changes = {"clock.duration": 3}
+    run = start(client, set=changes, pace=8)
+    with news(client, run) as socket:
+        until(socket, lambda m: m["type"] == "end")
+    again = start(client, set=changes, pace="fast")
+    with news(client, again) as socket:
+        until(socket, lambda m: m["type"] == "end")
+    hashes = {client.get(f"/api/runs/{each}").json()["state_hash"] for each in (run, again)}
+    assert len(hashes) == 1
+
+
+def test_an_application_that_raises_fails_its_run_only(client):
+    run = start(client, set={"applications.platoon.application": "broken"}, pace="fast")
+    with news(client, run) as socket:
+        end = until(socket, lambda m: m["type"] == "end")[-1]
+    assert end["status"] == "failed" and "the idea was not so good" in end["error"]
+    assert "broken.py" in client.get(f"/api/runs/{run}").json()["error"]
+    assert client.get("/api/info").status_code == 200
+
+
+def test_a_process_that_is_killed_ends_its_run_only(client, server):
+    run = start(client)
+    with news(client, run) as socket:
+        until(socket, lambda m: m["type"] == "state" and m["time"] > 0.5)
+        for child in psutil.Process(server[2].pid).children():
+            if any(each.path.endswith("runs.db") for each in child.open_files()):
+                os.kill(child.pid, signal.SIGKILL)
+        end = until(socket, lambda m: m["type"] == "end")[-1]
+    assert end["status"] == "failed" and "-9" in end["error"]
+    assert client.get(f"/api/runs/{run}").json()["status"] == "killed"
+    assert client.get("/api/info").status_code == 200
+
+
+def test_the_scene_shows_a_scenario_and_a_run(client):
+    cast = client.post("/api/scene", json={"scenario": SCENARIO}).json()
+    assert [each["name"] for each in cast["vehicles"][:2]] == ["leader", "follower_1"] and len(cast["vehicles"]) == 25
+    assert cast["attribution"] == "© OpenStreetMap contributors"
+    run = start(client, set={"clock.duration": 5})
+    assert len(client.post("/api/scene", json={"run": run}).json()["vehicles"]) == 25
+    client.post(f"/api/live/{run}/stop")
+
+
+def test_a_foreign_page_cannot_listen(client):
+    run = start(client, set={"clock.duration": 1}, pace="fast")
+    for path in (f"/api/live/{run}/socket", "/scene/"):
+        address = str(client.base_url).replace("http", "ws").rstrip("/") + path
+        with pytest.raises(InvalidStatus) as refusal, connect(address, origin="http://evil.example"):
+            pass
+        assert refusal.value.response.status_code == 403
+
+
+def test_an_unknown_live_run(client):
+    with news(client, 999) as socket:
+        assert "999" in json.loads(socket.recv(timeout=10))["message"]

@@ -1,0 +1,142 @@
+"""REST: the same functions as the command line, the same runs, refusals that say what is wrong."""
+
+import json
+import time
+
+import pytest
+
+from studio import job
+from studio.store.runs import open_runs
+
+SCENARIO = "grosser_stern_platoon"
+SHORT = {"clock.duration": 3}
+
+
+def finished(client, run, patience=60.0):
+    """The run when it is over."""
+    until = time.monotonic() + patience
+    while time.monotonic() < until:
+        row = client.get(f"/api/runs/{run}").json()
+        if row["status"] != "running":
+            return row
+        time.sleep(0.1)
+    raise AssertionError(f"run {run} did not end")
+
+
+@pytest.fixture(scope="module")
+def pair(client):
+    """A run of 3 s, and its child with another headway."""
+    first = client.post("/api/runs", json={"scenario": SCENARIO, "set": SHORT})
+    assert first.status_code == 202, first.text
+    a = finished(client, first.json()["run"])
+    changes = SHORT | {"applications.platoon.parameters.headway": 0.9}
+    second = client.post("/api/runs", json={"scenario": SCENARIO, "set": changes, "parent": a["run"]})
+    return a, finished(client, second.json()["run"])
+
+
+def test_scenarios(client):
+    rows = {each["id"]: each for each in client.get("/api/scenarios").json()}
+    assert rows[SCENARIO]["vehicles"] == 25 and rows[SCENARIO]["problem"] is None
+    assert rows[SCENARIO]["attribution"] == "© OpenStreetMap contributors"
+    assert "clok" in rows["bad"]["problem"]
+
+
+def test_a_scenario_with_its_form(client):
+    found = client.get(f"/api/scenarios/{SCENARIO}").json()
+    assert found["document"]["applications"]["platoon"]["parameters"]["k_p"] == 0.2
+    assert found["schema"]["$defs"]["Radio"]["properties"]["loss"]["maximum"] == 1
+
+
+def test_check(client):
+    good = client.post(f"/api/scenarios/{SCENARIO}/check", json={"set": {"radio.loss": 0.2}}).json()
+    assert good["ok"] and good["document"]["radio"]["loss"] == 0.2
+    bad = client.post(f"/api/scenarios/{SCENARIO}/check", json={"set": {"radio.loss": 2}}).json()
+    assert not bad["ok"] and "radio.loss" in bad["problems"][0]["where"] and "1" in bad["problems"][0]["allowed"]
+
+
+def test_applications(client):
+    found = {each["name"]: each for each in client.get("/api/applications").json()}
+    assert {"acc", "cacc", "broken"} <= set(found)
+    assert found["cacc"]["parameters"]["properties"]["headway"]["unit"] == "s"
+
+
+def test_the_command_lines_bits(pair, sample):
+    """REST's run ends with the same state and metrics as Python's."""
+    run = job.run(job.load(sample, SHORT))
+    assert pair[0]["state_hash"] == run.state_hash
+    assert pair[0]["metrics"]["min_gap"]["value"] == run.metrics["min_gap"].value
+
+
+def test_the_same_runs_in_the_database(pair, server):
+    row = open_runs(server[1]).find(pair[1]["run"])
+    assert row.parent == pair[0]["run"] and row.parameters == pair[1]["parameters"]
+
+
+def test_list_and_detail(client, pair):
+    listed = client.get("/api/runs", params={"scenario": SCENARIO}).json()
+    assert [each["run"] for each in listed[:2]] == [pair[1]["run"], pair[0]["run"]] or len(listed) > 2
+    detail = client.get(f"/api/runs/{pair[0]['run']}").json()
+    assert detail["document"]["clock"]["duration"] == 3
+    assert {"name": "follower_1.gap", "unit": "m", "label": "Gap to the car ahead"} in detail["channels"]
+
+
+def test_trace_is_decimated_on_request(client, pair):
+    path = f"/api/runs/{pair[0]['run']}/trace"
+    full = client.get(path, params={"channels": "follower_1.speed,leader.gap"}).json()
+    assert len(full["time"]) == 151 and full["channels"]["follower_1.speed"]["unit"] == "m/s"
+    assert len(full["channels"]["leader.gap"]["values"]) == 151
+    thin = client.get(path, params={"channels": "follower_1.speed", "points": 20}).json()
+    assert len(thin["time"]) <= 22
+
+
+def test_compare(client, pair):
+    found = client.get("/api/compare", params={"a": pair[0]["run"], "b": pair[1]["run"]}).json()
+    assert [each["path"] for each in found["parameters"]] == ["applications.platoon.parameters.headway"]
+    assert {each["better"] for each in found["metrics"]} <= {"a", "b", "same", None}
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body", "status", "words"),
+    [
+        ("get", "/api/runs/999", None, 404, ["no run 999"]),
+        ("get", "/api/runs/1/trace?channels=leader.sped", None, 404, ["did you mean 'leader.speed'"]),
+        ("get", "/api/scenarios/none", None, 404, ["scenario", "none"]),
+        ("get", "/api/scenarios/..%2f..%2fetc", None, 404, []),
+        ("get", "/api/compare?a=1&b=999", None, 404, ["999"]),
+        ("get", "/api/compare?a=1", None, 422, ["query.b"]),
+        ("get", "/api/nonsense", None, 404, ["/api/nonsense"]),
+        ("post", "/api/runs", {"scenario": SCENARIO, "set": {"radio.los": 1}}, 422, ["radio.los", "radio.loss"]),
+        ("post", "/api/runs", {"scenario": SCENARIO, "set": {"radio.loss": 2}}, 422, ["radio.loss"]),
+        ("post", "/api/runs", {"scenario": SCENARIO, "set": {"routes.east_to_west.roads": ["206170873#1", "340498991"]}}, 422, ["206170873#1"]),
+        ("post", "/api/runs", {"scenario": SCENARIO, "seed": -1}, 422, ["seed"]),
+        ("post", "/api/runs", {"scenario": SCENARIO, "parent": 999}, 404, ["999"]),
+        ("post", "/api/runs", {"scenario": "bad"}, 422, ["clok"]),
+        ("post", "/api/runs", {"scene": SCENARIO}, 422, ["body"]),
+        ("post", "/api/live", {"scenario": SCENARIO, "pace": 100}, 422, ["pace", "0.1"]),
+        ("post", "/api/live/999/pause", None, 404, ["999"]),
+        ("post", "/api/scene", {}, 422, ["a scenario or a run"]),
+    ],
+)
+def test_refusals(client, pair, method, path, body, status, words):
+    answer = client.request(method, path, json=body)
+    assert answer.status_code == status, answer.text
+    told = answer.json()
+    assert set(told) == {"message", "problems"}
+    for word in words:
+        assert word in json.dumps(told, ensure_ascii=False)
+
+
+def test_nothing_was_written_by_refusals(client, pair):
+    assert len(client.get("/api/runs").json()) == 2
+
+
+def test_a_foreign_origin_is_forbidden_everywhere(client):
+    for path in ("/", "/api/scenarios", "/scene/", "/openapi.json"):
+        assert client.get(path, headers={"Origin": "http://evil.example"}).status_code == 403
+    assert client.post("/api/runs", json={"scenario": SCENARIO}, headers={"Origin": "http://evil.example"}).status_code == 403
+    assert client.get("/api/scenarios", headers={"Host": "evil.example"}).status_code == 403
+
+
+def test_the_description_names_every_route(client):
+    paths = client.get("/openapi.json").json()["paths"]
+    assert {"/api/scenarios", "/api/runs", "/api/runs/{run}/trace", "/api/compare", "/api/live/{run}/pace"} <= set(paths)
