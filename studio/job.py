@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 
 from studio.application import setup
-from studio.assess.metric import Measured, measure_all, unmet
+from studio.assess.measure import measure_all, unmet
+from studio.assess.metric import Measured
 from studio.compiled import DIGEST
 from studio.errors import Problem, ScenarioError
 from studio.execution.loop import as_fast_as_possible
@@ -28,7 +29,7 @@ from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
 from studio.scenario.schema import Scenario
 from studio.store.runs import Row, Runs
-from studio.world.build import Setting, setting
+from studio.world.setting import Setting, setting
 
 LARGEST_SEED = 2**63 - 1
 

@@ -63,7 +63,7 @@ def test_list_show_compare(folder):
     assert json.loads(studio("show", 2, "--json", cwd=cwd)[1]) == child
     compared = json.loads(studio("compare", 1, 2, "--json", cwd=cwd)[1])
     assert [each["path"] for each in compared["parameters"]] == ["applications.platoon.parameters.headway"]
-    assert compared["parameters"][0] | {"unit": ""} == {"path": "applications.platoon.parameters.headway", "a": 0.6, "b": 0.9, "unit": ""}
+    assert compared["parameters"] == [{"path": "applications.platoon.parameters.headway", "a": 0.6, "b": 0.9, "unit": "s"}]
     assert {each["name"] for each in compared["metrics"]} == set(run["metrics"])
 
 

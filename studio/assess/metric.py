@@ -4,14 +4,12 @@ A metric is a function from a Record to a float, registered under a name. Not a 
 measure it on (no platoon, nobody ahead); it is stored as empty, and no goal is met by it.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 from studio.errors import StudioError
 from studio.execution.record import Record
-from studio.scenario.schema import Goal
 
 Direction = Literal["higher", "lower"] | None
 
@@ -51,35 +49,6 @@ def metric(name: str, *, unit: str, goal: Direction, title: str):
     return register
 
 
-def known() -> dict[str, Metric]:
-    """All metrics by name."""
-    from studio.assess import comfort, cooperation, safety, string_stability, traffic  # noqa: F401 - they register
-
+def registered() -> dict[str, Metric]:
+    """The metrics registered so far, by name."""
     return dict(_registered)
-
-
-def measure_all(record: Record) -> dict[str, Measured]:
-    """Every metric of a record."""
-    return {name: measured(each, record) for name, each in known().items()}
-
-
-def measured(each: Metric, record: Record) -> Measured:
-    """One metric of a record."""
-    value = float(each.measure(record)) if record.time.size else math.nan
-    return Measured(value if math.isfinite(value) else None, each.unit, each.goal)
-
-
-def unmet(goals: dict[str, Goal], metrics: dict[str, Measured]) -> list[str]:
-    """Sentences about the goals that are not met."""
-    return [text for name, goal in goals.items() if (text := failing(name, goal, metrics.get(name)))]
-
-
-def failing(name: str, goal: Goal, found: Measured | None) -> str:
-    """Why a goal is not met, or nothing."""
-    if found is None or found.value is None:
-        return f"{name} could not be measured"
-    if goal.least is not None and found.value < goal.least:
-        return f"{name} is {found.value:.4g} {found.unit}, at least {goal.least:g} is wanted"
-    if goal.most is not None and found.value > goal.most:
-        return f"{name} is {found.value:.4g} {found.unit}, at most {goal.most:g} is wanted"
-    return ""

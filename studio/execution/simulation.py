@@ -7,7 +7,8 @@ import numpy as np
 
 from studio.errors import ApplicationError
 from studio.execution.record import Chain, Happening, Record, Recorder
-from studio.world.build import Setting, build
+from studio.world.build import build
+from studio.world.setting import Setting
 from studio.world.state import ACTIVE, HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, SENT, VEHICLE
 from studio.world.tick import environment, look, tick
 from studio.world.world import World, first_not_finite

@@ -1,1 +1,1 @@
-""
+"""Scenarios: what a user may write, the catalogue of vehicles and tyres, changes by path."""

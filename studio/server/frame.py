@@ -5,7 +5,8 @@ import numpy as np
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.vehicle import Dimensions
-from studio.world.build import Setting, vehicles_of
+from studio.world.build import vehicles_of
+from studio.world.setting import Setting
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Vehicles
 
@@ -59,3 +60,9 @@ def dimensions(p: np.ndarray) -> Dimensions:
         wheel_radius=float(p[RADIUS]),
         front_axle=float(p[L_F]),
     )
+
+
+def first_lights(setting: Setting) -> np.ndarray:
+    """int8[link]: what every signal shows at the start."""
+    signals, start = setting.network.signals, setting.scenario.map.signal_start
+    return np.array([signals.state(link, start) for link in range(len(signals))], dtype=np.int8)

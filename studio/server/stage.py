@@ -8,9 +8,9 @@ import numpy as np
 
 from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
-from studio.server.frame import looks, standing
+from studio.server.frame import first_lights, looks, standing
 from studio.server.live import LiveRun
-from studio.world.build import Setting
+from studio.world.setting import Setting
 
 
 @dataclass
@@ -29,10 +29,9 @@ class Stage:
         with self.lock:
             self.set_up(prepared)
             self.showing = live
-            poses, lights = live.frame if live and live.frame else (standing(prepared), None)
+            poses, lights = live.frame if live and live.frame else (standing(prepared), first_lights(prepared))
             self.scene.update(poses)
-            if lights is not None:
-                self.scene.show_signals(lights)
+            self.scene.show_signals(lights)
         return described(prepared)
 
     def set_up(self, prepared: Setting) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import asdict
 from typing import Any
 
+from studio.application import registry
 from studio.assess import compare as assess
 from studio.scenario.schema import Scenario, unit_at
 from studio.store.runs import Runs
@@ -11,10 +12,21 @@ from studio.store.runs import Runs
 def compare(runs: Runs, a: int, b: int) -> dict[str, Any]:
     """Both rows, the parameters that differ with their units, every metric; raises UnknownError."""
     left, right = runs.find(a), runs.find(b)
-    differing = assess.parameters(runs.document(left), runs.document(right))
+    documents = [runs.document(left), runs.document(right)]
+    differing = assess.parameters(*documents)
     return {
         "a": left.as_json(),
         "b": right.as_json(),
-        "parameters": [asdict(each) | {"unit": unit_at(Scenario, each.path)} for each in differing],
+        "parameters": [asdict(each) | {"unit": unit(each.path, documents)} for each in differing],
         "metrics": [asdict(each) for each in assess.metrics(left.metrics, right.metrics)],
     }
+
+
+def unit(path: str, documents: list[dict[str, Any]]) -> str:
+    """Unit of a parameter; those of applications are told by the applications that the runs used."""
+    parts = path.split(".")
+    if parts[0] == "applications" and len(parts) == 4 and parts[2] == "parameters":
+        used = [document["applications"].get(parts[1], {}).get("application") for document in documents]
+        models = [registry.known()[name].module.Parameters for name in used if name in registry.known()]
+        return next((found for model in models if (found := unit_at(model, parts[3]))), "")
+    return unit_at(Scenario, path)

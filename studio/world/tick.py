@@ -39,7 +39,9 @@ def look(world: World) -> None:
         v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
         r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
-    traffic.meetings(v.state, v.parameter, r.zone_pair, r.zone_span, v.drivers, v.mind)
+    traffic.meetings(
+        v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, v.drivers, v.mind
+    )
 
 
 def sense(world: World) -> None:

@@ -111,9 +111,17 @@ def behind(v, other, gap, state, drivers, mind):
 
 
 @compiled
-def is_ahead(v, other, gap, state, drivers, mind):
-    """The other car is in the zone, in front: it is followed, and it is what a gap is measured to."""
-    mind[FOLLOWING, v] = min(mind[FOLLOWING, v], behind(v, other, gap, state, drivers, mind))
+def is_in_the_way(v, other, s_guess, state, parameter, points, first, count):
+    """Whether the rear of the other car overlaps the strip that v's body will sweep along its path."""
+    psi, back = state[PSI, other], parameter[LENGTH, other] - parameter[FRONT, other]
+    x, y = state[X, other] - back * cos(psi), state[Y, other] - back * sin(psi)
+    _, e = project(points, first, count, x, y, s_guess)
+    return abs(e) < 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other])
+
+
+@compiled
+def is_ahead(v, other, gap, state, mind):
+    """The other car is what the gap is measured to, if it is the nearest."""
     if not gap >= mind[GAP, v]:  # also true while the gap is not a number
         mind[GAP, v] = gap
         mind[AHEAD, v] = other
@@ -129,8 +137,8 @@ def goes_first(v, other, d_v, d_other, zone_start, state, mind):
 
 
 @compiled
-def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter, drivers, mind):
-    """What one zone means for v."""
+def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
+    """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     bumper_other = mind[STATION, other] + parameter[FRONT, other]
     rear_other = bumper_other - parameter[LENGTH, other]
@@ -140,7 +148,10 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter,
     in_front = mind[STATION, other] - other_enter > mind[STATION, v] - v_enter
     if bumper_other >= other_enter:
         if in_front:
-            is_ahead(v, other, gap, state, drivers, mind)
+            mind[FOLLOWING, v] = min(mind[FOLLOWING, v], behind(v, other, gap, state, drivers, mind))
+            rear = bumper + gap
+            if gap > 0.0 and is_in_the_way(v, other, rear, state, parameter, points, first, count):
+                is_ahead(v, other, gap, state, mind)
     elif bumper < v_enter:
         if goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
             wish = max(behind(v, other, gap, state, drivers, mind), -COURTESY)
@@ -148,14 +159,14 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter,
 
 
 @compiled
-def meetings(state, parameter, zone_pair, zone_span, drivers, mind):
+def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, drivers, mind):
     """Third pass: every zone, for the first car of its pair."""
     for z in range(zone_pair.shape[1]):
         v, other = zone_pair[0, z], zone_pair[1, z]
         if state[ACTIVE, v] > 0.0 and state[ACTIVE, other] > 0.0:
             meet(
                 v, other, zone_span[0, z], zone_span[1, z], zone_span[2, z], zone_span[3, z],
-                state, parameter, drivers, mind,
+                state, parameter, points, path_first[v], path_count[v], drivers, mind,
             )  # fmt: skip
 
 

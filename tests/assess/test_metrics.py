@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from studio.assess import compare
-from studio.assess.metric import Measured, known, measure_all, unmet
+from studio.assess.measure import measure_all, unmet
+from studio.assess.metric import Measured, registered
 from studio.assess.safety import time_to_collision
 from studio.execution.record import Chain, Happening, Record
 from studio.scenario.schema import Goal
@@ -74,7 +75,7 @@ def test_collisions_are_counted():
 
 
 def test_every_metric_has_unit_direction_and_title():
-    for name, each in known().items():
+    for name, each in registered().items():
         assert each.unit and each.title and each.goal in ("higher", "lower", None), name
 
 

@@ -136,7 +136,7 @@ def drive_alone(sample, roads):
         "vehicles": {"car": {"route": "way", "position": {"along": 5}, "speed": 8}},
     }
     from studio.application.setup import complete
-    from studio.world.build import setting
+    from studio.world.setting import setting
 
     world = build([setting(complete(document, "alone"), sample.parent, "alone")])
     worst = 0.0

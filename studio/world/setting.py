@@ -1,0 +1,243 @@
+"""A scenario with everything resolved that names something: its map, and the path and start of every car.
+
+    setting(scenario)   →  Setting
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path as FilePath
+
+import numpy as np
+
+from studio import road
+from studio.errors import MapError, Problem, RouteError, ScenarioError, nearest
+from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
+from studio.road import path as road_path
+from studio.road.network import Network
+from studio.road.path import PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
+from studio.road.route import all_routes, connect
+from studio.scenario import catalogue
+from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
+from studio.world.state import RING
+
+TRIES = 200  # to place one traffic car
+END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
+STYLE_SPREAD = 0.1  # traffic drivers want 90 % to 110 % of the usual speed
+PAINTS = ("#9aa3ad", "#d9d9d4", "#3b4048", "#6f7f8f", "#b8b2a6", "#54606e")  # of traffic, in turn
+
+
+@dataclass(frozen=True)
+class Car:
+    """A car before it is a column: its model, path, start and driver."""
+
+    name: str
+    model: str
+    path: road_path.Path
+    station: float  # [m] of the centre of gravity
+    speed: float  # [m/s]
+    driver: Driver
+    sensor: FrontSensor
+    colour: str
+    returns: bool = False
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A scenario with everything resolved that names something: its map and its cars."""
+
+    scenario: Scenario
+    network: Network
+    cars: tuple[Car, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The vehicles, in the order of their columns."""
+        return tuple(car.name for car in self.cars)
+
+
+def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
+    """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
+    network = place(scenario, folder, where)
+    check_names(scenario, where)
+    paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
+    cars = [named_car(name, scenario, path, where) for name, path in paths.items()]
+    return Setting(scenario, network, tuple(cars + traffic(scenario, network, cars)))
+
+
+def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
+    """The map of a scenario."""
+    file = folder / scenario.map.file
+    if not file.is_file():
+        others = [path.name for path in file.parent.glob("*.osm*")] if file.parent.is_dir() else []
+        raise MapError(
+            f"The map of {where} is missing.",
+            [Problem(f"{where}: map.file", "does not exist", scenario.map.file, remedy=nearest(file.name, others))],
+        )
+    return road.load(file, radius=scenario.map.radius)
+
+
+def check_names(scenario: Scenario, where: str) -> None:
+    """Every vehicle, route, model and sender that is named must exist; all problems at once."""
+    vehicles, found = set(scenario.vehicles), []
+
+    def check(path: str, name: str, known, kind: str) -> None:
+        if name not in known:
+            found.append(Problem(f"{where}: {path}", f"names no {kind}", repr(name), remedy=nearest(name, known)))
+
+    for name, vehicle in scenario.vehicles.items():
+        check(f"vehicles.{name}.route", vehicle.route, set(scenario.routes), "route of this scenario")
+        check(f"vehicles.{name}.model", vehicle.model, set(catalogue.vehicle_names()), "vehicle of the catalogue")
+    check("traffic.model", scenario.traffic.model, set(catalogue.vehicle_names()), "vehicle of the catalogue")
+    for group, application in scenario.applications.items():
+        for field in ("vehicles", "listens_to"):
+            for i, name in enumerate(getattr(application, field)):
+                check(f"applications.{group}.{field}.{i}", name, vehicles, "vehicle of this scenario")
+    for name, trigger in scenario.triggers.items():
+        check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
+    found += doubled(scenario, where) + untimely(scenario, where)
+    if found:
+        raise ScenarioError(f"{where} is not a valid scenario.", found)
+
+
+def doubled(scenario: Scenario, where: str) -> list[Problem]:
+    """A vehicle's pedals belong to one application."""
+    owner, found = {}, []
+    for group, application in scenario.applications.items():
+        for name in application.vehicles:
+            if name in owner:
+                what = f"runs {owner[name]!r} already; a vehicle has one application"
+                found.append(Problem(f"{where}: applications.{group}.vehicles", what, repr(name)))
+            owner[name] = group
+    return found
+
+
+def untimely(scenario: Scenario, where: str) -> list[Problem]:
+    """Periods must be whole ticks; delays must fit into what is kept of the past."""
+    tick, found = scenario.clock.tick, []
+    for path, period in (("radio.period", scenario.radio.period), ("recording.period", scenario.recording.period)):
+        ratio = period / tick
+        if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
+            found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
+    longest = scenario.radio.delay + scenario.radio.delay_variation
+    kept = (RING - 1) * scenario.radio.period
+    if longest > kept:
+        found.append(Problem(f"{where}: radio.delay", "is longer than messages are kept", f"{longest} s", f"≤ {kept:g} s"))
+    for model in {vehicle.model for vehicle in scenario.vehicles.values()} & set(catalogue.vehicle_names()):
+        for name in ("drive_delay", "brake_delay"):
+            delay = catalogue.find_vehicle(model).parameters[name].value
+            if delay > (RING - 1) * tick:
+                found.append(Problem(f"{model}: {name}", "is longer than commands are kept", f"{delay} s", f"≤ {(RING - 1) * tick:g} s"))
+    return found
+
+
+def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road_path.Path:
+    """The line that a named vehicle drives, with the speeds of its route."""
+    vehicle = scenario.vehicles[name]
+    route = scenario.routes[vehicle.route]
+    roads, lane = route.roads, None
+    if vehicle.position.road is not None:
+        roads, lane = from_road(name, vehicle.position, route.roads, where), vehicle.position.lane
+    try:
+        path = road_path.path(network, connect(network, roads, start_lane=lane))
+    except RouteError as error:
+        field = f"vehicles.{name}.position" if lane is not None else f"routes.{vehicle.route}.roads"
+        raise RouteError(
+            f"{where} cannot be driven.",
+            [Problem(f"{where}: {field}", error.message, remedy="; ".join(map(str, error.problems)))],
+        ) from None
+    return annotated(path, route.speeds)
+
+
+def from_road(name: str, position: Place, roads: list[str], where: str) -> list[str]:
+    """The route from the road on which a vehicle starts."""
+    if position.road not in roads:
+        field = f"{where}: vehicles.{name}.position.road"
+        raise ScenarioError(
+            f"{where} is not a valid scenario.",
+            [Problem(field, "is not a road of this route", repr(position.road), remedy=nearest(position.road, roads))],
+        )
+    return roads[roads.index(position.road) :]
+
+
+def annotated(path: road_path.Path, speeds) -> road_path.Path:
+    """The path with its annotated speeds; bends and limits still hold."""
+    if not speeds:
+        return path
+    points = path.points.copy()
+    stations = np.arange(points.shape[1]) * PATH_SPACING
+    wanted = np.full(points.shape[1], np.inf)
+    for annotation in sorted(speeds, key=lambda each: each.at):
+        wanted[stations >= annotation.at] = annotation.speed
+    points[PATH_SPEED] = np.minimum(points[PATH_SPEED], wanted)
+    return replace(path, points=points)
+
+
+def named_car(name: str, scenario: Scenario, path: road_path.Path, where: str) -> Car:
+    """A car of the scenario file; its start must lie on its path."""
+    vehicle = scenario.vehicles[name]
+    position = vehicle.position
+    station = position.along if position.along is not None else position.offset
+    last = path.length - 2 * END_CLEARANCE / 3
+    if station > last:
+        field = f"{where}: vehicles.{name}.position"
+        raise ScenarioError(
+            f"{where} is not a valid scenario.",
+            [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
+        )
+    return Car(name, vehicle.model, path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour)
+
+
+# --- traffic -----------------------------------------------------------------------------------------------------------
+
+
+def traffic(scenario: Scenario, network: Network, named: list[Car]) -> list[Car]:
+    """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
+    wanted = scenario.traffic
+    taken = [position(car.path, car.station) for car in named]
+    cars: list[Car] = []
+    ways = through_ways(network) if wanted.count else []
+    for i in range(wanted.count):
+        found = free_place(i, scenario, ways, taken)
+        if found is None:
+            raise ScenarioError(
+                "The traffic does not fit on the map.",
+                [Problem("traffic.count", "is too many", str(wanted.count), f"about {i} with this spacing")],
+            )
+        path, station = found
+        taken.append(position(path, station))
+        style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed, i, TRAFFIC_STYLE, 0) - 1.0)
+        driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
+        speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
+        name = f"traffic_{i + 1:02d}"
+        cars.append(Car(name, wanted.model, path, station, speed, driver, FrontSensor(range=0.0), PAINTS[i % len(PAINTS)], returns=True))
+    return cars
+
+
+_ways: dict[str, list[road_path.Path]] = {}
+
+
+def through_ways(network: Network) -> list[road_path.Path]:
+    """The paths from every arm to every other, made once per map."""
+    if network.digest not in _ways:
+        _ways[network.digest] = [road_path.path(network, way) for way in all_routes(network)]
+    return _ways[network.digest]
+
+
+def position(path: road_path.Path, station: float) -> tuple[float, float]:
+    """Where a station of a path lies [m]."""
+    i = int(station / PATH_SPACING)
+    return float(path.points[PATH_X, i]), float(path.points[PATH_Y, i])
+
+
+def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path, float] | None:
+    """A way and a station for traffic car i that keeps the spacing to all that is placed."""
+    usable = [way for way in ways if way.length > 2 * END_CLEARANCE]
+    if not usable:
+        return None
+    for attempt in range(TRIES):
+        way = usable[int(uniform(scenario.seed, i, TRAFFIC_ROUTE, attempt) * len(usable))]
+        station = uniform(scenario.seed, i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
+        x, y = position(way, station)
+        near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
+        if not near_light and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+            return way, station
+    return None
