@@ -1,7 +1,7 @@
 """The driver: steers along a path, keeps a speed, follows what is ahead, stops at red.
 
-Following: Intelligent Driver Model, M. Treiber, A. Hennecke, D. Helbing, Phys. Rev. E 62 (2000) 1805; for speeds above
-the desired one, the improved form of Treiber & Kesting, Traffic Flow Dynamics, 2013, Eq. 11.22.
+Following: Intelligent Driver Model, M. Treiber, A. Hennecke, D. Helbing, Phys. Rev. E 62 (2000) 1805. Above the desired
+speed its fourth power brakes too late for a bend or too hard for a trifle; there the excess dies away with a time constant.
 Steering: the controller of G. Hoffmann, C. Tomlin, M. Montemerlo, S. Thrun, ACC 2007, Eqs. 5 and 9, at the front axle.
 """
 
@@ -11,6 +11,7 @@ from studio.compiled import compiled
 
 STOP_FIRM = 4.0  # [m/s²] a driver who would have to brake harder than this for an amber drives on
 STOP_CLOSE = 2.0  # [m] where a driver stops before the line
+SETTLING = 0.7  # [s] in which a speed above the desired one dies away
 NO_LIMIT = 1e3  # [m/s²] stands for "nothing asks me to brake"
 
 
@@ -19,7 +20,7 @@ def free_acceleration(v, v_desired, a, b):
     """Acceleration [m/s²] on an empty road; a comfortable acceleration, b comfortable deceleration [m/s²]."""
     if v <= v_desired:
         return a * (1.0 - (v / max(v_desired, 0.1)) ** 4)
-    return -b * (1.0 - (v_desired / v) ** (4.0 * a / b))
+    return max((v_desired - v) / SETTLING, -b)
 
 
 @compiled

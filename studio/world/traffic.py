@@ -23,7 +23,7 @@ from studio.road.signals import GREEN, signal_state
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
-SPEED_PREVIEW = 0.5  # [s] and sets the speed for a little later
+SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
 HORIZON = 60.0  # [m] how far before a merge drivers mind each other
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
@@ -82,12 +82,21 @@ def orient(state, parameter, points, path_first, path_count, stop_first, stop_co
         locate(v, state, parameter, points, path_first[v], path_count[v], mind)
         if mind[STATION, v] > (path_count[v] - 1) * PATH_SPACING - ARRIVAL:
             state[ACTIVE, v] = 0.0
-        s = clip(mind[STATION, v] + SPEED_PREVIEW * state[V_X, v], path_count[v])
-        mind[V_DESIRED, v] = drivers[SPEED_FACTOR, v] * interpolate(points, path_first[v], PATH_SPEED, s)
+        mind[V_DESIRED, v] = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
         mind[RED_STATION, v] = next_red(
             v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown
         )
         forget(v, mind)
+
+
+@compiled
+def permitted_speed(v, state, points, first, count, mind):
+    """Speed [m/s] that is allowed here and a little ahead."""
+    here = mind[STATION, v]
+    ahead = here + SPEED_PREVIEW * state[V_X, v]
+    return min(
+        interpolate(points, first, PATH_SPEED, clip(here, count)), interpolate(points, first, PATH_SPEED, clip(ahead, count))
+    )
 
 
 @compiled
