@@ -21,14 +21,18 @@ interface Props {
   attribution: string;
   /** False while another page covers the scene: the frame stays, its controls go. */
   active: boolean;
+  /** Whether a run is going on: then the first car is followed, unless somebody has chosen a view. */
+  running: boolean;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
   const [view, setView] = useState<View>("overview");
+  const chosen = useRef(false);
   const follow = useCallback((vehicle: number | null) => {
+    chosen.current = true;
     setFollowed(vehicle);
     setView((before) => (vehicle === null ? "overview" : before === "overview" ? "chase" : before));
   }, []);
@@ -41,7 +45,14 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     send({ studio: "follow", vehicle: followed });
     send({ studio: "view", preset: view });
   }, [followed, view, ready, send]);
+  const first = vehicles[0]?.index;
+  useEffect(() => {
+    if (!running || chosen.current || first === undefined) return;
+    setFollowed(first);
+    setView("chase");
+  }, [running, first]);
   const choose = (preset: View) => {
+    chosen.current = true;
     setView(preset);
     if (preset === "overview") setFollowed(null);
     if (preset === "chase" || preset === "driver") setFollowed(followed ?? vehicles[0]?.index ?? null);

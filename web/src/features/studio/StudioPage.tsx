@@ -6,6 +6,7 @@ import { useNavigate } from "@tanstack/react-router";
 import { memo } from "react";
 import * as queries from "../../api/queries";
 import { exchanged, withChange } from "../../model/form";
+import { isLive } from "../../model/run";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { useControl, useTakeOver } from "./control";
@@ -57,7 +58,12 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
           seed={seed}
         />
       ) : null}
-      <SceneView vehicles={scene.vehicles} attribution={scene.attribution} active={active} />
+      <SceneView
+        vehicles={scene.vehicles}
+        attribution={scene.attribution}
+        active={active}
+        running={shown.live !== undefined && isLive(shown.live.status)}
+      />
       {active ? (
         <div className={classes.bottom}>
           <LiveCharts samples={shown.samples} version={shown.version} duration={duration} />
