@@ -12,23 +12,21 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 
 from studio.errors import Problem, ServerError, StoreError, StudioError, UnknownError
-from studio.server import page, relay, routes
+from studio.server import relay, routes
 from studio.server.desk import Desk
-from studio.server.origin import SameOrigin
 
 TITLE = "Cooperative ADAS Studio"
 
 
-def create_app(desk: Desk, *, host: str = "127.0.0.1") -> FastAPI:
-    """The server of one desk."""
-    app = FastAPI(title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan)
+def create_app(desk: Desk) -> FastAPI:
+    """REST and scene of one desk."""
+    app = FastAPI(title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan, docs_url=None, redoc_url=None)
     app.state.desk = desk
     app.add_exception_handler(StudioError, refused)
     app.add_exception_handler(RequestValidationError, misread)
     app.include_router(routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.port))
-    app.include_router(page.router)
-    app.add_middleware(SameOrigin, host=host)
+    app.add_route("/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE"], include_in_schema=False)
     return app
 
 
@@ -61,6 +59,13 @@ def status_of(error: StudioError) -> int:
 async def refused(request: Request, error: StudioError) -> JSONResponse:
     """Our errors as JSON."""
     return JSONResponse(error.as_json(), status_code=status_of(error))
+
+
+async def no_such_route(request: Request) -> JSONResponse:
+    """An address under /api that does not exist."""
+    path = request.url.path
+    problem = Problem(path, "does not exist", allowed="see /openapi.json")
+    return JSONResponse(UnknownError(f"There is no {path}.", [problem]).as_json(), status_code=404)
 
 
 async def misread(request: Request, error: RequestValidationError) -> JSONResponse:

@@ -2,28 +2,21 @@
 
 from pathlib import Path
 
-from fastapi import APIRouter
-from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from fastapi import FastAPI
+from fastapi.responses import FileResponse, HTMLResponse, Response
 
 BUNDLE = Path(__file__).parent.parent / "_web"
 FOREVER = {"Cache-Control": "public, max-age=31536000, immutable"}  # names of assets hold a digest of their content
 ALWAYS_ASK = {"Cache-Control": "no-cache"}
 MISSING = """<!doctype html><title>Cooperative ADAS Studio</title>
 <p>The page has not been built. Install the package again without STUDIO_SKIP_WEB; REST works:
-<a href="/docs">/docs</a>.</p>"""
+<a href="/openapi.json">/openapi.json</a>.</p>"""
 
-router = APIRouter(include_in_schema=False)
-
-
-@router.api_route("/api/{path:path}", methods=["GET", "POST", "PUT", "PATCH", "DELETE"])
-def no_such_route(path: str) -> JSONResponse:
-    """An address under /api that does not exist must not answer with the page."""
-    problem = {"where": f"/api/{path}", "what": "does not exist", "value": "", "allowed": "see /docs", "remedy": ""}
-    return JSONResponse({"message": f"There is no /api/{path}.", "problems": [problem]}, status_code=404)
+app = FastAPI(openapi_url=None)
 
 
-@router.get("/{path:path}")
-def page(path: str) -> Response:
+@app.get("/{path:path}")
+def answer(path: str) -> Response:
     """A file of the bundle, or the page itself: it finds its place by its address."""
     wanted = (BUNDLE / path).resolve()
     if path and wanted.is_file() and wanted.is_relative_to(BUNDLE):

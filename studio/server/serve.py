@@ -10,7 +10,10 @@ from pathlib import Path
 import uvicorn
 
 from studio.errors import Problem, ServerError
-from studio.store.runs import open_runs
+from studio.server import page
+from studio.server.door import Door
+from studio.server.origin import SameOrigin
+from studio.store.tables import open_database
 
 SAMPLES = Path(__file__).parent.parent.parent / "scenarios"
 FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent in one piece
@@ -20,7 +23,7 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, application
     """Serves until it is interrupted. Raises StoreError, ServerError or ApplicationError before it starts."""
     listening = listen(host, port)
     try:
-        open_runs(db).close()
+        open_database(db).conn.close()
         folder = scenario_folder(scenarios)
         app = application(db, folder, applications, host)
     except BaseException:
@@ -37,14 +40,20 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, application
 
 
 def application(db: Path, folder: Path, applications: Path | None, host: str):
-    """The ASGI application."""
-    from studio.application.registry import load_folder
+    """The ASGI application. Applications of the user's own are loaded before: what is wrong with them is told at once."""
+    if applications:
+        from studio.application.registry import load_folder
+
+        load_folder(applications)
+    return SameOrigin(Door(page.app, lambda: inner(db, folder, applications)), host=host)
+
+
+def inner(db: Path, folder: Path, applications: Path | None):
+    """REST and scene; imported here, behind the door."""
     from studio.server.app import create_app
     from studio.server.desk import Desk
 
-    if applications:
-        load_folder(applications)
-    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), applications=applications), host=host)
+    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), applications=applications))
 
 
 def listen(host: str, port: int) -> socket.socket:

@@ -17,7 +17,7 @@ import psutil
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
-from studio.errors import StoreError, UnknownError
+from studio.errors import UnknownError
 from studio.execution.record import Happening, Record
 from studio.store import trace
 from studio.store.tables import open_database, reopen_database, unusable
@@ -201,8 +201,6 @@ class Writing:
 def open_runs(path: str | os.PathLike) -> Runs:
     """The runs of a database file, made when there is none. Raises StoreError when it cannot be used."""
     path = Path(path)
-    if path.is_dir():
-        raise StoreError(f"{path} is a folder, not a run database; name a file with --db")
     return Runs(path, open_database(path))
 
 

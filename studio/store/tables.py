@@ -50,6 +50,8 @@ TABLES = {
 
 def open_database(path: Path) -> Database:
     """The database in a file, made when there is none. Raises StoreError when it cannot be used."""
+    if path.is_dir():
+        raise StoreError(f"{path} is a folder, not a run database; name a file with --db")
     try:
         connection = sqlite3.connect(path, timeout=30.0, check_same_thread=False)
         return prepared(Database(connection), path)

@@ -1,0 +1,47 @@
+"""The door: lets the page out at once, while what computes is still being imported.
+
+Numerics, map tools and the scene take two seconds to import. The page needs none of them; its first requests wait here.
+"""
+
+import asyncio
+from collections.abc import Callable
+from contextlib import AsyncExitStack
+
+from fastapi import FastAPI
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+INNER = ("/api", "/scene", "/openapi.json")
+
+
+class Door:
+    """ASGI: `page` answers by itself; addresses under INNER wait for the application that `make` makes."""
+
+    def __init__(self, page: ASGIApp, make: Callable[[], FastAPI]) -> None:
+        self.page, self.make = page, make
+        self.inside: asyncio.Task[FastAPI] | None = None
+        self.stack = AsyncExitStack()
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            await self.live(receive, send)
+        elif scope["path"].startswith(INNER):
+            app = await asyncio.shield(self.inside)
+            await app(scope, receive, send)
+        else:
+            await self.page(scope, receive, send)
+
+    async def live(self, receive: Receive, send: Send) -> None:
+        """Opens when the server starts, closes when it ends."""
+        await receive()
+        self.inside = asyncio.create_task(self.open())
+        await send({"type": "lifespan.startup.complete"})
+        await receive()
+        await asyncio.wait([self.inside])
+        await self.stack.aclose()
+        await send({"type": "lifespan.shutdown.complete"})
+
+    async def open(self) -> FastAPI:
+        """Makes the application and starts its life."""
+        app = await asyncio.to_thread(self.make)
+        await self.stack.enter_async_context(app.router.lifespan_context(app))
+        return app
