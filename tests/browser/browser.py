@@ -1,0 +1,41 @@
+"""A real browser for the tests, drawing without a graphics card and calling nobody."""
+
+import io
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import Browser, sync_playwright
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+]
+
+
+@contextmanager
+def browser() -> Iterator[Browser]:
+    """The browser; skips the test, saying how to get one, when there is none."""
+    found = next((path for name in NAMES if (path := shutil.which(name))), None)
+    if found is None:
+        pytest.skip("no browser: install one with `apt install chromium`, or put google-chrome on the PATH")
+    with sync_playwright() as playwright:
+        yield playwright.chromium.launch(
+            executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS
+        )
+
+
+def pixels(screenshot: bytes) -> np.ndarray:
+    """A screenshot as float64[row, column, colour]."""
+    return np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB"), dtype=float)
