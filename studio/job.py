@@ -64,6 +64,7 @@ class Run:
     record: Record
     metrics: dict[str, Measured]
     unmet: list[str]
+    channels: tuple[str, ...]
     status: str
     error: str | None
     state_hash: str
@@ -141,6 +142,7 @@ def outcome(loaded: Loaded, finished: Simulation) -> Run:
         record=record,
         metrics=metrics,
         unmet=unmet(loaded.scenario.goals, metrics),
+        channels=tuple(loaded.scenario.recording.channels),
         status=finished.status,
         error=finished.error,
         state_hash=finished.world.digest(),
@@ -161,6 +163,7 @@ def save(run: int, result: Run, runs: Runs) -> Row:
         wall_time_s=result.wall_time_s,
         metrics=result.metrics,
         unmet=result.unmet,
+        channels=result.channels,
     )
     return runs.find(run)
 

@@ -166,6 +166,7 @@ class Recording(Part):
 
     period: float = number(DEFAULT_TICK, unit="s", title="Sampling period", ge=0.01, le=10)
     traffic: bool = Field(False, title="Record the traffic too", description="else only the named vehicles")
+    channels: list[str] = Field([], title="Channels", description="quantities whose traces are kept; none named: all")
 
 
 class Goal(Part):

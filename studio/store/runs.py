@@ -7,6 +7,7 @@ says "running", the run was killed; the row says so as soon as somebody looks.
 import json
 import os
 import sqlite3
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -84,7 +85,7 @@ class Runs:
             return int(self.database["runs"].insert(row, pk="run").last_pk)
 
     def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: Record, sim_time_s: float,
-               wall_time_s: float, metrics: dict[str, Measured], unmet: list[str]) -> None:  # fmt: skip
+               wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing."""
         ending = {
             "status": status,
@@ -94,7 +95,7 @@ class Runs:
             "wall_time_s": wall_time_s,
             "unmet": json.dumps(unmet, ensure_ascii=False),
         }
-        parquet = trace.write(record)
+        parquet = trace.write(record, channels)
         with self.writing():
             self.database["runs"].update(run, ending)
             self.database["metrics"].insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)

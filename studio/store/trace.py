@@ -1,6 +1,7 @@
 """Traces as one Parquet file per run: a column per channel with its unit, readable by pandas, polars and MATLAB."""
 
 import io
+from collections.abc import Sequence
 
 import numpy as np
 import pyarrow as pa
@@ -13,11 +14,12 @@ from studio.world.channel import BY_NAME
 UNIT, LABEL = b"unit", b"label"
 
 
-def write(record: Record) -> bytes:
-    """The record's channels; floats keep all their bits."""
-    columns = {"time": record.time} | {name: record.trace(name) for name in record.names()}
+def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
+    """The record's channels, or those of some quantities only; floats keep all their bits."""
+    names = [name for name in record.names() if not quantities or name.partition(".")[2] in quantities]
+    columns = {"time": record.time} | {name: record.trace(name) for name in names}
     fields = [field("time", "s", "Time")]
-    for name in record.names():
+    for name in names:
         channel = BY_NAME[name.partition(".")[2]]
         fields.append(field(name, channel.unit, channel.label))
     table = pa.table(list(columns.values()), schema=pa.schema(fields))

@@ -17,6 +17,7 @@ from studio.road.path import PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
 from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
+from studio.world.channel import BY_NAME
 from studio.world.state import RING
 
 TRIES = 200  # to place one traffic car
@@ -93,6 +94,8 @@ def check_names(scenario: Scenario, where: str) -> None:
                 check(f"applications.{group}.{field}.{i}", name, vehicles, "vehicle of this scenario")
     for name, trigger in scenario.triggers.items():
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
+    for i, name in enumerate(scenario.recording.channels):
+        check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
     found += doubled(scenario, where) + untimely(scenario, where)
     if found:
         raise ScenarioError(f"{where} is not a valid scenario.", found)

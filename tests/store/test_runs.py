@@ -160,3 +160,12 @@ def test_a_killed_run_says_so(sample, tmp_path):
     assert row.status == "killed" and "process" in row.error
     assert row.metrics == {} and runs.channels(1) == []
     assert job.run(job.load(sample, {"clock.duration": 1}), runs=runs).row.run == 2
+
+
+def test_only_the_wanted_channels_are_kept(sample, tmp_path):
+    runs = open_runs(tmp_path / "runs.db")
+    job.run(job.load(sample, {"clock.duration": 1, "recording.channels": ["speed"]}), runs=runs)
+    assert {each["name"].partition(".")[2] for each in runs.channels(1)} == {"speed"}
+    assert runs.find(1).metrics["min_gap"].value > 0  # metrics see everything
+    with pytest.raises(Exception, match="recording.channels.0.*did you mean 'speed'"):
+        job.run(job.load(sample, {"recording.channels": ["sped"]}), runs=runs)
