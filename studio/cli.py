@@ -77,7 +77,7 @@ def run(
 
 
 @app.command()
-def runs(db: Db = DEFAULT_DB, limit: Annotated[int, typer.Option(help="How many, newest first.", min=1)] = 50, as_json: AsJson = False) -> None:  # fmt: skip
+def runs(db: Db = DEFAULT_DB, limit: Annotated[int, typer.Option(help="How many, newest first.", min=1, max=1_000_000)] = 50, as_json: AsJson = False) -> None:  # fmt: skip
     """Lists the runs of the database."""
     rows = existing(db).select(limit=limit)
     if as_json:

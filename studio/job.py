@@ -10,7 +10,7 @@ The command line, Python, REST and live runs all go through these functions; the
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -20,16 +20,16 @@ import numpy as np
 
 from studio.application import setup
 from studio.assess.measure import measure_all, unmet
-from studio.assess.metric import Measured
+from studio.assess.metric import Measured, registered
 from studio.compiled import DIGEST
-from studio.errors import Problem, ScenarioError
+from studio.errors import Problem, ScenarioError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
 from studio.scenario.schema import Scenario
 from studio.store.runs import Row, Runs
-from studio.world.setting import Setting, setting
+from studio.world.setting import Setting, check_names, setting
 
 LARGEST_SEED = 2**63 - 1
 
@@ -90,7 +90,26 @@ def load(path: str | Path, changes: dict[str, Any] | None = None) -> Loaded:
     if changes:
         setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
         document = setup.change(document, changes, path.name)
-    return Loaded(path, changes, setup.complete(document, path.name))
+    loaded = Loaded(path, changes, setup.complete(document, path.name))
+    check_goals(loaded)
+    return loaded
+
+
+def check_goals(loaded: Loaded) -> None:
+    """Goals must be about metrics that exist; raises ScenarioError."""
+    where, metrics = loaded.path.name, registered()
+    wrong = [
+        Problem(f"{where}: goals.{name}", "is no metric", remedy=nearest(name, metrics))
+        for name in loaded.scenario.goals
+        if name not in metrics
+    ]
+    if wrong:
+        raise ScenarioError(f"{where} is not a valid scenario.", wrong)
+
+
+def check(loaded: Loaded) -> None:
+    """All that can be checked without the map; raises ScenarioError."""
+    check_names(loaded.scenario, loaded.path.name)
 
 
 def seeded(loaded: Loaded, seed: int | None) -> Loaded:
@@ -187,10 +206,9 @@ def run(
         current = simulation(prepared)
         as_fast_as_possible(current, progress)
         result = outcome(loaded, current)
+        row = save(number, result, runs) if runs else None
     except BaseException as error:
         if runs:
             runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
         raise
-    if runs is None:
-        return result
-    return Run(**{**vars(result), "row": save(number, result, runs)})
+    return replace(result, row=row)

@@ -9,7 +9,7 @@ An application is a module with
 
 `decide` sees what a real unit sees and nothing else: its clock, its own car's bus, its front sensor, the messages that
 reached it. It acts only through the actuators. It keeps nothing outside `memory`, so a run can be repeated, cut and
-batched. It is plain Python over NamedTuples of floats; when `COMPILED = True` the same function is compiled.
+batched. It is plain Python over NamedTuples of floats; with `COMPILED = True`, and `@compiled` above it, the same function is machine code.
 
 What a command leaves at `LEAVE` stays the driver's.
 """
@@ -39,7 +39,7 @@ class Own(NamedTuple):
 
 
 class Front(NamedTuple):
-    """The target of the front sensor."""
+    """The target of the front sensor; zeros while there is none."""
 
     detected: bool
     range: float  # [m] bumper to bumper

@@ -64,7 +64,7 @@ class Hosted:
         """All its cars decide; their commands go to their columns. Raises ApplicationError with the traceback."""
         try:
             self.run(self.columns, self.parameters, self.memory, self.observed, commands)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise ApplicationError(
                 f"The application {self.application.name!r} of group {self.group!r} raised:\n{traceback.format_exc()}"
             ) from error
@@ -91,10 +91,17 @@ def python_loop(application: Application) -> Callable:
                 module.Memory(*memory[:, j].tolist()),
                 observation_of(observed[:, j].tolist()),
             )
-            memory[:, j] = remembered
+            memory[:, j] = memory_of(remembered, module.Memory)
             commands[:, v] = command_of(command)
 
     return run
+
+
+def memory_of(remembered, kind: type) -> tuple[float, ...]:
+    """The memory; raises TypeError when `decide` returned something else."""
+    if not isinstance(remembered, kind):
+        raise TypeError(f"decide() returned {remembered!r} as its memory, not a {kind.__name__}")
+    return remembered
 
 
 def command_of(command) -> tuple[float, float]:

@@ -68,9 +68,32 @@ def register(name: str, module: ModuleType) -> Application:
             f"The application {name!r} does not keep the contract.",
             [Problem(module.__name__, f"has no {part}", "", ", ".join(NEEDED)) for part in missing],
         )
+    broken = [problem for check in (check_values, check_compiled) if (problem := check(module))]
+    if broken:
+        raise ApplicationError(f"The application {name!r} does not keep the contract.", broken)
     module.ParameterTuple = parameter_tuple(module)
     _registered[name] = Application(name, module)
     return _registered[name]
+
+
+def check_values(module: ModuleType) -> Problem | None:
+    """Parameters and memory must be numbers, with first values."""
+    try:
+        values = [*module.Parameters().model_dump().values(), *module.Memory()]
+        if all(isinstance(value, (bool, int, float)) for value in values):
+            return None
+        what = "has a default that is no number"
+    except (TypeError, ValueError) as error:
+        what = f"has no defaults: {error}"
+    return Problem(f"{module.__name__}: Parameters, Memory", what, allowed="numbers, each with a default")
+
+
+def check_compiled(module: ModuleType) -> Problem | None:
+    """A compiled application's `decide` must be compiled."""
+    if not getattr(module, "COMPILED", False) or hasattr(module.decide, "py_func"):
+        return None
+    where, remedy = f"{module.__name__}: decide", "write @compiled (from studio.compiled) above it, or COMPILED = False"
+    return Problem(where, "is not compiled although COMPILED is True", remedy=remedy)
 
 
 def parameter_tuple(module: ModuleType) -> type:

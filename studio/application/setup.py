@@ -38,15 +38,17 @@ def filled(where: str, path: str, group: Application) -> tuple[Application, list
 
 
 def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dict[str, Any]:
-    """The document with the changes; raises ScenarioError for a path that does not exist."""
+    """The document with the changes, not yet validated: fields that depend on each other can be changed together.
+
+    Raises ScenarioError for a path that does not exist.
+    """
     exchanges = {path: value for path, value in changes.items() if is_exchange(document, path)}
     for path, name in exchanges.items():
         document = exchange(document, path.split(".")[1], name)
-    if exchanges:
-        changes = {path: value for path, value in changes.items() if path not in exchanges}
+    full = complete(document, where).model_dump(mode="json")
     for path, value in changes.items():
-        full = complete(document, where).model_dump(mode="json")
-        document = edit.put(document, full, path, value)
+        if path not in exchanges:
+            document = edit.put(document, full, path, value)
     return document
 
 

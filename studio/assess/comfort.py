@@ -20,10 +20,10 @@ def jerk_rms(record: Record) -> float:
     """Root mean square over all recorded vehicles and the whole run."""
     if record.time.size < 2 + WINDOW / (record.time[-1] / max(record.time.size - 1, 1) or 1.0):
         return float("nan")
-    return float(np.sqrt(np.mean(jerk(record.channel("acceleration"), record.time) ** 2)))
+    return float(np.sqrt(np.nanmean(jerk(record.channel("acceleration"), record.time) ** 2)))
 
 
 @metric("max_lateral_acceleration", unit="m/s²", goal="lower", title="Strongest lateral acceleration")
 def max_lateral_acceleration(record: Record) -> float:
     """Of any recorded vehicle."""
-    return float(np.max(np.abs(record.channel("lateral_acceleration"))))
+    return float(np.nanmax(np.abs(record.channel("lateral_acceleration"))))

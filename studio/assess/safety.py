@@ -52,7 +52,7 @@ def min_time_gap(record: Record) -> float:
 @metric("max_deceleration", unit="m/s²", goal="lower", title="Strongest deceleration")
 def max_deceleration(record: Record) -> float:
     """Strongest deceleration of any recorded vehicle."""
-    return float(-np.min(record.channel("acceleration")))
+    return -smallest(record.channel("acceleration"))
 
 
 @metric("collisions", unit="1", goal="lower", title="Collisions")

@@ -14,7 +14,7 @@ QUIET = 0.05  # [m/s²] root mean square below which there is no disturbance to 
 
 def strength(record: Record, vehicle: str) -> float:
     """Root mean square of the acceleration [m/s²]."""
-    return float(np.sqrt(np.mean(record.trace(f"{vehicle}.acceleration") ** 2)))
+    return float(np.sqrt(np.nanmean(record.trace(f"{vehicle}.acceleration") ** 2)))
 
 
 def gains(record: Record, chain: Chain) -> list[float]:

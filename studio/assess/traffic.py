@@ -9,7 +9,7 @@ from studio.execution.record import Record
 @metric("mean_speed", unit="m/s", goal="higher", title="Mean speed")
 def mean_speed(record: Record) -> float:
     """Of all recorded vehicles over the whole run."""
-    return float(np.mean(record.channel("speed")))
+    return float(np.nanmean(record.channel("speed")))
 
 
 @metric("mean_gap", unit="m", goal="lower", title="Mean gap")
@@ -22,4 +22,4 @@ def mean_gap(record: Record) -> float:
 @metric("max_lateral_offset", unit="m", goal="lower", title="Greatest offset from the path")
 def max_lateral_offset(record: Record) -> float:
     """Of any recorded vehicle."""
-    return float(np.max(np.abs(record.channel("lateral_offset"))))
+    return float(np.nanmax(np.abs(record.channel("lateral_offset"))))

@@ -6,6 +6,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.world.channel import BY_NAME, CHANNELS, TIME_GAP, sample
+from studio.world.state import ACTIVE, SENT
 from studio.world.world import World
 
 ROLLING = 0.5  # [m/s] below this speed a time gap says nothing
@@ -70,16 +71,34 @@ class Recorder:
     times: list[float] = field(default_factory=list)
     samples: list[np.ndarray] = field(default_factory=list)
 
-    def take(self, world: World) -> bool:
-        """Takes a sample when it is time for one; tells whether it did."""
-        if world.clock.k % self.every:
-            return False
-        self.times.append(world.clock.time)
-        self.samples.append(sample(world, self.columns))
-        return True
+    ages: list[np.ndarray] = field(default_factory=list)
+
+    def take(self, world: World, k: int) -> None:
+        """Takes a sample when it is time for one; commands are those of tick k."""
+        if world.clock.k % self.every == 0:
+            self.times.append(world.clock.time)
+            self.samples.append(sample(world, self.columns, k))
+            self.ages.append(link_ages(world))
 
     def values(self) -> np.ndarray:
         """float64[channel, vehicle, n]."""
         if not self.samples:
             return np.zeros((len(CHANNELS), self.columns.size, 0))
         return np.moveaxis(np.array(self.samples), 0, -1)
+
+    def mean_ages(self) -> np.ndarray:
+        """Mean age [s] of the newest message on every link; not a number for a link that never had both ends."""
+        ages = np.array(self.ages)
+        known = np.isfinite(ages)
+        with np.errstate(invalid="ignore"):
+            return np.where(known, ages, 0.0).sum(axis=0) / known.sum(axis=0)
+
+
+def link_ages(world: World) -> np.ndarray:
+    """Age [s] of the newest message on every link, the time since the start while none has come.
+
+    Not a number once one of its ends has left.
+    """
+    units, active = world.units, world.vehicles.state[ACTIVE]
+    there = (active[units.link_receiver] > 0.0) & (active[units.link_sender] > 0.0)
+    return np.where(there, world.clock.time - np.maximum(units.inbox[SENT], 0.0), np.nan)

@@ -9,8 +9,8 @@ from studio.errors import ApplicationError
 from studio.execution.record import Chain, Happening, Record, Recorder
 from studio.world.build import build
 from studio.world.setting import Setting
-from studio.world.state import ACTIVE, HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, SENT, VEHICLE
-from studio.world.tick import environment, look, tick
+from studio.world.state import ACTIVE, HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, VEHICLE
+from studio.world.tick import environment, look, meet, part
 from studio.world.world import World, first_not_finite
 
 CHECK_EVERY = 50  # ticks between two looks for numbers that are not finite
@@ -27,8 +27,7 @@ class Simulation:
     status: str = "running"
     error: str | None = None
     started: float = field(default_factory=time.perf_counter)
-    reported: dict[str, int] = field(default_factory=lambda: {"hits": 0})
-    ages: list[np.ndarray] = field(default_factory=list)
+    reported: set[tuple[str, str]] = field(default_factory=set)
 
     @property
     def time(self) -> float:
@@ -48,19 +47,26 @@ class Simulation:
 
     def advance(self) -> None:
         """One tick. A failing application, or a state that is not finite, ends the run as failed."""
+        world = self.world
         try:
-            tick(self.world)
+            meet(world)
         except ApplicationError as error:
             self.fail(error.message)
             return
-        k = self.world.clock.k
-        if self.recorder.take(self.world):
-            self.ages.append(self.world.clock.time - self.world.units.inbox[SENT])
+        self.recorder.take(world, world.clock.k)
+        part(world)
         self.report()
-        if k % CHECK_EVERY == 0 or k >= self.ticks:
+        if world.clock.k % CHECK_EVERY == 0 or world.clock.k >= self.ticks:
             self.check()
-        if k >= self.ticks and not self.is_over:
-            self.status = "done"
+        if world.clock.k >= self.ticks and not self.is_over:
+            self.end("done")
+
+    def end(self, status: str) -> None:
+        """The run is over: drivers look around once more, and a last sample is taken."""
+        self.status = status
+        environment(self.world)
+        look(self.world)
+        self.recorder.take(self.world, self.world.clock.k - 1)
 
     def fail(self, reason: str) -> None:
         """Ends the run as failed."""
@@ -70,7 +76,7 @@ class Simulation:
     def stop(self) -> None:
         """Ends the run because somebody asked for it."""
         if not self.is_over:
-            self.status = "stopped"
+            self.end("stopped")
 
     def check(self) -> None:
         """Ends the run when a number is not finite, and names vehicle, quantity and time."""
@@ -90,29 +96,33 @@ class Simulation:
         self.report_hits()
         self.report_arrivals()
 
+    def is_new(self, kind: str, name: str) -> bool:
+        """Whether this has not been reported; from now on it has."""
+        if (kind, name) in self.reported:
+            return False
+        self.reported.add((kind, name))
+        return True
+
     def report_triggers(self) -> None:
         """Scripted maneuvers that have begun."""
         for i, (name, trigger) in enumerate(self.setting.scenario.triggers.items()):
-            if self.world.events.fired[i] and name not in self.reported:
-                self.reported[name] = 1
+            if self.world.events.fired[i] and self.is_new("trigger", name):
                 text = f"{name}: {trigger.do.maneuver} with {trigger.do.deceleration:g} m/s²"
                 self.happen(trigger.time, text, trigger.vehicle)
 
     def report_hits(self) -> None:
         """Collisions."""
-        events, names = self.world.events, self.setting.names
-        for i in range(self.reported["hits"], events.hits_found):
-            first, second = (names[int(events.hits[row, i])] for row in (HIT_FIRST, HIT_SECOND))
-            text = f"collision of {first} and {second} at {events.hits[HIT_SPEED, i]:.1f} m/s"
-            self.happen(float(events.hits[HIT_TIME, i]), text, first)
-        self.reported["hits"] = events.hits_found
+        hits, names = self.world.events.hits_of(0), self.setting.names
+        for i in range(hits.shape[1]):
+            if self.is_new("hit", str(i)):
+                first, second = (names[int(hits[row, i])] for row in (HIT_FIRST, HIT_SECOND))
+                text = f"collision of {first} and {second} at {hits[HIT_SPEED, i]:.1f} m/s"
+                self.happen(float(hits[HIT_TIME, i]), text, first)
 
     def report_arrivals(self) -> None:
         """Named vehicles that have reached the end of their route."""
         for column, name in enumerate(self.setting.scenario.vehicles):
-            arrived = f"arrived {name}"
-            if self.world.vehicles.state[ACTIVE, column] == 0.0 and arrived not in self.reported:
-                self.reported[arrived] = 1
+            if self.world.vehicles.state[ACTIVE, column] == 0.0 and self.is_new("arrival", name):
                 self.happen(self.time, "arrived at the end of its route", name)
 
     def record(self) -> Record:
@@ -147,26 +157,21 @@ def chains(setting: Setting) -> tuple[Chain, ...]:
 
 
 def link_ages(simulation: Simulation) -> dict[str, float]:
-    """Mean age [s] of the newest message on each link, named sender→receiver, over the time in which there was one."""
-    if not simulation.ages or not simulation.world.units.link_receiver.size:
-        return {}
-    ages = np.array(simulation.ages)
-    heard = np.isfinite(ages)
-    means = np.where(heard, ages, 0.0).sum(axis=0) / np.maximum(heard.sum(axis=0), 1)
+    """Mean age [s] of the newest message on each link, named sender→receiver."""
     units, names = simulation.world.units, simulation.setting.names
+    if not simulation.recorder.ages:
+        return {}
+    means = simulation.recorder.mean_ages()
     return {
         f"{names[sender]}→{names[receiver]}": float(mean)
         for sender, receiver, mean in zip(units.link_sender, units.link_receiver, means, strict=True)
+        if np.isfinite(mean)
     }
 
 
 def simulation(setting: Setting) -> Simulation:
-    """A run at its start, with its first sample: drivers have looked around once."""
+    """A run at its start."""
     scenario = setting.scenario
     recorded = len(setting.cars) if scenario.recording.traffic else len(scenario.vehicles)
     every = round(scenario.recording.period / scenario.clock.tick)
-    fresh = Simulation(setting, build([setting]), Recorder(np.arange(recorded), every))
-    environment(fresh.world)
-    look(fresh.world)
-    fresh.recorder.take(fresh.world)
-    return fresh
+    return Simulation(setting, build([setting]), Recorder(np.arange(recorded), every))

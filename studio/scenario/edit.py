@@ -6,6 +6,7 @@ from typing import Any
 import yaml
 
 from studio.errors import Problem, ScenarioError, nearest
+from studio.scenario.file import YAML_TROUBLE
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -18,7 +19,7 @@ def parse_assignment(text: str) -> tuple[str, Any]:
         )
     try:
         return path.strip(), yaml.safe_load(value)
-    except yaml.YAMLError:
+    except YAML_TROUBLE:
         raise ScenarioError(
             f"--set {text} cannot be read.", [Problem(f"--set {path}", "has a value that is not YAML", value)]
         ) from None

@@ -9,9 +9,13 @@ import yaml
 from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, nearest
-from studio.scenario.schema import Scenario
+from studio.scenario.schema import Scenario, node_at
 
 SIZE_LIMIT = 4_000_000  # [B] of a scenario file
+
+
+# What PyYAML raises for text that is no YAML, or for tags whose value is none of theirs.
+YAML_TROUBLE = (yaml.YAMLError, ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError)
 
 
 def read(path: Path) -> dict[str, Any]:
@@ -34,7 +38,7 @@ def parse(content: bytes, where: str) -> dict[str, Any]:
         document = yaml.load(content.decode("utf-8"), Loader=UniqueKeys)
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{where} is not a text file.", [Problem(where, str(error), allowed="UTF-8")]) from None
-    except (yaml.YAMLError, RecursionError) as error:
+    except YAML_TROUBLE as error:
         mark = getattr(error, "problem_mark", None)
         line = f"{where}, line {mark.line + 1}" if mark else where
         what = getattr(error, "problem", None) or str(error) or "is nested too deep"
@@ -107,19 +111,7 @@ def allowed(finding: dict) -> str:
 
 def fields_at(model: type, path: tuple) -> list[str]:
     """Names of the fields that the schema has at a path."""
-    schema = model.model_json_schema()
-    node = schema
-    for part in path:
-        node = resolve(schema, node)
-        node = node.get("properties", {}).get(part) or node.get("additionalProperties") or {}
-    return sorted(resolve(schema, node).get("properties", {}))
-
-
-def resolve(schema: dict, node: dict) -> dict:
-    """A node of a JSON schema with its reference followed."""
-    if "$ref" not in node:
-        return node
-    return schema["$defs"][node["$ref"].rpartition("/")[2]]
+    return sorted(node_at(model.model_json_schema(), path).get("properties", {}))
 
 
 def digest(document: dict[str, Any], map_digest: str) -> str:

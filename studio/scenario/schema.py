@@ -4,6 +4,8 @@ Reading refuses what it does not know; nothing is repaired. Paths of fields (`ap
 are the names that `--set`, the page and the run database use.
 """
 
+import re
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -26,7 +28,7 @@ class Part(BaseModel):
 class Map(Part):
     """The place."""
 
-    file: str = Field(..., title="Map file", description="relative to the scenario file: .osm or .osm.gz")
+    file: str = Field(..., max_length=300, title="Map file", description="relative to the scenario file: .osm or .osm.gz")
     radius: float = number(800.0, unit="m", title="Radius", description="what lies farther from the centre is cut off", ge=100, le=5000)
     signal_start: float = number(0.0, unit="s", title="Signals at the start", description="how far into their programmes the lights are", ge=0, le=600)
 
@@ -192,25 +194,35 @@ class Scenario(Part):
     traffic: Traffic = Field(default_factory=Traffic, title="Traffic")
     radio: Radio = Field(default_factory=Radio, title="Radio")
     recording: Recording = Field(default_factory=Recording, title="Recording")
-    goals: dict[str, Goal] = Field({}, title="Goals", description="per metric")
+    goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
 
 
 def unit_at(model: type[BaseModel], path: str) -> str:
     """Unit of the field at a path, empty when it has none here (parameters of applications know their own)."""
     schema = model.model_json_schema()
+    return node_at(schema, path.split(".")).get("unit", "")
+
+
+def node_at(schema: dict, path: Sequence[str | int]) -> dict:
+    """The node of a JSON schema at a path, references followed; empty when there is none."""
     node = schema
-    for part in path.split("."):
-        node = descend(schema, node, part)
-    return node.get("unit", "")
+    for part in path:
+        node = resolved(schema, child(node, str(part)))
+    return node
 
 
-def descend(schema: dict, node: dict, part: str) -> dict:
-    """The node of a JSON schema one level down."""
-    if "$ref" in node:
-        node = schema["$defs"][node["$ref"].rpartition("/")[2]]
+def resolved(schema: dict, node: dict) -> dict:
+    """A node with its reference followed; of alternatives the first."""
+    node = next(iter(node.get("anyOf", ())), node)
+    return schema["$defs"][node["$ref"].rpartition("/")[2]] if "$ref" in node else node
+
+
+def child(node: dict, part: str) -> dict:
+    """One level down, references not followed."""
     if part in node.get("properties", {}):
         return node["properties"][part]
-    if part.isdigit() and "items" in node:
-        return node["items"]
-    found = node.get("additionalProperties")
+    for pattern, found in node.get("patternProperties", {}).items():
+        if re.match(pattern, part):
+            return found
+    found = node.get("items") if part.isdigit() else node.get("additionalProperties")
     return found if isinstance(found, dict) else {}

@@ -7,7 +7,8 @@ says "running", the run was killed; the row says so as soon as somebody looks.
 import json
 import os
 import sqlite3
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,6 +24,7 @@ from studio.execution.record import Happening, Record
 from studio.store import trace
 from studio.store.tables import open_database, reopen_database, unusable
 
+LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
 
 
@@ -103,17 +105,29 @@ class Runs:
             self.database["traces"].insert({"run": run, "parquet": parquet}, pk="run", replace=True)
 
     def end(self, run: int, status: str, error: str) -> None:
-        """Marks a run that brought nothing."""
+        """Marks a run that brought nothing; one that is over stays as it is."""
+        change = "update runs set status = ?, error = ? where run = ? and status = 'running'"
         with self.writing():
-            self.database["runs"].update(run, {"status": status, "error": error})
+            self.database.conn.execute(change, [status, error, run])
 
-    def writing(self) -> "Writing":
-        """A transaction; SQLite's refusals become StoreErrors."""
-        return Writing(self)
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """One transaction: all of it or nothing. SQLite's refusals become StoreErrors."""
+        connection = self.database.conn
+        try:
+            connection.execute("begin immediate")
+            try:
+                yield
+                connection.commit()
+            except BaseException:
+                connection.rollback()
+                raise
+        except sqlite3.Error as error:
+            raise unusable(self.path, error) from None
 
     def find(self, run: int) -> Row:
         """One run; raises UnknownError that says which there are."""
-        rows = self.select(where="run = ?", values=[run])
+        rows = self.select(where="run = ?", values=[run]) if 0 < run <= LARGEST_RUN else []
         if not rows:
             last = self.database.execute("select max(run) from runs").fetchone()[0]
             have = f"the newest is {last}" if last else "there is none yet"
@@ -179,24 +193,6 @@ class Runs:
     def close(self) -> None:
         """Closes the file."""
         self.database.conn.close()
-
-
-@dataclass
-class Writing:
-    """One transaction of a Runs."""
-
-    runs: Runs
-
-    def __enter__(self) -> None:
-        self.runs.database.conn.__enter__()
-
-    def __exit__(self, kind, error, trace_back) -> None:
-        try:
-            self.runs.database.conn.__exit__(kind, error, trace_back)
-        except sqlite3.Error as refusal:
-            raise unusable(self.runs.path, refusal) from None
-        if isinstance(error, sqlite3.Error):
-            raise unusable(self.runs.path, error) from None
 
 
 def open_runs(path: str | os.PathLike) -> Runs:

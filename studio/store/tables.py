@@ -10,6 +10,8 @@ SQLite in WAL mode: readers never wait for the writer. A number in `user_version
 """
 
 import sqlite3
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 from sqlite_utils import Database
@@ -17,6 +19,7 @@ from sqlite_utils import Database
 from studio.errors import Problem, StoreError
 
 LAYOUT = 1
+PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
     "scenarios": ({"hash": str, "title": str, "document": str, "map_digest": str}, "hash", ()),
@@ -53,7 +56,7 @@ def open_database(path: Path) -> Database:
     if path.is_dir():
         raise StoreError(f"{path} is a folder, not a run database; name a file with --db")
     try:
-        connection = sqlite3.connect(path, timeout=30.0, check_same_thread=False)
+        connection = sqlite3.connect(path, timeout=PATIENCE, check_same_thread=False)
         return prepared(Database(connection), path)
     except sqlite3.Error as error:
         raise unusable(path, error) from None
@@ -62,7 +65,7 @@ def open_database(path: Path) -> Database:
 def reopen_database(path: Path) -> Database:
     """Another connection to a file that has been opened before: no look at its layout, no waiting for writers."""
     try:
-        connection = sqlite3.connect(path, timeout=30.0, check_same_thread=False)
+        connection = sqlite3.connect(path, timeout=PATIENCE, check_same_thread=False)
         connection.execute("pragma foreign_keys = on")
         return Database(connection)
     except sqlite3.Error as error:
@@ -97,14 +100,28 @@ def refuse_foreign(database: Database, path: Path) -> None:
 
 
 def make_tables(database: Database) -> None:
-    """Tables and indices of this layout."""
-    database.enable_wal()
+    """Tables and indices of this layout; another process may be doing the same."""
+    patiently(database.enable_wal)
+    patiently(lambda: database.conn.execute("begin immediate"))
     with database.conn:
         for name, (columns, key, foreign) in TABLES.items():
             database[name].create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
         database["events"].create_index(["run"], if_not_exists=True)
         database["runs"].create_index(["scenario"], if_not_exists=True)
         database.execute(f"pragma user_version = {LAYOUT}")
+
+
+def patiently(action: Callable[[], object]) -> None:
+    """Repeats what SQLite refuses without waiting while another process changes the file's mode."""
+    until = time.monotonic() + PATIENCE
+    while True:
+        try:
+            action()
+            return
+        except sqlite3.OperationalError as error:
+            if "locked" not in str(error) or time.monotonic() > until:
+                raise
+            time.sleep(0.02)
 
 
 def unusable(path: Path, error: sqlite3.Error) -> StoreError:

@@ -14,14 +14,13 @@ from studio.conventions import GRAVITY
 from studio.model import tyre
 from studio.model.tyre import Tyre
 from studio.road import conflict
-from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y
 from studio.scenario import catalogue
 from studio.world.control import torques
-from studio.world.setting import Car, Setting
+from studio.world.setting import Car, Setting, pose
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
 
-MOST_HITS = 64  # collisions that are reported per batch
+MOST_HITS = 64  # collisions that are reported per world
 
 
 def build(settings: Sequence[Setting]) -> World:
@@ -66,14 +65,13 @@ def vehicles_of(cars: list[Car]) -> Vehicles:
     parameter[C_FRONT] = [stiffness(car.model) for car in cars]
     state = np.zeros((len(VEHICLE), n))
     for v, car in enumerate(cars):
-        i = int(car.station / PATH_SPACING)
-        state[[X, Y, PSI], v] = car.path.points[[PATH_X, PATH_Y, PATH_HEADING], i]
+        state[[X, Y, PSI], v] = pose(car.path, car.station)
         state[V_X, v] = car.speed
     state[ACTIVE] = 1.0
     wheels = np.zeros((len(WHEEL), 4 * n))
     wheels[OMEGA] = np.tile(state[V_X] / parameter[RADIUS], 4)
     mind = np.zeros((len(MIND), n))
-    mind[STATION] = [float(int(car.station / PATH_SPACING)) for car in cars]
+    mind[STATION] = [car.station for car in cars]
     return Vehicles(
         state=state,
         wheels=wheels,
@@ -226,7 +224,8 @@ def events_of(settings: Sequence[Setting], worlds: Worlds) -> Events:
         trigger_vehicle=table[1].astype(np.int64),
         trigger_script=table[2:].copy(),
         fired=np.zeros(table.shape[1], dtype=np.int64),
-        hits=np.zeros((len(COLLISION), MOST_HITS)),
+        hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))),
+        found=np.zeros(len(settings), dtype=np.int64),
     )
 
 

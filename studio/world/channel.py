@@ -39,10 +39,14 @@ TIME_GAP = Channel("time_gap", "s", "Time gap to the car ahead", "derived", -1)
 BY_NAME = {channel.name: channel for channel in (*CHANNELS, TIME_GAP)}
 
 
-def sample(world: World, columns: np.ndarray) -> np.ndarray:
-    """All channels of some vehicles now, float64[channel, vehicle]."""
+def sample(world: World, columns: np.ndarray, k: int) -> np.ndarray:
+    """All channels of some vehicles, float64[channel, vehicle], with the commands of tick k.
+
+    A vehicle that has arrived has no values any more.
+    """
     v, n = world.vehicles, world.size
-    slot = (max(world.clock.k - 1, 0) % RING) * n
     parts = {"state": v.state, "mind": v.mind, "sensor": world.units.sensors, "command": v.commands}
-    start = {"command": slot}
-    return np.array([parts[c.part][c.row, columns + start.get(c.part, 0)] for c in CHANNELS])
+    start = {"command": (k % RING) * n}
+    values = np.array([parts[c.part][c.row, columns + start.get(c.part, 0)] for c in CHANNELS])
+    values[:, v.state[ACTIVE, columns] == 0.0] = np.nan
+    return values

@@ -57,26 +57,33 @@ def relative_speed(a, b, state):
 
 
 @compiled
-def is_known(a, b, found, hits):
-    """Whether this pair has been reported."""
-    for i in range(found):
+def is_known(a, b, first, last, hits):
+    """Whether this pair stands in the columns from `first` to before `last`."""
+    for i in range(first, last):
         if hits[HIT_FIRST, i] == a and hits[HIT_SECOND, i] == b:
             return True
     return False
 
 
 @compiled
+def report(time, a, b, column, state, hits):
+    """Writes a collision."""
+    hits[HIT_TIME, column] = time
+    hits[HIT_FIRST, column] = a
+    hits[HIT_SECOND, column] = b
+    hits[HIT_SPEED, column] = relative_speed(a, b, state)
+
+
+@compiled
 def collide(time, state, parameter, first, count, hits, found):
-    """Adds new contacts to `hits`; returns how many there are now."""
+    """Adds new contacts to `hits` and counts them in `found`, world by world."""
+    share = hits.shape[1] // first.size
     for w in range(first.size):
+        start = w * share
         for a in range(first[w], first[w] + count[w]):
             for b in range(a + 1, first[w] + count[w]):
-                if found == hits.shape[1] or state[ACTIVE, a] == 0.0 or state[ACTIVE, b] == 0.0:
+                if found[w] == share or state[ACTIVE, a] == 0.0 or state[ACTIVE, b] == 0.0:
                     continue
-                if touching(a, b, state, parameter) and not is_known(a, b, found, hits):
-                    hits[HIT_TIME, found] = time
-                    hits[HIT_FIRST, found] = a
-                    hits[HIT_SECOND, found] = b
-                    hits[HIT_SPEED, found] = relative_speed(a, b, state)
-                    found += 1
-    return found
+                if touching(a, b, state, parameter) and not is_known(a, b, start, start + found[w], hits):
+                    report(time, a, b, start + found[w], state, hits)
+                    found[w] += 1

@@ -68,6 +68,7 @@ def command(k, time, state, parameter, script, mind, app_command, commands):
         u = request(v, time, state, script, mind, app_command[0, v])
         drive, brake = torques(v, u, state, parameter)
         steer = mind[STEER_WISH, v] if isnan(app_command[1, v]) else app_command[1, v]
+        steer = min(max(steer, -parameter[STEER_MAX, v]), parameter[STEER_MAX, v])
         commands[U, column] = u
         commands[U_STEER, column] = steer
         commands[U_DRIVE, column] = drive
@@ -88,7 +89,7 @@ def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
         observed[6, j] = mind[V_DESIRED, v]
         observed[7, j] = mind[WISH, v]
         for i in range(4):
-            observed[8 + i, j] = sensors[i, v]
+            observed[8 + i, j] = sensors[i, v] if sensors[DETECTED, v] > 0.0 else 0.0
         observe_message(time, links[j], inbox, observed, j)
 
 

@@ -3,13 +3,14 @@
 Sensors look at the true world and add their errors; messages are looked up in what the senders have sent.
 """
 
-from math import atan2, cos, sin, sqrt
+from math import atan2, cos, nan, sin, sqrt
 
 from studio.compiled import compiled
 from studio.model import radio, sensor
 from studio.model.random import MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, uniform
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
+EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
 PAIR = 65536  # a link is numbered receiver · PAIR + sender
 
 
@@ -54,12 +55,19 @@ def closing_rate(v, other, forward, left, state):
 
 
 @compiled
+def forget(v, sensors):
+    """No target until one is found."""
+    sensors[DETECTED, v] = 0.0
+    sensors[RANGE, v] = sensors[RANGE_RATE, v] = sensors[AZIMUTH, v] = nan
+    sensors[TARGET, v] = -1.0
+
+
+@compiled
 def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed, sensors):
     """First pass: the front sensor of every car."""
     for v in range(state.shape[1]):
         w = world_of[v]
-        sensors[DETECTED, v] = 0.0
-        sensors[TARGET, v] = -1.0
+        forget(v, sensors)
         if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0:
             continue
         other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
@@ -102,12 +110,17 @@ def send(k, tick, state, command, radio_set, world_of, entity, sent):
 
 
 @compiled
-def has_arrived(time, number, column, sender, receiver, w, state, radio_set, entity, seed, sent):
-    """Whether message `number` of the sender has reached the receiver by now."""
+def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed):
+    """Whether message `number` of the sender comes in at this tick: every message does so once."""
     link = entity[receiver] * PAIR + entity[sender]
     air = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], uniform(seed, link, MESSAGE_DELAY, number))
-    if sent[SENT, column] + air > time + 1e-9:
-        return False
+    return time - tick < sent_at + air - EARLY <= time
+
+
+@compiled
+def gets_through(number, column, sender, receiver, w, state, radio_set, entity, seed, sent):
+    """Whether a message that comes in now is in range and not lost."""
+    link = entity[receiver] * PAIR + entity[sender]
     dx, dy = sent[M_X, column] - state[X, receiver], sent[M_Y, column] - state[Y, receiver]
     draw = uniform(seed, link, MESSAGE_LOSS, number)
     distance = sqrt(dx * dx + dy * dy)
@@ -116,16 +129,21 @@ def has_arrived(time, number, column, sender, receiver, w, state, radio_set, ent
 
 @compiled
 def receive(k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, sent, inbox):
-    """Second pass, second half: every link takes the newest message that has arrived."""
+    """Second pass, second half: every link takes the newest of the messages that come in at this tick."""
     n = state.shape[1]
     for link in range(link_receiver.size):
         receiver, sender = link_receiver[link], link_sender[link]
         w = world_of[receiver]
-        newest = (k + entity[sender]) // int(round(radio_set[PERIOD, w] / tick))
-        for number in range(newest, max(newest - RING, -1), -1):
+        period = int(round(radio_set[PERIOD, w] / tick))
+        newest = (k + entity[sender]) // period
+        oldest = newest - int((radio_set[DELAY, w] + radio_set[VARIATION, w]) / radio_set[PERIOD, w]) - 2
+        for number in range(newest, max(oldest, newest - RING, -1), -1):
             column = (number % RING) * n + sender
-            if sent[SENT, column] <= inbox[SENT, link]:
+            sent_at = (number * period - entity[sender]) * tick
+            if sent_at <= inbox[SENT, link]:
                 break
-            if has_arrived(k * tick, number, column, sender, receiver, w, state, radio_set, entity, seed[w], sent):
-                inbox[:, link] = sent[:, column]
-                break
+            was_sent = abs(sent[SENT, column] - sent_at) < 0.5 * tick  # else it left before, and this is an older one
+            if was_sent and arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
+                if gets_through(number, column, sender, receiver, w, state, radio_set, entity, seed[w], sent):
+                    inbox[:, link] = sent[:, column]
+                    break

@@ -3,6 +3,8 @@
     setting(scenario)   →  Setting
 """
 
+import os
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 
@@ -13,13 +15,14 @@ from studio.errors import MapError, Problem, RouteError, ScenarioError, nearest
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road import path as road_path
 from studio.road.network import Network
-from studio.road.path import PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
+from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
 from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
 from studio.world.channel import BY_NAME
 from studio.world.state import RING
 
+CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
 TRIES = 200  # to place one traffic car
 END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
 STYLE_SPREAD = 0.1  # traffic drivers want 90 % to 110 % of the usual speed
@@ -61,13 +64,14 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     check_names(scenario, where)
     paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
     cars = [named_car(name, scenario, path, where) for name, path in paths.items()]
+    check_starts(cars, where)
     return Setting(scenario, network, tuple(cars + traffic(scenario, network, cars)))
 
 
 def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
     """The map of a scenario."""
     file = folder / scenario.map.file
-    if not file.is_file():
+    if not os.path.isfile(file):
         others = [path.name for path in file.parent.glob("*.osm*")] if file.parent.is_dir() else []
         raise MapError(
             f"The map of {where} is missing.",
@@ -96,9 +100,23 @@ def check_names(scenario: Scenario, where: str) -> None:
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
     for i, name in enumerate(scenario.recording.channels):
         check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
-    found += doubled(scenario, where) + untimely(scenario, where)
+    found += reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
     if found:
         raise ScenarioError(f"{where} is not a valid scenario.", found)
+
+
+def reserved(scenario: Scenario, where: str) -> list[Problem]:
+    """Names that the traffic has, and a vehicle that listens to itself."""
+    found = [
+        Problem(f"{where}: vehicles.{name}", "is a name of the traffic", repr(name), remedy="choose another name")
+        for name in scenario.vehicles
+        if re.fullmatch(r"traffic_\d+", name)
+    ]
+    for group, application in scenario.applications.items():
+        for vehicle, heard in zip(application.vehicles, application.listens_to, strict=False):
+            if vehicle == heard:
+                found.append(Problem(f"{where}: applications.{group}.listens_to", "is the vehicle itself", repr(vehicle)))
+    return found
 
 
 def doubled(scenario: Scenario, where: str) -> list[Problem]:
@@ -116,7 +134,12 @@ def doubled(scenario: Scenario, where: str) -> list[Problem]:
 def untimely(scenario: Scenario, where: str) -> list[Problem]:
     """Periods must be whole ticks; delays must fit into what is kept of the past."""
     tick, found = scenario.clock.tick, []
-    for path, period in (("radio.period", scenario.radio.period), ("recording.period", scenario.recording.period)):
+    spans = {
+        "clock.duration": scenario.clock.duration,
+        "radio.period": scenario.radio.period,
+        "recording.period": scenario.recording.period,
+    }
+    for path, period in spans.items():
         ratio = period / tick
         if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
             found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
@@ -124,7 +147,8 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     kept = (RING - 1) * scenario.radio.period
     if longest > kept:
         found.append(Problem(f"{where}: radio.delay", "is longer than messages are kept", f"{longest} s", f"≤ {kept:g} s"))
-    for model in {vehicle.model for vehicle in scenario.vehicles.values()} & set(catalogue.vehicle_names()):
+    models = {vehicle.model for vehicle in scenario.vehicles.values()} | {scenario.traffic.model}
+    for model in sorted(models & set(catalogue.vehicle_names())):
         for name in ("drive_delay", "brake_delay"):
             delay = catalogue.find_vehicle(model).parameters[name].value
             if delay > (RING - 1) * tick:
@@ -147,7 +171,14 @@ def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road
             f"{where} cannot be driven.",
             [Problem(f"{where}: {field}", error.message, remedy="; ".join(map(str, error.problems)))],
         ) from None
-    return annotated(path, route.speeds)
+    joined = 0.0 if lane is None and vehicle.position.road is None else joins(vehicle.position.road, route.roads, network)
+    return annotated(path, route.speeds, joined)
+
+
+def joins(start: str, roads: list[str], network: Network) -> float:
+    """Station [m] at which a route from its first road comes to the road on which a vehicle starts."""
+    whole = road_path.path(network, connect(network, roads))
+    return next((station.s for station in whole.stations if station.road == start), 0.0)
 
 
 def from_road(name: str, position: Place, roads: list[str], where: str) -> list[str]:
@@ -161,12 +192,12 @@ def from_road(name: str, position: Place, roads: list[str], where: str) -> list[
     return roads[roads.index(position.road) :]
 
 
-def annotated(path: road_path.Path, speeds) -> road_path.Path:
-    """The path with its annotated speeds; bends and limits still hold."""
+def annotated(path: road_path.Path, speeds, joined: float) -> road_path.Path:
+    """The path with the annotated speeds of its route, which it joins at a station; bends and limits still hold."""
     if not speeds:
         return path
     points = path.points.copy()
-    stations = np.arange(points.shape[1]) * PATH_SPACING
+    stations = joined + np.arange(points.shape[1]) * PATH_SPACING
     wanted = np.full(points.shape[1], np.inf)
     for annotation in sorted(speeds, key=lambda each: each.at):
         wanted[stations >= annotation.at] = annotation.speed
@@ -225,10 +256,28 @@ def through_ways(network: Network) -> list[road_path.Path]:
     return _ways[network.digest]
 
 
+def pose(path: road_path.Path, station: float) -> tuple[float, float, float]:
+    """Position [m] and heading [rad] at a station of a path."""
+    stations = np.arange(path.points.shape[1]) * PATH_SPACING
+    x, y, heading = (np.interp(station, stations, path.points[row]) for row in (PATH_X, PATH_Y, PATH_HEADING))
+    return float(x), float(y), float(heading)
+
+
 def position(path: road_path.Path, station: float) -> tuple[float, float]:
     """Where a station of a path lies [m]."""
-    i = int(station / PATH_SPACING)
-    return float(path.points[PATH_X, i]), float(path.points[PATH_Y, i])
+    return pose(path, station)[:2]
+
+
+def check_starts(cars: list[Car], where: str) -> None:
+    """No two named cars may start in the same place."""
+    for i, car in enumerate(cars):
+        for other in cars[:i]:
+            (x, y), (a, b) = position(car.path, car.station), position(other.path, other.station)
+            if (x - a) ** 2 + (y - b) ** 2 < CAR_LENGTH**2:
+                what = f"starts where {other.name!r} starts"
+                field = f"{where}: vehicles.{car.name}.position"
+                remedy = f"place it at least {CAR_LENGTH:g} m away"
+                raise ScenarioError(f"{where} is not a valid scenario.", [Problem(field, what, remedy=remedy)])
 
 
 def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path, float] | None:

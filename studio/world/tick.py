@@ -12,6 +12,12 @@ from studio.world.world import World
 
 def tick(world: World) -> None:
     """Advances the world by one tick. Raises ApplicationError when an application does."""
+    meet(world)
+    part(world)
+
+
+def meet(world: World) -> None:
+    """What happens at one instant; afterwards everything that is known belongs to the same time."""
     environment(world)
     look(world)
     sense(world)
@@ -19,6 +25,10 @@ def tick(world: World) -> None:
     think(world)
     applications(world)
     act(world)
+
+
+def part(world: World) -> None:
+    """What happens until the next instant."""
     move(world)
     collide(world)
     recirculate(world)
@@ -100,7 +110,7 @@ def collide(world: World) -> None:
     """Contacts are found at the end of the tick."""
     v, w, e = world.vehicles, world.worlds, world.events
     time = world.clock.time + world.clock.tick
-    e.hits_found = collision.collide(time, v.state, v.parameter, w.first, w.count, e.hits, e.hits_found)
+    collision.collide(time, v.state, v.parameter, w.first, w.count, e.hits, e.found)
 
 
 def recirculate(world: World) -> None:

@@ -93,8 +93,18 @@ class Events:
     trigger_vehicle: np.ndarray
     trigger_script: np.ndarray
     fired: np.ndarray
-    hits: np.ndarray
-    hits_found: int = 0
+    hits: np.ndarray  # every world has its share of the columns
+    found: np.ndarray  # how many collisions each world has had
+
+    @property
+    def hits_found(self) -> int:
+        """Collisions of all worlds."""
+        return int(self.found.sum())
+
+    def hits_of(self, world: int) -> np.ndarray:
+        """float64[row, collision] of one world."""
+        share = self.hits.shape[1] // self.found.size
+        return self.hits[:, world * share : world * share + int(self.found[world])]
 
 
 @dataclass
