@@ -1,12 +1,25 @@
 """What REST takes and gives, as pydantic models: OpenAPI and the page's types are made from them."""
 
-from typing import Any, Literal
+import json
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
+
+
+def is_text(values: dict[str, Any]) -> dict[str, Any]:
+    """Refuses half characters (lone surrogates): JSON can carry them, a scenario cannot."""
+    try:
+        json.dumps(values, ensure_ascii=False).encode()
+    except UnicodeEncodeError as error:
+        raise ValueError(f"holds text that is no Unicode: {error.reason}") from None
+    return values
+
+
+ChangesByPath = Annotated[dict[str, Any], AfterValidator(is_text)]
 
 
 class Info(BaseModel):
@@ -66,7 +79,7 @@ class Changes(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    set: dict[str, Any] = {}
+    set: ChangesByPath = {}
 
 
 class Check(BaseModel):
@@ -144,7 +157,7 @@ class NewRun(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     scenario: str
-    set: dict[str, Any] = {}
+    set: ChangesByPath = {}
     seed: int | None = None
     parent: int | None = None
 
@@ -232,7 +245,7 @@ class OnStage(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     scenario: str | None = None
-    set: dict[str, Any] = {}
+    set: ChangesByPath = {}
     run: int | None = None
 
 

@@ -1,6 +1,7 @@
 """The application: wiring only."""
 
 import asyncio
+import json
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
@@ -9,7 +10,7 @@ from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse
+from starlette.responses import Response
 
 from studio.errors import Problem, ServerError, StoreError, StudioError, UnknownError
 from studio.server import relay, routes
@@ -56,24 +57,29 @@ def status_of(error: StudioError) -> int:
     return 409 if isinstance(error, ServerError) and "is over" in error.message else 422
 
 
-async def refused(request: Request, error: StudioError) -> JSONResponse:
+def refusal(error: StudioError, status: int) -> Response:
+    """An error as JSON in plain ASCII: what was sent may hold half characters that no encoding takes."""
+    return Response(json.dumps(error.as_json()), status_code=status, media_type="application/json")
+
+
+async def refused(request: Request, error: StudioError) -> Response:
     """Our errors as JSON."""
-    return JSONResponse(error.as_json(), status_code=status_of(error))
+    return refusal(error, status_of(error))
 
 
-async def no_such_route(request: Request) -> JSONResponse:
+async def no_such_route(request: Request) -> Response:
     """An address under /api that does not exist."""
     path = request.url.path
     problem = Problem(path, "does not exist", allowed="see /openapi.json")
-    return JSONResponse(UnknownError(f"There is no {path}.", [problem]).as_json(), status_code=404)
+    return refusal(UnknownError(f"There is no {path}.", [problem]), 404)
 
 
-async def misread(request: Request, error: RequestValidationError) -> JSONResponse:
+async def misread(request: Request, error: RequestValidationError) -> Response:
     """FastAPI's findings about a request, in the same form."""
     problems = [
         Problem(".".join(map(str, each["loc"])), each["msg"], str(each.get("input", ""))[:80]) for each in error.errors()
     ]
-    return JSONResponse(StudioError("The request cannot be read.", problems).as_json(), status_code=422)
+    return refusal(StudioError("The request cannot be read.", problems), 422)
 
 
 def description() -> dict[str, Any]:

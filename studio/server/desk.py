@@ -2,7 +2,6 @@
 
 import threading
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -25,20 +24,18 @@ class Desk:
     scenarios: Path
     applications: Path | None
 
-    @cached_property
+    def __post_init__(self) -> None:
+        first = next(iter(self.files().values()), None)
+        self.lives = Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
+        self._stage: Stage | None = None
+        self._lock = threading.Lock()
+
+    @property
     def stage(self) -> Stage:
         """The scene, made when it is first wanted."""
         with self._lock:
-            return Stage()
-
-    @cached_property
-    def lives(self) -> Lives:
-        """The live runs."""
-        first = next(iter(self.files().values()), None)
-        return Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
-
-    def __post_init__(self) -> None:
-        self._lock = threading.Lock()
+            self._stage = self._stage or Stage()
+            return self._stage
 
     def on_frame(self, live: LiveRun, poses, lights) -> None:
         """Frames go to the stage."""
@@ -88,7 +85,7 @@ class Desk:
         loaded = job.seeded(self.load(scenario, changes), seed)
         check_pace(pace)
         order = Order(loaded.path, loaded.changes, seed, parent, pace_factor(pace), paused, self.db)
-        return self.lives.start(order, scenario, loaded.document)
+        return self.lives.start(order, scenario, loaded)
 
 
 def check_pace(pace: float | str) -> None:

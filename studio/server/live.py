@@ -5,10 +5,12 @@
 """
 
 import asyncio
+import logging
 import multiprocessing
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from math import inf, isfinite
 from multiprocessing.connection import Connection
@@ -18,12 +20,16 @@ from typing import Any
 import numpy as np
 
 from studio.errors import Problem, ServerError, UnknownError
+from studio.job import Loaded
 from studio.server import worker
 from studio.server.worker import Order
+from studio.store.runs import reopen_runs
 
 START_PATIENCE = 120.0  # [s] the first start compiles
 MOST_LIVE = 8  # processes at a time
 END_PATIENCE = 3.0  # [s] for a process to save and end
+STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang
+LOG = logging.getLogger(__name__)
 spawn = multiprocessing.get_context("spawn")
 
 
@@ -50,7 +56,8 @@ class Process:
 
     def end(self) -> None:
         """Ends it, kindly first."""
-        self.pipe.close()
+        with suppress(OSError):
+            self.pipe.close()
         self.process.join(END_PATIENCE)
         if self.process.is_alive():
             self.process.kill()
@@ -65,8 +72,8 @@ class LiveRun:
     duration: float
     process: Process
     on_frame: Callable[["LiveRun", np.ndarray, np.ndarray], None]
-    document: dict[str, Any]
-    changes: dict[str, Any]
+    loaded: Loaded
+    db: Path
     status: str = "starting"
     time: float = 0.0
     pace: float = 1.0
@@ -78,24 +85,36 @@ class LiveRun:
     frame: tuple[np.ndarray, np.ndarray] | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
+    given_up: bool = False
 
     def listen(self) -> None:
         """Reads the process's news until it ends; runs in a thread of its own."""
         try:
-            while True:
+            while not self.is_over:
                 word, *values = self.process.pipe.recv()
                 getattr(self, f"on_{word}_news")(*values)
-                if word == "end":
-                    break
         except (EOFError, OSError):
             self.process.process.join(END_PATIENCE)
-            self.on_end_news("failed", f"The process of this run ended with code {self.process.process.exitcode}.")
-        self.process.end()
+            status, reason = self.explanation()
+            if self.given_up:  # a row of a process that died by itself is found by whoever reads it next
+                reopen_runs(self.db).end(self.run, status, reason)
+            self.on_end_news(status, reason)
+        finally:
+            self.process.end()
+
+    def explanation(self) -> tuple[str, str]:
+        """Status and reason of a run whose process has gone without a word."""
+        if self.given_up:
+            return "stopped", f"It did not react to stop within {STOP_PATIENCE:g} s; its process was ended."
+        return "failed", f"The process of this run ended with code {self.process.process.exitcode}."
 
     def on_frame_news(self, when: float, poses: np.ndarray, lights: np.ndarray) -> None:
-        """A picture for the scene."""
+        """A picture for the scene. What goes wrong with drawing must not end a run."""
         self.frame = (poses, lights)
-        self.on_frame(self, poses, lights)
+        try:
+            self.on_frame(self, poses, lights)
+        except Exception:
+            LOG.exception("a frame of run %d could not be drawn", self.run)
 
     def on_samples_news(self, times: np.ndarray, values: dict[str, np.ndarray]) -> None:
         """New points of the live charts."""
@@ -152,6 +171,19 @@ class LiveRun:
         except OSError:
             raise ServerError(f"The process of run {self.run} has ended.") from None
 
+    def stop(self) -> None:
+        """Orders the end; a process that does not react is ended."""
+        self.order("stop")
+        patience = threading.Timer(STOP_PATIENCE, self.give_up)
+        patience.daemon = True
+        patience.start()
+
+    def give_up(self) -> None:
+        """Ends a process that still has not stopped."""
+        if not self.is_over:
+            self.given_up = True
+            self.process.process.kill()
+
     def join(self, listener: "Listener") -> None:
         """A new listener first gets everything so far."""
         with self.lock:
@@ -175,18 +207,21 @@ class LiveRun:
 
 
 class Listener:
-    """A queue of messages in the server's event loop; a listener that sleeps too long is cut off."""
+    """A queue of messages in the server's event loop. One that sleeps too long is cut off: its last message is None."""
 
     CAPACITY = 2000
 
     def __init__(self) -> None:
         self.loop = asyncio.get_running_loop()
-        self.queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
+        self.queue: asyncio.Queue[dict[str, Any] | None] = asyncio.Queue()
+        self.is_cut = False
 
     def put(self, message: dict[str, Any]) -> None:
         """From any thread."""
-        if self.queue.qsize() < self.CAPACITY and not self.loop.is_closed():
-            self.loop.call_soon_threadsafe(self.queue.put_nowait, message)
+        if self.is_cut or self.loop.is_closed():
+            return
+        self.is_cut = self.queue.qsize() >= self.CAPACITY
+        self.loop.call_soon_threadsafe(self.queue.put_nowait, None if self.is_cut else message)
 
 
 class Lives:
@@ -197,6 +232,7 @@ class Lives:
         self.db, self.first, self.applications, self.on_frame = db, first, applications, on_frame
         self.runs: dict[int, LiveRun] = {}
         self.spare: Process | None = None
+        self.starting = 0
         self.lock = threading.Lock()
 
     def make_ready(self) -> None:
@@ -212,19 +248,45 @@ class Lives:
             process, self.spare = self.spare, None
         return process
 
-    def start(self, order: Order, scenario: str, document: dict[str, Any]) -> LiveRun:
+    def start(self, order: Order, scenario: str, loaded: Loaded) -> LiveRun:
         """Starts a run; returns when its row stands. Raises what the process refuses, or ServerError."""
-        if sum(not live.is_over for live in self.runs.values()) >= MOST_LIVE:
-            raise ServerError(
-                "Too many runs are going on.", [Problem("live runs", "are as many as may be", "", f"{MOST_LIVE} at a time", "stop one")]
-            )
-        process = self.take()
-        number, duration = begun(process, order)
-        live = LiveRun(number, scenario, duration, process, self.on_frame, document, order.changes, pace=order.pace)
-        self.runs[number] = live
+        with self.place():
+            process, number, duration = self.begin(order)
+            live = LiveRun(number, scenario, duration, process, self.on_frame, loaded, self.db, pace=order.pace)
+            self.runs[number] = live
         threading.Thread(target=live.listen, name=f"run {number}", daemon=True).start()
         threading.Timer(1.0, self.make_ready).start()  # not while the new run draws its first breath
         return live
+
+    @contextmanager
+    def place(self) -> Iterator[None]:
+        """A place among the live runs, held while one starts; raises ServerError when there is none."""
+        with self.lock:
+            if self.starting + sum(not live.is_over for live in self.runs.values()) >= MOST_LIVE:
+                raise ServerError(
+                    "Too many runs are going on.",
+                    [Problem("live runs", "are as many as may be", "", f"{MOST_LIVE} at a time", "stop one")],
+                )
+            self.starting += 1
+        try:
+            yield
+        finally:
+            with self.lock:
+                self.starting -= 1
+
+    def begin(self, order: Order) -> tuple[Process, int, float]:
+        """A process that has begun with the order; when the one that waited has died, another."""
+        process = self.take()
+        try:
+            return process, *begun(process, order)
+        except (EOFError, OSError):
+            process.end()
+        process = self.take()
+        try:
+            return process, *begun(process, order)
+        except (EOFError, OSError):
+            process.end()
+            raise ServerError(f"The process of the run did not start (code {process.process.exitcode}).") from None
 
     def find(self, run: int) -> LiveRun:
         """A live run; raises UnknownError."""
@@ -236,7 +298,7 @@ class Lives:
     def close(self) -> None:
         """Stops all runs and ends all processes."""
         for live in self.runs.values():
-            if not live.is_over:
+            with suppress(ServerError):
                 live.order("stop")
         deadline = time.monotonic() + END_PATIENCE
         while any(not live.is_over for live in self.runs.values()) and time.monotonic() < deadline:
@@ -247,17 +309,13 @@ class Lives:
 
 
 def begun(process: Process, order: Order) -> tuple[int, float]:
-    """Gives the order and waits for the answer: the run's number and duration."""
+    """Gives the order and waits for the answer: the run's number and duration. Raises EOFError, OSError, or a refusal."""
     process.pipe.send(("start", order))
     while process.pipe.poll(START_PATIENCE):
-        try:
-            word, *values = process.pipe.recv()
-        except EOFError:
-            break
+        word, *values = process.pipe.recv()
         if word == "refused":
             process.end()
             raise values[0]
         if word == "begun":
             return values[0], values[1]
-    process.end()
-    raise ServerError(f"The process of the run did not start (code {process.process.exitcode}).")
+    raise TimeoutError

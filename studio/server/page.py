@@ -18,6 +18,8 @@ app = FastAPI(openapi_url=None)
 @app.get("/{path:path}")
 def answer(path: str) -> Response:
     """A file of the bundle, or the page itself: it finds its place by its address."""
+    if "\0" in path:
+        return HTMLResponse("not found", status_code=404)
     wanted = (BUNDLE / path).resolve()
     if path and wanted.is_file() and wanted.is_relative_to(BUNDLE):
         return FileResponse(wanted, headers=FOREVER if path.startswith("assets/") else ALWAYS_ASK)

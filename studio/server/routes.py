@@ -61,7 +61,9 @@ def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
 def check(scenario: str, changes: answer.Changes, desk: AtDesk) -> answer.Check:
     """Whether changes make a valid scenario."""
     try:
-        return answer.Check(ok=True, problems=[], document=desk.load(scenario, changes.set).document)
+        loaded = desk.load(scenario, changes.set)
+        job.check(loaded)
+        return answer.Check(ok=True, problems=[], document=loaded.document)
     except ScenarioError as error:
         document = desk.load(scenario).document
         return answer.Check(ok=False, problems=error.as_json()["problems"], document=document)
@@ -160,7 +162,9 @@ def step(run: int, desk: AtDesk) -> answer.Live:
 @router.post("/live/{run}/stop")
 def stop(run: int, desk: AtDesk) -> answer.Live:
     """Ends the run; what was recorded is kept."""
-    return ordered(desk, run, "stop")
+    live = desk.lives.find(run)
+    live.stop()
+    return answer.Live(**live.as_json())
 
 
 @router.post("/live/{run}/pace")
@@ -193,8 +197,9 @@ async def socket(browser: WebSocket, run: int) -> None:
     try:
         while True:
             message = await listener.queue.get()
-            await browser.send_json(message)
-            if message["type"] == "end":
+            if message is not None:
+                await browser.send_json(message)
+            if message is None or message["type"] == "end":
                 await browser.close()
                 return
     except (WebSocketDisconnect, RuntimeError):
@@ -208,8 +213,7 @@ def scene(wanted: answer.OnStage, desk: AtDesk) -> answer.SceneCast:
     """Chooses what the scene shows."""
     if wanted.run is not None:
         live = desk.lives.find(wanted.run)
-        loaded = desk.load(live.scenario, live.changes)
-        return answer.SceneCast(**desk.stage.show(job.seeded(loaded, live.document["seed"]), live))
+        return answer.SceneCast(**desk.stage.show(live.loaded, live))
     if wanted.scenario is None:
         raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])
     return answer.SceneCast(**desk.stage.show(desk.load(wanted.scenario, wanted.set)))

@@ -46,8 +46,8 @@ class Stage:
 
     def on_frame(self, live: LiveRun, poses: np.ndarray, lights: np.ndarray) -> None:
         """A frame of some live run; drawn when it is the one that is shown."""
-        if live is self.showing:
-            with self.lock:
+        with self.lock:
+            if live is self.showing and poses.shape[1] == len(self.cast):
                 self.scene.update(poses)
                 self.scene.show_signals(lights)
 

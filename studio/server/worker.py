@@ -102,7 +102,8 @@ class Live:
             self.paused = False
         elif order == "step":
             self.paused = True
-            self.tick()
+            if not self.simulation.is_over:
+                self.tick()
         elif order == "pace":
             self.pace.factor = values[0]
         self.pace.restart(self.simulation.time)

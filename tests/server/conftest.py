@@ -36,6 +36,8 @@ def server(tmp_path_factory, sample):
     (scenarios / "bad.yaml").write_text("title: bad\nclok: {}\n")
     (folder / "applications").mkdir()
     (folder / "applications" / "broken.py").write_text(BROKEN)
+    hanging = BROKEN.replace('raise RuntimeError("the idea was not so good")', "while True: pass")
+    (folder / "applications" / "hanging.py").write_text(hanging)
     with served(folder, "--applications", folder / "applications") as running:
         yield running
 

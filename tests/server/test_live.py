@@ -139,3 +139,47 @@ def test_a_foreign_page_cannot_listen(client):
 def test_an_unknown_live_run(client):
     with news(client, 999) as socket:
         assert "999" in json.loads(socket.recv(timeout=10))["message"]
+
+
+def test_the_scene_may_change_while_a_run_goes_on(client):
+    """Another cast on stage must not disturb a run whose frames keep coming."""
+    run = start(client)
+    client.post("/api/scene", json={"run": run})
+    for count in (3, 20, 0):
+        answer = client.post("/api/scene", json={"scenario": SCENARIO, "set": {"traffic.count": count}})
+        assert len(answer.json()["vehicles"]) == 5 + count
+        client.post("/api/scene", json={"run": run})
+    with news(client, run) as socket:
+        before = until(socket, is_state("running"))[-1]["time"]
+        until(socket, lambda m: m["type"] == "state" and m["time"] > before + 1)
+        client.post(f"/api/live/{run}/stop")
+        assert until(socket, lambda m: m["type"] == "end")[-1]["status"] == "stopped"
+
+
+def test_steps_end_with_the_run(client):
+    run = start(client, set={"clock.duration": 0.04}, paused=True)
+    for _ in range(6):
+        client.post(f"/api/live/{run}/step")
+    with news(client, run) as socket:
+        until(socket, lambda m: m["type"] == "end")
+    assert client.get(f"/api/runs/{run}").json()["sim_time_s"] == 0.04
+
+
+def test_an_application_that_hangs_can_be_stopped(client):
+    run = start(client, set={"applications.platoon.application": "hanging"})
+    with news(client, run) as socket:
+        until(socket, lambda m: m["type"] == "state" and m["time"] > 0.3)
+        time.sleep(1)
+        client.post(f"/api/live/{run}/stop")
+        end = until(socket, lambda m: m["type"] == "end")[-1]
+    assert end["status"] == "stopped" and "did not react" in end["error"]
+    assert client.get(f"/api/runs/{run}").json()["status"] == "stopped"
+
+
+def test_a_spare_process_that_died_is_replaced(client, server):
+    time.sleep(3)  # the spare of the last run is there by now
+    for child in psutil.Process(server[2].pid).children():
+        child.kill()
+    run = start(client, set={"clock.duration": 0.1}, pace="fast")
+    with news(client, run) as socket:
+        assert until(socket, lambda m: m["type"] == "end")[-1]["status"] == "done"

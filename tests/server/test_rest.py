@@ -114,6 +114,10 @@ def test_compare(client, pair):
         ("post", "/api/runs", {"scene": SCENARIO}, 422, ["body"]),
         ("post", "/api/live", {"scenario": SCENARIO, "pace": 100}, 422, ["pace", "0.1"]),
         ("post", "/api/live/999/pause", None, 404, ["999"]),
+        ("get", "/api/runs/99999999999999999999", None, 404, ["no run"]),
+        ("get", f"/api/compare?a=1&b={10**30}", None, 404, ["no run"]),
+        ("post", "/api/live", {"scenario": SCENARIO, "parent": 10**30}, 404, ["no run"]),
+        ("post", "/api/runs", {"scenario": SCENARIO, "set": {"map.file": "x" * 5000}}, 422, ["map.file", "300"]),
         ("post", "/api/scene", {}, 422, ["a scenario or a run"]),
     ],
 )
@@ -124,6 +128,19 @@ def test_refusals(client, pair, method, path, body, status, words):
     assert set(told) == {"message", "problems"}
     for word in words:
         assert word in json.dumps(told, ensure_ascii=False)
+
+
+def test_half_characters_and_zero_bytes(client):
+    broken = b'{"scenario": "%s", "set": {"title": "\\ud800"}}' % SCENARIO.encode()
+    answer = client.post("/api/runs", content=broken, headers={"Content-Type": "application/json"})
+    assert answer.status_code == 422 and "Unicode" in answer.text
+    assert client.post("/api/runs", content=b'{"scenario": "\\ud800"}', headers={"Content-Type": "application/json"}).status_code in (404, 422)
+    assert client.get("/%00").status_code == client.get("/assets/%00").status_code == 404
+
+
+def test_a_check_knows_the_names(client):
+    found = client.post(f"/api/scenarios/{SCENARIO}/check", json={"set": {"vehicles.leader.route": "nope"}}).json()
+    assert not found["ok"] and "vehicles.leader.route" in found["problems"][0]["where"]
 
 
 def test_nothing_was_written_by_refusals(client, pair):
