@@ -32,7 +32,6 @@ Sets = Annotated[list[str] | None, typer.Option("--set", metavar="PATH=VALUE", h
 ScenarioFile = Annotated[Path, typer.Argument(metavar="SCENARIO", help="A scenario file (YAML).")]
 DEFAULT_DB = Path("runs.db")
 PIPED_WIDTH = 160  # columns of a table that is piped
-COMMANDS = ("serve", "run", "runs", "show", "compare", "check", "schema", "openapi")
 
 
 @app.command()
@@ -134,6 +133,25 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
         load_applications(applications)
         prepared = job.prepare(job.load(scenario, changes(set_)))
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}")
+
+
+@app.command()
+def bench(as_json: AsJson = False) -> None:
+    """Measures vehicle steps and ticks a second on this machine; takes about half a minute."""
+    with progress("measuring") as report:
+        from studio import bench as measure
+        from studio.server.serve import SAMPLES
+
+        figures = measure.run(SAMPLES / "grosser_stern_platoon.yaml", report)
+    if as_json:
+        print_json(figures)
+        return
+    versions = ", ".join(f"{name} {number}" for name, number in figures["versions"].items())
+    print(f"{figures['machine']}; {versions}")
+    rows = [[f"dynamics, {n} vehicles, one core", f"{value:,.0f}", "vehicle steps/s"] for n, value in figures["dynamics"]["one_core"].items()]
+    rows.append(["dynamics, 1000 vehicles, all cores", f"{figures['dynamics']['all_cores']:,.0f}", "vehicle steps/s"])
+    rows.append(["whole tick of the sample, one core", f"{figures['tick']['one_core']:,.0f}", "vehicle ticks/s"])
+    print_table(["what", "median", "unit"], rows)
 
 
 @app.command()

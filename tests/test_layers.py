@@ -16,6 +16,7 @@ FLOORS = [
     {"assess"},
     {"store"},
     {"job"},
+    {"bench"},
     {"scene"},
     {"server"},
     {"cli"},

@@ -2,28 +2,8 @@
 
 import pytest
 
+from tests.broken import BROKEN
 from tests.server.server import served
-
-BROKEN = '''
-"""Raises after half a second."""
-from typing import NamedTuple
-from pydantic import BaseModel
-from studio.application.contract import LEAVE, Command
-
-TITLE = "Broken"
-
-class Parameters(BaseModel):
-    pass
-
-class Memory(NamedTuple):
-    pass
-
-def decide(parameters, memory, observation):
-    if observation.clock.time > 0.5:
-        raise RuntimeError("the idea was not so good")
-    return memory, Command(LEAVE, LEAVE)
-'''
-
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory, sample):
