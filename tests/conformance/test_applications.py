@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from studio.application import registry
 from studio.application.contract import Clock, Command, Front, Message, Observation, Own
 from studio.application.host import compiled_loop, first_memory, observation_rows, python_loop
+from studio.errors import ApplicationError
 
 NAMES = sorted(registry.known())
 speeds, accelerations = st.floats(0, 60), st.floats(-10, 10)
@@ -88,3 +89,20 @@ def test_compiled_and_interpreted_agree(application):
 def test_a_name_is_given_once(application):
     with pytest.raises(Exception, match="taken"):
         registry.register(application.name, application.module)
+
+
+WRONG = {
+    "COMPILED = True": "is not compiled",
+    "class Memory(NamedTuple):\n    u: float": "no defaults",
+    "class Parameters(BaseModel):\n    name: str = 'x'": "no number",
+}
+
+
+@pytest.mark.parametrize("lines", WRONG)
+def test_a_broken_contract_is_told_at_once(tmp_path, lines):
+    from tests.broken import BROKEN
+
+    path = tmp_path / f"wrong_{len(lines)}.py"
+    path.write_text(f"{BROKEN}\n{lines}\n")
+    with pytest.raises(ApplicationError, match=WRONG[lines]):
+        registry.load_file(path)

@@ -58,3 +58,17 @@ def test_assignments(text, path, value):
 def test_what_is_no_assignment(text):
     with pytest.raises(ScenarioError, match="--set"):
         edit.parse_assignment(text)
+
+
+def test_fields_that_depend_on_each_other_change_together(sample):
+    assert job.load(sample, {"clock.step": 0.003, "clock.tick": 0.03, "recording.period": 0.03, "radio.period": 0.09}).scenario.clock.tick == 0.03
+    changed = job.load(sample, {"vehicles.leader.position.along": None, "vehicles.leader.position.road": "340498991"})
+    assert changed.scenario.vehicles["leader"].position.road == "340498991"
+    fewer = job.load(sample, {"applications.platoon.vehicles": ["follower_1"], "applications.platoon.listens_to": ["leader"]})
+    assert fewer.scenario.applications["platoon"].vehicles == ["follower_1"]
+
+
+@pytest.mark.parametrize("value", ["2020-13-45", "!!int abc", "!!bool x", "!!timestamp foo", "[" * 5000])
+def test_values_that_yaml_chokes_on(value):
+    with pytest.raises(ScenarioError, match="--set title"):
+        edit.parse_assignment(f"title={value}")

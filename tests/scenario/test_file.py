@@ -45,6 +45,7 @@ def test_the_sample_is_valid_and_complete(document):
         ("applications.platoon.listens_to", ["leader"], ["4 vehicles but 1"]),
         ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
         ("version", 2, ["version", "2"]),
+        ("vehicles.leader.sped", 2, ["vehicles.leader.sped", "did you mean 'speed'"]),
     ],
 )
 def test_a_wrong_field_is_named(document, path, value, words):
@@ -129,6 +130,33 @@ def test_two_applications_on_one_car(document, folder):
 def test_a_period_that_is_no_whole_number_of_ticks(document, folder):
     document["radio"] = {"period": 0.03}
     with pytest.raises(ScenarioError, match="radio.period"):
+        prepared(document, folder)
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "words"),
+    [
+        ("clock", {"duration": 0.05}, ["clock.duration", "whole number of ticks"]),
+        ("goals", {"min_tcc": {"least": 1}}, ["goals.min_tcc", "did you mean 'min_ttc'"]),
+        ("applications", {"a": {"application": "acc", "vehicles": ["leader"], "listens_to": ["leader"]}}, ["itself"]),
+    ],
+)
+def test_what_only_makes_sense_as_a_whole(document, folder, path, value, words):
+    document[path] = value
+    with pytest.raises(ScenarioError) as caught:
+        prepared(document, folder)
+    assert all(word in str(caught.value) for word in words)
+
+
+def test_names_of_the_traffic_are_taken(document, folder):
+    document["vehicles"]["traffic_01"] = document["vehicles"]["leader"] | {"position": {"along": 10}}
+    with pytest.raises(ScenarioError, match="name of the traffic"):
+        prepared(document, folder)
+
+
+def test_two_cars_in_one_place(document, folder):
+    document["vehicles"]["other"] = document["vehicles"]["leader"] | {"position": {"along": 361}}
+    with pytest.raises(ScenarioError, match="starts where 'leader' starts"):
         prepared(document, folder)
 
 

@@ -169,3 +169,21 @@ def test_only_the_wanted_channels_are_kept(sample, tmp_path):
     assert runs.find(1).metrics["min_gap"].value > 0  # metrics see everything
     with pytest.raises(Exception, match="recording.channels.0.*did you mean 'speed'"):
         job.run(job.load(sample, {"recording.channels": ["sped"]}), runs=runs)
+
+
+def test_all_of_it_or_nothing(sample, tmp_path, monkeypatch):
+    """When writing the metrics fails, the run is not done either."""
+    from studio.store import runs as module
+
+    runs = open_runs(tmp_path / "runs.db")
+    monkeypatch.setattr(module, "metric_rows", lambda run, metrics: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        job.run(job.load(sample, {"clock.duration": 0.1}), runs=runs)
+    row = runs.find(1)
+    assert row.status == "failed" and row.sim_time_s is None and runs.channels(1) == []
+
+
+def test_a_finished_run_is_never_killed(kept):
+    runs, first = kept
+    runs.end(first.row.run, "killed", "too late")
+    assert runs.find(first.row.run).status == "done"

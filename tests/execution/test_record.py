@@ -1,0 +1,75 @@
+"""What is recorded: everything of a sample belongs to one instant; who has left has no values."""
+
+import numpy as np
+import pytest
+
+from studio import job
+from studio.execution.loop import as_fast_as_possible
+from studio.execution.simulation import simulation
+from studio.road.path import PATH_SPEED
+
+
+def result(sample, **changes):
+    changes = {path.replace("__", "."): value for path, value in changes.items()}
+    return job.run(job.load(sample, {"clock__duration".replace("__", "."): 3} | changes))
+
+
+def test_a_start_is_where_the_file_says(sample):
+    """345.2 m is 345.2 m, and the gaps of the platoon are those of the file: 14.8 m less a car's length."""
+    run = result(sample)
+    assert run.trace("leader.station")[0] == pytest.approx(360.0, abs=0.01)
+    assert run.trace("follower_1.station")[0] == pytest.approx(345.2, abs=0.01)
+    assert run.trace("follower_1.gap")[0] == pytest.approx(14.8 - 4.508, abs=0.01)
+
+
+def test_a_sample_is_of_one_instant(sample):
+    """Station and position move together, from the first interval on; the last sample is the end."""
+    run = result(sample)
+    moved = np.hypot(np.diff(run.trace("leader.x")), np.diff(run.trace("leader.y")))
+    np.testing.assert_allclose(np.diff(run.trace("leader.station")), moved, atol=2e-3)
+    assert run.time[0] == 0 and run.time[-1] == 3 and run.time.size == 151
+
+
+def test_acceleration_is_the_derivative_of_speed(sample):
+    run = result(sample)
+    speed, acceleration = run.trace("leader.speed"), run.trace("leader.acceleration")
+    np.testing.assert_allclose(np.diff(speed)[10:] / 0.02, acceleration[11:], atol=0.02)
+
+
+def test_silence_is_not_freshness(sample):
+    """Nothing received: the age grows with the run. Everything received: about delay + half a period + half a tick."""
+    assert result(sample, radio__loss=1).metrics["information_age"].value == pytest.approx(1.5, abs=0.02)
+    heard = result(sample, radio__loss=0, clock__duration=20).metrics["information_age"].value
+    assert heard == pytest.approx(0.02 + 0.05 + 0.01, abs=0.015)
+
+
+def test_who_has_left_has_no_values(sample):
+    """The leader arrives; its last values do not count for ever after."""
+    near_the_end = float(int(job.prepare(job.load(sample)).cars[0].path.length)) - 60
+    changes = {"vehicles.leader.position.along": near_the_end, "clock.duration": 10, "traffic.count": 0}
+    run = job.run(job.load(sample, changes))
+    speed = run.trace("leader.speed")
+    assert np.isnan(speed[-1]) and speed[0] == 13.0
+    assert any(event.text.startswith("arrived") and event.vehicle == "leader" for event in run.record.happenings)
+    assert run.metrics["mean_speed"].value == pytest.approx(np.nanmean(run.record.channel("speed")))
+
+
+def test_an_annotated_speed_stands_where_the_route_has_it(sample):
+    """At 1000 m along the route 5 m/s, whether a car starts along the route or on its second road."""
+    changes = {"routes.east_to_west.speeds": [{"at": 1000, "speed": 5.0}]}
+    along = job.prepare(job.load(sample, changes)).cars[0].path
+    by_road = {"vehicles.leader.position": {"road": "206170873#1", "lane": 0, "offset": 10}}
+    other = next(car for car in job.prepare(job.load(sample, changes | by_road)).cars if car.name == "leader").path
+
+    def place(path):
+        return path.points[:2, np.argmax(path.points[PATH_SPEED] <= 5.0)]
+
+    assert np.hypot(*(place(along) - place(other))) < 6.0
+
+
+def test_a_trigger_may_have_any_name(sample):
+    loaded = job.load(sample, {"clock.duration": 1})
+    renamed = loaded.scenario.model_copy(update={"triggers": {"hits": loaded.scenario.triggers["hard_brake"].model_copy(update={"time": 0.5})}})
+    run = simulation(job.prepare(job.Loaded(loaded.path, {}, renamed)))
+    as_fast_as_possible(run)
+    assert [event.time for event in run.happenings] == [0.5]
