@@ -15,12 +15,12 @@ def jerk(acceleration: np.ndarray, time: np.ndarray) -> np.ndarray:
     return (acceleration[..., shift:] - acceleration[..., :-shift]) / (shift * period)
 
 
-@metric("jerk_rms", unit="m/s³", goal="lower", title="Jerk, root mean square")
+@metric("jerk_rms", unit="m/s³", goal="lower", title="Jerk of the followers, root mean square")
 def jerk_rms(record: Record) -> float:
-    """Root mean square over all recorded vehicles and the whole run."""
+    """Root mean square over the followers and the whole run."""
     if record.time.size < 2 + WINDOW / (record.time[-1] / max(record.time.size - 1, 1) or 1.0):
         return float("nan")
-    return float(np.sqrt(np.nanmean(jerk(record.channel("acceleration"), record.time) ** 2)))
+    return float(np.sqrt(np.nanmean(jerk(record.of_followers("acceleration"), record.time) ** 2)))
 
 
 @metric("max_lateral_acceleration", unit="m/s²", goal="lower", title="Strongest lateral acceleration")

@@ -6,7 +6,7 @@ from studio.assess.metric import metric
 from studio.execution.record import Record
 
 
-CLOSING = 1e-6  # [m/s] slower than this nobody comes nearer
+CLOSING = 0.1  # [m/s] slower than this nobody comes nearer: it would take minutes, and sensors could not tell
 
 
 def smallest(values: np.ndarray) -> float:
@@ -43,16 +43,16 @@ def min_gap(record: Record) -> float:
     return smallest(record.channel("gap"))
 
 
-@metric("min_time_gap", unit="s", goal="higher", title="Least time gap")
+@metric("min_time_gap", unit="s", goal="higher", title="Least time gap of a follower")
 def min_time_gap(record: Record) -> float:
     """Least gap over own speed, while rolling."""
-    return smallest(record.channel("time_gap"))
+    return smallest(record.of_followers("time_gap"))
 
 
-@metric("max_deceleration", unit="m/s²", goal="lower", title="Strongest deceleration")
+@metric("max_deceleration", unit="m/s²", goal="lower", title="Strongest deceleration of a follower")
 def max_deceleration(record: Record) -> float:
-    """Strongest deceleration of any recorded vehicle."""
-    return -smallest(record.channel("acceleration"))
+    """How hard the cars had to brake that were not told to by the script."""
+    return -smallest(record.of_followers("acceleration"))
 
 
 @metric("collisions", unit="1", goal="lower", title="Collisions")

@@ -12,10 +12,10 @@ def mean_speed(record: Record) -> float:
     return float(np.nanmean(record.channel("speed")))
 
 
-@metric("mean_gap", unit="m", goal="lower", title="Mean gap")
+@metric("mean_gap", unit="m", goal="lower", title="Mean gap of the followers")
 def mean_gap(record: Record) -> float:
     """While somebody is ahead."""
-    gap = record.channel("gap")
+    gap = record.of_followers("gap")
     return float(np.mean(gap[np.isfinite(gap)])) if np.isfinite(gap).any() else float("nan")
 
 

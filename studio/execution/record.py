@@ -48,6 +48,12 @@ class Record:
             return np.where(speed > ROLLING, self.channel("gap") / np.maximum(speed, ROLLING), np.nan)
         return self.values[[channel.name for channel in CHANNELS].index(name)]
 
+    def of_followers(self, name: str) -> np.ndarray:
+        """One quantity of the vehicles that follow in a chain, float64[vehicle, n]; of all when there is no chain."""
+        following = {vehicle for chain in self.chains for vehicle in chain.vehicles[1:]}
+        rows = [i for i, vehicle in enumerate(self.vehicles) if vehicle in following]
+        return self.channel(name)[rows] if rows else self.channel(name)
+
     def trace(self, name: str) -> np.ndarray:
         """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""
         vehicle, _, quantity = name.partition(".")

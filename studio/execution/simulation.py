@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -9,10 +10,24 @@ from studio.errors import ApplicationError
 from studio.execution.record import Chain, Happening, Record, Recorder
 from studio.world.build import build
 from studio.world.setting import Setting
-from studio.world.state import ACTIVE, HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, VEHICLE
+from studio.world.state import (
+    ACTIVE,
+    AHEAD,
+    FRONT,
+    HIT_FIRST,
+    HIT_SECOND,
+    HIT_SPEED,
+    HIT_TIME,
+    RED_STATION,
+    STATION,
+    V_X,
+    VEHICLE,
+)
 from studio.world.tick import environment, look, meet, part
 from studio.world.world import World, first_not_finite
 
+AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits
+STANDING = 0.1  # [m/s]
 CHECK_EVERY = 50  # ticks between two looks for numbers that are not finite
 
 
@@ -28,11 +43,18 @@ class Simulation:
     error: str | None = None
     started: float = field(default_factory=time.perf_counter)
     reported: set[tuple[str, str]] = field(default_factory=set)
+    between: dict[str, str] = field(default_factory=dict)
+    waiting: dict[str, bool] = field(default_factory=dict)
 
     @property
     def time(self) -> float:
         """Simulated time [s]."""
         return self.world.clock.time
+
+    @cached_property
+    def chains(self) -> tuple[Chain, ...]:
+        """Who follows whom by radio."""
+        return chains(self.setting)
 
     @property
     def ticks(self) -> int:
@@ -95,6 +117,8 @@ class Simulation:
         self.report_triggers()
         self.report_hits()
         self.report_arrivals()
+        self.report_company()
+        self.report_waiting()
 
     def is_new(self, kind: str, name: str) -> bool:
         """Whether this has not been reported; from now on it has."""
@@ -125,6 +149,28 @@ class Simulation:
             if self.world.vehicles.state[ACTIVE, column] == 0.0 and self.is_new("arrival", name):
                 self.happen(self.time, "arrived at the end of its route", name)
 
+    def report_company(self) -> None:
+        """Somebody has come between a follower and the car that it listens to, or has gone again."""
+        mind, names = self.world.vehicles.mind, self.setting.names
+        for chain in self.chains:
+            for ahead, follower in zip(chain.vehicles, chain.vehicles[1:], strict=False):
+                seen = int(mind[AHEAD, names.index(follower)])
+                between = names[seen] if seen >= 0 and names[seen] not in chain.vehicles else ""
+                if between != self.between.get(follower, ""):
+                    self.between[follower] = between
+                    text = f"{between} is between it and {ahead}" if between else f"nobody is between it and {ahead} any more"
+                    self.happen(self.time, text, follower)
+
+    def report_waiting(self) -> None:
+        """Named vehicles that have come to a stand at a red light."""
+        v = self.world.vehicles
+        for column, name in enumerate(self.setting.scenario.vehicles):
+            distance = v.mind[RED_STATION, column] - v.mind[STATION, column] - v.parameter[FRONT, column]
+            waits = bool(distance < AT_THE_LINE and v.state[V_X, column] < STANDING)
+            if waits and not self.waiting.get(name, False):
+                self.happen(self.time, "waits at a red light", name)
+            self.waiting[name] = waits
+
     def record(self) -> Record:
         """What has been recorded so far."""
         return Record(
@@ -132,7 +178,7 @@ class Simulation:
             values=self.recorder.values(),
             vehicles=tuple(self.setting.names[column] for column in self.recorder.columns),
             happenings=tuple(self.happenings),
-            chains=chains(self.setting),
+            chains=self.chains,
             links=link_ages(self),
         )
 

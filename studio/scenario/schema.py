@@ -131,7 +131,7 @@ class Brake(Part):
     maneuver: Literal["brake"] = "brake"
     deceleration: float = number(6.0, unit="m/s²", title="Deceleration", gt=0, le=10)
     duration: float = number(3.0, unit="s", title="Duration", gt=0, le=600)
-    to_speed: float = number(0.0, unit="m/s", title="Down to", description="ends earlier at this speed", ge=0, le=70)
+    to_speed: float = number(0.0, unit="m/s", title="Down to", description="ends earlier at this speed; the brakes still need their time to release", ge=0, le=70)
 
 
 class Trigger(Part):

@@ -96,3 +96,20 @@ def test_better(a, b, goal, better):
 def test_a_metric_on_one_side_only():
     found = compare.metrics({"x": Measured(1.0, "s", "lower")}, {"x": Measured(None, "s", "lower"), "y": Measured(2.0, "m", None)})
     assert [(each.name, each.a, each.b, each.better) for each in found] == [("x", 1.0, None, None), ("y", None, 2.0, None)]
+
+
+def test_the_script_does_not_count_against_the_followers():
+    """A leader that brakes by script with 6 m/s², followers with 2 m/s²: the followers' figures count."""
+    acceleration = np.zeros((3, 501))
+    acceleration[0, 200:300], acceleration[1:, 210:300] = -6.0, -2.0
+    gap = np.array([np.full(501, 800.0), np.full(501, 10.0), np.full(501, 12.0)])
+    chain = Chain("platoon", "cacc", ("a", "b", "c"))
+    found = measure_all(record(("a", "b", "c"), chains=(chain,), acceleration=acceleration, gap=gap, speed=10.0))
+    assert found["max_deceleration"].value == pytest.approx(2.0)
+    assert found["mean_gap"].value == pytest.approx(11.0)
+
+
+def test_creeping_up_is_no_danger():
+    """Closing with 1 mm/s on a car 800 m ahead is no time to collision."""
+    found = measure_all(record(gap=800.0, speed=10.001, ahead_speed=10.0))
+    assert found["min_ttc"].value is None

@@ -73,3 +73,13 @@ def test_a_trigger_may_have_any_name(sample):
     run = simulation(job.prepare(job.Loaded(loaded.path, {}, renamed)))
     as_fast_as_possible(run)
     assert [event.time for event in run.happenings] == [0.5]
+
+
+def test_what_happens_to_the_platoon_is_told(sample):
+    """Somebody comes between, a car waits at red: at the times at which the traces say so."""
+    run = job.run(job.load(sample))
+    told = {(event.vehicle, event.text): event.time for event in run.record.happenings}
+    waits = told["leader", "waits at a red light"]
+    assert np.interp(waits, run.time, run.trace("leader.speed")) < 0.15
+    assert any("is between it and" in text for _, text in told)
+    assert told["leader", "hard_brake: brake with 6 m/s²"] == 20
