@@ -61,7 +61,8 @@ class Live:
     sampled: int = 0
     last_frame: float = 0.0
     last_news: float = 0.0
-    busy_since: tuple[float, float] = (0.0, 0.0)
+    measured_since: tuple[float, float] = (0.0, 0.0)
+    factor: float = 0.0
     before: np.ndarray = field(default_factory=lambda: np.zeros(0))
     after: np.ndarray = field(default_factory=lambda: np.zeros(0))
     advanced: float = 0.0
@@ -151,9 +152,12 @@ class Live:
         return "paused" if self.paused else "running"
 
     def real_time_factor(self, now: float) -> float:
-        """Simulated over real seconds since the last report."""
-        (real, simulated), self.busy_since = self.busy_since, (now, self.simulation.time)
-        return (self.simulation.time - simulated) / max(now - real, 1e-6) if real else 0.0
+        """Simulated over real seconds, measured anew when enough of them have passed since the last time."""
+        real, simulated = self.measured_since
+        if now - real >= 0.9 * NEWS_PERIOD:
+            self.factor = (self.simulation.time - simulated) / (now - real) if real else 0.0
+            self.measured_since = (now, self.simulation.time)
+        return self.factor
 
     def send_events(self) -> None:
         """Happenings that have not been told."""
@@ -163,11 +167,13 @@ class Live:
         self.told = len(happenings)
 
     def send_samples(self) -> None:
-        """Samples of the live channels that have not been sent, at the charts' period."""
+        """Samples of the live channels that have not been sent, at the charts' period; single steps and the end too."""
         recorder = self.simulation.recorder
         thin = max(round(SAMPLE_PERIOD / (recorder.every * self.simulation.world.clock.tick)), 1)
-        fresh = [i for i in range(self.sampled, len(recorder.times)) if i % thin == 0]
-        self.sampled = len(recorder.times)
+        last = len(recorder.times) - 1
+        whole = self.paused or self.simulation.is_over
+        fresh = [i for i in range(self.sampled, last + 1) if i % thin == 0 or (whole and i == last)]
+        self.sampled = last + 1
         if fresh:
             record = self.simulation.record_of(fresh)
             values = {f"{v}.{q}": record.trace(f"{v}.{q}") for v in record.vehicles for q in LIVE_CHANNELS}
