@@ -169,8 +169,8 @@ function Connection() {
       role="alert"
       data-testid="connection-lost"
     >
-      The studio server does not answer. Trying again … If it was stopped, start it with{" "}
-      <code>studio serve</code>.
+      The studio server does not answer. Trying again … If it was stopped, start it again with{" "}
+      <code>uv run studio</code>.
     </Alert>
   );
 }

@@ -5,7 +5,6 @@ import {
   ActionIcon,
   Badge,
   NativeSelect,
-  NumberInput,
   Switch,
   Text,
   TextInput,
@@ -24,6 +23,7 @@ import {
 import type { Json, Problem } from "../model/run";
 import { formatValue } from "../model/units";
 import { Icon } from "./Icon";
+import { NumberEntry } from "./NumberEntry";
 import { ProblemText } from "./Problems";
 import classes from "./SchemaForm.module.css";
 
@@ -320,14 +320,15 @@ function NumberControl({ shared, field, onChange }: TypedControl) {
     typeof value === "number" &&
     ((minimum !== undefined && value < minimum) || (maximum !== undefined && value > maximum));
   return (
-    <NumberInput
+    <NumberEntry
       {...shared}
       error={shared.error || outside}
       value={typeof value === "number" ? value : ""}
       allowDecimal={kind === "number"}
       clampBehavior="none"
       step={stepFor(field)}
-      onChange={(next) => onChange(next === "" ? (field.nullable ? null : initial) : Number(next))}
+      onNumber={onChange}
+      onEmpty={() => onChange(field.nullable ? null : initial)}
       placeholder={field.nullable ? "not set" : undefined}
       {...(minimum === undefined ? {} : { min: minimum })}
       {...(maximum === undefined ? {} : { max: maximum })}

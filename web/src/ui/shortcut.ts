@@ -7,16 +7,27 @@ const NONE = { key: "", at: Number.NEGATIVE_INFINITY };
 let previous = NONE;
 let pressed = NONE;
 
-/** Typing into a field is never a shortcut, and space on a button presses that button. */
-function isTyping(target: EventTarget | null, key: string): boolean {
+/** Whether the focus came where it is by the tab key, not by the pointer. */
+let tabbed = false;
+
+/** A key that belongs to what has the focus, such as text to a field, is no shortcut. */
+function isTaken(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
-  if (target.isContentEditable || /^(input|textarea|select)$/i.test(target.tagName))
-    return !isCheckbox(target) || key === " ";
-  return (key === " " || key === "Enter") && target.closest("button, a, [role=button], summary") !== null;
+  if (target.isContentEditable || target.closest("textarea, [role=dialog]")) return true;
+  // A letter chooses in a select; space must not, because it means run and pause.
+  if (target instanceof HTMLSelectElement) return /^[\p{L}\p{N}]$/u.test(key);
+  if (!(target instanceof HTMLInputElement)) return false;
+  if (!WITHOUT_TEXT.has(target.type)) return true;
+  // Somebody without a mouse has only the space bar to tick a box.
+  return key === " " && target.type === "checkbox" && tabbed;
 }
 
-const isCheckbox = (target: HTMLElement): boolean =>
-  target instanceof HTMLInputElement && (target.type === "checkbox" || target.type === "radio");
+const WITHOUT_TEXT = new Set(["checkbox", "radio", "button", "submit", "reset", "range", "color"]);
+
+/** Some browsers press the focused control when the key goes up again, whatever became of its way down. */
+function letGo({ target, key }: KeyboardEvent): void {
+  if (key === " " && target instanceof HTMLElement && target !== document.body) target.blur();
+}
 
 /** Call the handler of the key, or of the pair that ends with it. */
 export function dispatch(event: KeyboardEvent, handlers: Record<string, () => void>, now: number): void {
@@ -25,13 +36,14 @@ export function dispatch(event: KeyboardEvent, handlers: Record<string, () => vo
     event.ctrlKey ||
     event.metaKey ||
     event.altKey ||
-    isTyping(event.target, event.key)
+    isTaken(event.target, event.key)
   )
     return;
   const pair = now - previous.at < PAUSE_MS ? `${previous.key} ${event.key}` : "";
   const handler = handlers[pair] ?? (pairStarted(now) ? undefined : handlers[event.key]);
   if (!handler) return;
   event.preventDefault();
+  letGo(event);
   handler();
 }
 
@@ -42,9 +54,17 @@ const pairStarted = (now: number): boolean => previous.key === "g" && now - prev
 function remember({ key, timeStamp }: KeyboardEvent): void {
   previous = pressed;
   pressed = { key, at: timeStamp };
+  if (key === "Tab") tabbed = true;
 }
 
 window.addEventListener("keydown", remember, { capture: true });
+window.addEventListener(
+  "pointerdown",
+  () => {
+    tabbed = false;
+  },
+  { capture: true },
+);
 
 /** Listen to these keys while the component is mounted and `enabled`. */
 export function useShortcuts(handlers: Record<string, () => void>, enabled = true): void {

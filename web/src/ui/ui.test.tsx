@@ -68,6 +68,18 @@ describe("the schema form", () => {
     expect(onChange.mock.lastCall?.[1]).toBe(0.5);
   });
 
+  it("stays empty while one thinks, and goes back to the file when it is left so", () => {
+    show({ "radio.delay": 0.5 });
+    const input = byTestId("param-radio.delay") as HTMLInputElement;
+    onChange.mockClear();
+    act(() => input.focus());
+    type(input, "");
+    show({ "radio.delay": 0.5 });
+    expect([input.value, onChange.mock.calls.length]).toEqual(["", 0]);
+    act(() => input.blur());
+    expect(onChange.mock.lastCall?.[1]).toBe(0.02);
+  });
+
   it("does not clamp what is out of range, and marks it", () => {
     show({ "radio.delay": 7 });
     expect(byTestId("param-radio.delay")?.value).toBe("7");
@@ -148,13 +160,39 @@ describe("shortcuts", () => {
     expect([one.mock.calls.length, pair.mock.calls.length, alone.mock.calls.length]).toEqual([1, 1, 0]);
   });
 
+  it("work on a control that was clicked, which is let go and not pressed", () => {
+    const handler = vi.fn();
+    const stop = listen({ " ": handler, ".": handler });
+    const radio = Object.assign(document.createElement("input"), { type: "radio" });
+    for (const control of [radio, ...["button", "select"].map((tag) => document.createElement(tag))]) {
+      host.appendChild(control).focus();
+      press(".", control);
+      expect(press(" ", control).defaultPrevented).toBe(true);
+      expect(document.activeElement).not.toBe(control);
+    }
+    stop();
+    expect(handler).toHaveBeenCalledTimes(6);
+  });
+
+  it("leave the space bar to a box that was reached by the tab key", () => {
+    const handler = vi.fn();
+    const stop = listen({ " ": handler });
+    const box = host.appendChild(Object.assign(document.createElement("input"), { type: "checkbox" }));
+    press("Tab");
+    press(" ", box);
+    expect(handler).not.toHaveBeenCalled();
+    box.dispatchEvent(new Event("pointerdown", { bubbles: true }));
+    press(" ", box);
+    stop();
+    expect(handler).toHaveBeenCalledTimes(1);
+  });
+
   it("are silent while one types, and with a modifier", () => {
     const handler = vi.fn();
     const stop = listen({ ".": handler, " ": handler });
     const input = host.appendChild(document.createElement("input"));
-    const button = host.appendChild(document.createElement("button"));
     press(".", input);
-    press(" ", button);
+    press(" ", input);
     press(".", document.body, { ctrlKey: true });
     stop();
     expect(handler).not.toHaveBeenCalled();

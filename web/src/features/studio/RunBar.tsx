@@ -1,11 +1,12 @@
 /** Run, pause, step and stop; how fast, and how far the run is. */
 
-import { ActionIcon, Button, NativeSelect, NumberInput, Progress, Text, Tooltip } from "@mantine/core";
+import { ActionIcon, Button, NativeSelect, Progress, Text, Tooltip } from "@mantine/core";
 import type { Pace } from "../../api/types";
 import type { Status } from "../../model/run";
 import { isLive } from "../../model/run";
 import { formatNumber, formatTime } from "../../model/units";
 import { Icon, type IconName } from "../../ui/Icon";
+import { NumberEntry } from "../../ui/NumberEntry";
 import { StatusBadge } from "../../ui/StatusBadge";
 import classes from "./Studio.module.css";
 
@@ -25,7 +26,8 @@ export interface Controls {
   onStep: () => void;
   onStop: () => void;
   onPace: (pace: Pace) => void;
-  onSeed: (seed: number) => void;
+  /** Null: as the scenario says. */
+  onSeed: (seed: number | null) => void;
 }
 
 interface Props extends Controls {
@@ -68,7 +70,7 @@ export function RunBar(props: Props) {
       />
       <span className={classes.seed}>
         <label htmlFor="seed">Seed</label>
-        <NumberInput
+        <NumberEntry
           size="xs"
           w={72}
           id="seed"
@@ -78,7 +80,8 @@ export function RunBar(props: Props) {
           allowNegative={false}
           disabled={live}
           value={seed}
-          onChange={(value) => value !== "" && onSeed(Number(value))}
+          onNumber={onSeed}
+          onEmpty={() => onSeed(null)}
         />
       </span>
       <TimeShown progress={progress} duration={progress?.duration || props.duration} />

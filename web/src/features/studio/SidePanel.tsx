@@ -135,11 +135,11 @@ function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
 }
 
 /** What was set for the run, in one line. */
-function settingText({ parameters, parent }: Run): string {
+function settingText({ parameters }: Run): string {
   const set = Object.entries(fromSet(parameters)).map(
     ([path, value]) => `${words(leaf(path))} ${formatValue(value)}`,
   );
-  return set.length ? set.join(", ") : parent === null ? "As in the file" : "Nothing changed";
+  return set.length ? set.join(", ") : "As in the file";
 }
 
 function Setting({ run }: { run: Run }) {
