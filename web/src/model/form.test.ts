@@ -9,6 +9,7 @@ import {
   fromSet,
   matching,
   placed,
+  refusal,
   sections,
   unitAt,
   unitsOf,
@@ -161,6 +162,18 @@ describe("search and problems", () => {
     expect([...map.keys()]).toEqual(["radio.delay", "radio.loss", ""]);
     const nested = { ...problem, where: "file.yaml: applications.platoon.parameters: headway" };
     expect([...placed([nested], paths()).keys()]).toEqual(["applications.platoon.parameters.headway"]);
+  });
+});
+
+describe("the refusal of a form", () => {
+  it("names the place in the form, not the file", () => {
+    const problem = { what: "is too large", value: "7", allowed: "0 to 1 s", remedy: "take less" };
+    expect(refusal([])).toBe("");
+    expect(refusal([{ ...problem, where: "sample.yaml: radio.delay" }])).toBe(
+      "The form has a problem: radio.delay: is too large (got 7); allowed: 0 to 1 s",
+    );
+    const two = [{ ...problem, where: "radio.loss", value: "", allowed: "" }, { ...problem, where: "x" }];
+    expect(refusal(two)).toBe("The form has a problem: radio.loss: is too large, and 1 more");
   });
 });
 

@@ -320,6 +320,17 @@ function tails(where: string): string[] {
   return parts.map((_, index) => parts.slice(index).join("."));
 }
 
+/** One sentence for a form with problems, about the first of them; empty when there is none. */
+export function refusal(problems: readonly Problem[]): string {
+  const [first, ...others] = problems;
+  if (!first) return "";
+  const place = first.where.split(": ").filter((part) => !/\.ya?ml$/.test(part));
+  const { what, value, allowed } = first;
+  const got = `${value ? ` (got ${value})` : ""}${allowed ? `; allowed: ${allowed}` : ""}`;
+  const more = others.length ? `, and ${others.length} more` : "";
+  return `The form has a problem: ${[...place, what].join(": ")}${got}${more}`;
+}
+
 /** Problems by the path of the field where they stand; the rest under the empty path. */
 export function placed(problems: readonly Problem[], paths: readonly string[]): Map<string, Problem[]> {
   const result = new Map<string, Problem[]>();

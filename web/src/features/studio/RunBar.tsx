@@ -36,6 +36,8 @@ interface Props extends Controls {
   pace: Pace;
   seed: number;
   starting: boolean;
+  /** Why no run can be started; empty when one can. */
+  blocked: string;
 }
 
 const PACES = [
@@ -44,20 +46,25 @@ const PACES = [
 ];
 
 export function RunBar(props: Props) {
-  const { progress, pace, seed, starting, onRun, onSeed, onPace } = props;
+  const { progress, pace, seed, starting, blocked, onRun, onSeed, onPace } = props;
   const live = isLive(progress?.status);
   return (
     <div className={classes.bar} role="toolbar" aria-label="Run control">
-      <Button
-        size="xs"
-        data-testid="run"
-        leftSection={<Icon name="run" size={14} />}
-        onClick={onRun}
-        disabled={live}
-        loading={starting}
-      >
-        {progress && !live ? "Run again" : "Run"}
-      </Button>
+      <Tooltip label={blocked} disabled={!blocked || live} multiline maw={360}>
+        {/* A disabled button says nothing when it is pointed at; its frame does. */}
+        <span className={classes.start}>
+          <Button
+            size="xs"
+            data-testid="run"
+            leftSection={<Icon name="run" size={14} />}
+            onClick={onRun}
+            disabled={live || blocked !== ""}
+            loading={starting}
+          >
+            {progress && !live ? "Run again" : "Run"}
+          </Button>
+        </span>
+      </Tooltip>
       <Motion {...props} />
       <NativeSelect
         size="xs"
@@ -90,7 +97,7 @@ export function RunBar(props: Props) {
 }
 
 /** Pause or resume, whichever is possible; one tick; stop. */
-function Motion({ progress, onPause, onResume, onStep, onStop }: Props) {
+function Motion({ progress, blocked, onPause, onResume, onStep, onStop }: Props) {
   const status = progress?.status;
   return (
     <ActionIcon.Group>
@@ -110,6 +117,7 @@ function Motion({ progress, onPause, onResume, onStep, onStop }: Props) {
         icon="step"
         label="Step one tick, 20 ms (.)"
         onClick={onStep}
+        reason={isLive(status) ? "" : blocked}
         disabled={status === "running" || status === "starting"}
       />
       <Press id="stop" icon="stop" label="Stop" onClick={onStop} disabled={!isLive(status)} />
@@ -123,9 +131,11 @@ interface PressProps {
   label: string;
   onClick: () => void;
   disabled?: boolean;
+  /** Why it is disabled. */
+  reason?: string;
 }
 
-function Press({ id, icon, label, onClick, disabled = false }: PressProps) {
+function Press({ id, icon, label, onClick, disabled = false, reason = "" }: PressProps) {
   return (
     <Tooltip label={label}>
       <ActionIcon
@@ -134,7 +144,8 @@ function Press({ id, icon, label, onClick, disabled = false }: PressProps) {
         data-testid={id}
         aria-label={label}
         onClick={onClick}
-        disabled={disabled}
+        disabled={disabled || reason !== ""}
+        title={reason || undefined}
       >
         <Icon name={icon} />
       </ActionIcon>

@@ -23,25 +23,31 @@ interface Props {
   active: boolean;
   /** Whether a run is going on: then the first car is followed, unless somebody has chosen a view. */
   running: boolean;
+  /** The scene has lost what it showed, as after a restart of the server. */
+  onEmptied: () => void;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active, running }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, onEmptied }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
   const [view, setView] = useState<View>("overview");
   const chosen = useRef(false);
+  const told = useRef<View>("overview");
   const follow = useCallback((vehicle: number | null) => {
     chosen.current = true;
     setFollowed(vehicle);
     setView((before) => (vehicle === null ? "overview" : before === "overview" ? "chase" : before));
   }, []);
-  const { ready, send } = useBridge(frame, follow);
+  const { ready, send } = useBridge(frame, follow, onEmptied);
 
   // A scene that has just become ready must be told everything again.
   // `ready` counts how often that was.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
   useEffect(() => {
+    // Nothing was chosen for a scene that is built again, and the user may have turned it.
+    if (followed === null && view === "overview" && told.current === view) return;
+    told.current = view;
     send({ studio: "follow", vehicle: followed });
     send({ studio: "view", preset: view });
   }, [followed, view, ready, send]);

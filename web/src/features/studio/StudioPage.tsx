@@ -37,7 +37,7 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
   const shown = useShownRun(run);
-  const control = useControl({ id, draft, update, seed, live: shown.live, run });
+  const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
   useTakeOver(id, from, update);
   useFarewell(shown.live, run);
   const scene = useScene(id, draft.changes, shown.live ? run : undefined, form.ok);
@@ -56,12 +56,14 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
           duration={form.duration}
           pace={draft.pace}
           seed={seed}
+          blocked={form.blocked}
         />
       ) : null}
       <SceneView
         vehicles={scene.vehicles}
         attribution={scene.attribution}
         active={active}
+        onEmptied={scene.again}
         running={shown.live !== undefined && isLive(shown.live.status)}
       />
       {active ? (

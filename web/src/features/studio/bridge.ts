@@ -10,7 +10,7 @@ export type Command =
   | { studio: "theme"; dark: boolean };
 
 interface Bridge {
-  /** Counts how often the scene said that it is ready; 0 until the first time. */
+  /** Counts how often the scene came up or was built again; 0 until the first time. */
   ready: number;
   send: (command: Command) => void;
 }
@@ -19,6 +19,7 @@ interface Bridge {
 export function useBridge(
   frame: RefObject<HTMLIFrameElement | null>,
   onPicked: (vehicle: number) => void,
+  onEmptied: () => void,
 ): Bridge {
   const [ready, setReady] = useState(0);
   useEffect(() => {
@@ -32,9 +33,64 @@ export function useBridge(
     window.addEventListener("message", listen);
     return () => window.removeEventListener("message", listen);
   }, [frame, onPicked]);
+  useEffect(() => {
+    const watched = new Rebuilding(() => partsOf(frame.current));
+    const timer = setInterval(() => {
+      const seen = watched.look();
+      if (seen === "rebuilt") setReady((count) => count + 1);
+      if (seen === "emptied") onEmptied();
+    }, LOOK_MS);
+    return () => clearInterval(timer);
+  }, [frame, onEmptied]);
   const send = useCallback(
     (command: Command) => frame.current?.contentWindow?.postMessage(command, location.origin),
     [frame],
   );
   return { ready, send };
 }
+
+/** How often the page looks whether the scene was built again [ms]; the bridge does not tell. */
+const LOOK_MS = 1000;
+
+interface SceneFrame extends Window {
+  __studioBridge?: { client: () => { nodeRefFromName?: Record<string, unknown> } | undefined };
+}
+
+/** What only a new connection or a new city replaces, and what is only there when something is shown. */
+function partsOf(frame: HTMLIFrameElement | null): Parts {
+  const nodes = (frame?.contentWindow as SceneFrame | null)?.__studioBridge?.client()?.nodeRefFromName;
+  return { road: nodes?.["/city/road"], vehicles: nodes?.["/vehicles/shadows"] };
+}
+
+interface Parts {
+  road: unknown;
+  vehicles: unknown;
+}
+
+/** Notices that the scene was built again, or that nothing is left in it. */
+export class Rebuilding {
+  private road: unknown;
+  private missing = 0;
+  private settling = 0;
+
+  constructor(private readonly parts: () => Parts) {}
+
+  look(): "rebuilt" | "emptied" | "same" {
+    const { road, vehicles } = this.parts();
+    if (!road || !vehicles) {
+      // A scene that has never shown anything is still coming up.
+      if (this.road === undefined) return "same";
+      this.missing += 1;
+      return this.missing % PATIENCE === 0 ? "emptied" : "same";
+    }
+    if (this.road !== undefined && (road !== this.road || this.missing > 0)) this.settling = 2;
+    this.road = road;
+    this.missing = 0;
+    // Lights and haze come a moment after the road, and the bridge turns to the overview for a new city.
+    this.settling -= 1;
+    return this.settling === 0 ? "rebuilt" : "same";
+  }
+}
+
+/** So many looks without anything there mean that the server has forgotten what it showed. */
+export const PATIENCE = 8;

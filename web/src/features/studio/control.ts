@@ -5,9 +5,9 @@ import { useNavigate } from "@tanstack/react-router";
 import { useEffect } from "react";
 import type { LiveState } from "../../api/live";
 import * as queries from "../../api/queries";
-import { fromSet } from "../../model/form";
-import { isLive } from "../../model/run";
-import { notifyError } from "../../ui/notify";
+import { fromSet, refusal } from "../../model/form";
+import { isLive, type Problem } from "../../model/run";
+import { notify, notifyError } from "../../ui/notify";
 import type { Draft } from "./draft";
 import type { Controls } from "./RunBar";
 
@@ -18,6 +18,8 @@ interface ControlProps {
   seed: number;
   live: LiveState | undefined;
   run: number | undefined;
+  /** Why no run can be started; empty when one can. */
+  blocked: string;
 }
 
 /** What the buttons of the run bar do. */
@@ -28,8 +30,9 @@ export function useControl({
   seed,
   live,
   run,
+  blocked,
 }: ControlProps): Controls & { starting: boolean } {
-  const start = useStarter({ id, draft, update, seed });
+  const start = useStarter({ id, draft, update, seed, blocked });
   const order = queries.useOrder();
   const pace = queries.usePace();
   const tell = (what: queries.Order) => {
@@ -52,16 +55,17 @@ export function useControl({
 }
 
 /** Start a run of the draft and show it; the one after it will be its child. */
-function useStarter({ id, draft, update, seed }: Pick<ControlProps, "id" | "draft" | "update" | "seed">) {
+function useStarter({ id, draft, update, seed, blocked }: Omit<ControlProps, "live" | "run">) {
   const start = queries.useStart();
   const order = queries.useOrder();
   const navigate = useNavigate();
   const begin = (paused: boolean) => {
     if (start.isPending) return;
+    if (blocked) return notify("No run was started", blocked, "red");
     const { changes, pace, parent } = draft;
     const body = { scenario: id, set: changes, seed, pace, paused, ...(parent === null ? {} : { parent }) };
     start.mutate(body, {
-      onError: notifyError,
+      onError: (error) => notifyError(Object.keys(changes).length ? ofForm(error) : error),
       onSuccess: ({ run }) => {
         update({ parent: run });
         // A first step out of rest is one step, too; a run that is not up yet just stays at its start.
@@ -71,6 +75,12 @@ function useStarter({ id, draft, update, seed }: Pick<ControlProps, "id" | "draf
     });
   };
   return { begin, isPending: start.isPending };
+}
+
+/** The file is as it should be when a changed form is refused. */
+function ofForm(error: Error & { problems?: Problem[] }): Error {
+  const text = refusal(error.problems ?? []);
+  return text ? new Error(text) : error;
 }
 
 /** "Tune from here": take over the setting of a run, once. */

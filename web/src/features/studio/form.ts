@@ -4,7 +4,7 @@ import { useDebouncedValue } from "@mantine/hooks";
 import { useQuery } from "@tanstack/react-query";
 import { useCallback, useMemo } from "react";
 import * as queries from "../../api/queries";
-import { sections } from "../../model/form";
+import { refusal, sections } from "../../model/form";
 import type { Changes } from "../../model/run";
 
 const NONE: never[] = [];
@@ -25,18 +25,21 @@ export function useForm(id: string, changes: Changes) {
   const { refetch: andApplications } = applications;
   const retry = useCallback(() => void Promise.all([again(), andApplications()]), [again, andApplications]);
   const error = scenario.error ?? applications.error;
+  const problems = checked?.problems ?? NONE;
+  const blocked = error ? `The scenario could not be loaded: ${error.message}` : refusal(problems);
   return useMemo(
     () => ({
+      blocked,
       sections: form,
       applications: known,
       ok: checked?.ok ?? false,
-      problems: checked?.problems ?? NONE,
+      problems,
       duration: durationOf(checked?.document ?? document),
       seed: typeof document?.seed === "number" ? document.seed : 1,
       error,
       retry,
     }),
-    [form, known, checked, document, error, retry],
+    [form, known, checked, problems, blocked, document, error, retry],
   );
 }
 

@@ -1,8 +1,9 @@
 /** What the 3D scene shows. */
 
 import { useDebouncedValue } from "@mantine/hooks";
-import { useQuery } from "@tanstack/react-query";
-import { useEffect, useMemo } from "react";
+import { useQuery, useQueryClient } from "@tanstack/react-query";
+import { useCallback, useEffect, useMemo } from "react";
+import { Unreachable } from "../../api/client";
 import * as queries from "../../api/queries";
 import type { Changes } from "../../model/run";
 import { notifyError } from "../../ui/notify";
@@ -20,9 +21,12 @@ export function useScene(id: string, set: Changes, live: number | undefined, ok:
   const [settled] = useDebouncedValue(what, live === undefined ? 400 : 0);
   const { data = NO_SCENE, error } = useQuery({ ...queries.scene(settled), enabled: ok });
   useEffect(() => {
-    if (error) notifyError(error);
+    // That the server is gone stands over the whole page.
+    if (error && !(error instanceof Unreachable)) notifyError(error);
   }, [error]);
-  return data;
+  const client = useQueryClient();
+  const again = useCallback(() => void client.refetchQueries({ queryKey: ["scene"], type: "active" }), [client]);
+  return { ...data, again };
 }
 
 const SEEN = /^(map|vehicles|traffic|platoon|route|routes)\b/;
