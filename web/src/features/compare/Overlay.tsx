@@ -7,7 +7,7 @@ import { run as runQuery, trace } from "../../api/queries";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { merge } from "../../model/compare";
-import { lineColor } from "../../model/palette";
+import { carColors, paintsOf } from "../../model/palette";
 import type { Run } from "../../model/run";
 import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -28,6 +28,13 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
     [one.data, other.data],
   );
   const all = useMemo(() => [...new Set(names.flat())], [names]);
+  const dark = useDark();
+  const colors = useMemo(() => {
+    const vehicles = vehiclesOf(all);
+    const paints = { ...paintsOf(other.data?.document), ...paintsOf(one.data?.document) };
+    const found = carColors(vehicles, paints, dark);
+    return Object.fromEntries(vehicles.map((vehicle, index) => [vehicle, found[index] as string]));
+  }, [all, one.data, other.data, dark]);
   if (!one.data || !other.data) return <Loading what="the traces" />;
   if (all.length === 0)
     return (
@@ -39,7 +46,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
     <section className={classes.card} aria-label="Charts of both runs" data-testid="compare-charts">
       <Group gap="md" mb={4} className={classes.over}>
         <h2>Over time</h2>
-        <Vehicles all={all} hidden={hidden} onHidden={setHidden} />
+        <Vehicles colors={colors} hidden={hidden} onHidden={setHidden} />
       </Group>
       <div className={classes.charts}>
         {chosen.map((name, place) => (
@@ -49,6 +56,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
               b={b.run}
               name={name}
               all={all}
+              colors={colors}
               had={names}
               hidden={hidden}
               lead={
@@ -66,20 +74,22 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
   );
 }
 
+/** The colour of each vehicle. */
+type Colors = Readonly<Record<string, string>>;
+
 interface VehiclesProps {
-  all: readonly string[];
+  colors: Colors;
   hidden: readonly string[];
   onHidden: (hidden: string[]) => void;
 }
 
 /** Which vehicles are drawn. */
-function Vehicles({ all, hidden, onHidden }: VehiclesProps) {
-  const dark = useDark();
-  return vehiclesOf(all).map((vehicle, index) => (
+function Vehicles({ colors, hidden, onHidden }: VehiclesProps) {
+  return Object.entries(colors).map(([vehicle, color]) => (
     <Checkbox
       key={vehicle}
       size="xs"
-      color={lineColor(index, dark)}
+      color={color}
       autoContrast
       label={words(vehicle)}
       checked={!hidden.includes(vehicle)}
@@ -99,14 +109,14 @@ interface BothProps {
   b: number;
   name: string;
   all: readonly string[];
+  colors: Colors;
   /** The channels of each run. */
   had: readonly (readonly string[])[];
   hidden: readonly string[];
   lead: ReactNode;
 }
 
-function Both({ a, b, name, all, had, hidden, lead }: BothProps) {
-  const dark = useDark();
+function Both({ a, b, name, all, colors, had, hidden, lead }: BothProps) {
   const channels = useMemo(
     () => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)),
     [name, all, hidden],
@@ -115,7 +125,7 @@ function Both({ a, b, name, all, had, hidden, lead }: BothProps) {
   const [ofA, ofB] = had.map((known) => channels.filter((channel) => known.includes(channel)));
   const one = useQuery(trace(a, ofA ?? [], POINTS));
   const other = useQuery(trace(b, ofB ?? [], POINTS));
-  const lines = useMemo<Line[]>(() => linesOf(channels, all, dark), [channels, all, dark]);
+  const lines = useMemo<Line[]>(() => linesOf(channels, colors), [channels, colors]);
   const data = useMemo<Columns>(
     () => merge(one.data ?? NOTHING, other.data ?? NOTHING, channels),
     [one.data, other.data, channels],
@@ -138,12 +148,11 @@ function Both({ a, b, name, all, had, hidden, lead }: BothProps) {
 }
 
 /** First all lines of A, then all of B, as `merge` puts them. */
-function linesOf(channels: readonly string[], all: readonly string[], dark: boolean): Line[] {
-  const vehicles = vehiclesOf(all);
+function linesOf(channels: readonly string[], colors: Colors): Line[] {
   return (["A", "B"] as const).flatMap((side) =>
     channels.map((channel) => {
       const { vehicle } = parts(channel);
-      const color = lineColor(vehicles.indexOf(vehicle), dark);
+      const color = colors[vehicle] as string;
       return { key: `${side} ${channel}`, label: words(vehicle), color, dashed: side === "B" };
     }),
   );

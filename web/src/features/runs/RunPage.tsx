@@ -9,7 +9,7 @@ import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
-import { lineColor } from "../../model/palette";
+import { carColors, paintsOf } from "../../model/palette";
 import type { Metric, RunDetail } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -260,7 +260,7 @@ function Charts({ run }: { run: RunDetail }) {
   return chosen.map((name, place) => (
     <section key={place} className={classes.card}>
       <QuantityChart
-        run={run.run}
+        run={run}
         name={name}
         all={names}
         lead={
@@ -276,7 +276,7 @@ function Charts({ run }: { run: RunDetail }) {
 }
 
 interface ChartProps {
-  run: number;
+  run: RunDetail;
   name: string;
   all: readonly string[];
   lead: ReactNode;
@@ -285,14 +285,15 @@ interface ChartProps {
 function QuantityChart({ run, name, all, lead }: ChartProps) {
   const dark = useDark();
   const channels = useMemo(() => drawn(name, all), [name, all]);
-  const { data, error } = useQuery(trace(run, channels));
+  const { data, error } = useQuery(trace(run.run, channels));
   const lines = useMemo<Line[]>(() => {
     const vehicles = vehiclesOf(all);
+    const colors = carColors(vehicles, paintsOf(run.document), dark);
     return channels.map((channel) => {
       const { vehicle } = parts(channel);
-      return { key: channel, label: words(vehicle), color: lineColor(vehicles.indexOf(vehicle), dark) };
+      return { key: channel, label: words(vehicle), color: colors[vehicles.indexOf(vehicle)] as string };
     });
-  }, [channels, all, dark]);
+  }, [channels, all, run.document, dark]);
   const columns = useMemo<Columns>(
     () => (data ? [data.time, ...channels.map((channel) => data.channels[channel]?.values ?? [])] : [[]]),
     [data, channels],

@@ -3,7 +3,7 @@
 import { useMemo, useState } from "react";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
-import { lineColor } from "../../model/palette";
+import { carColors } from "../../model/palette";
 import type { Samples } from "../../model/samples";
 import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -15,9 +15,11 @@ interface Props {
   samples: Samples | undefined;
   version: number;
   duration: number;
+  /** The paint of the cars, by name. */
+  paints: Readonly<Record<string, string>>;
 }
 
-export function LiveCharts({ samples, version, duration }: Props) {
+export function LiveCharts({ samples, version, duration, paints }: Props) {
   const [chosen, setChosen] = useState(["speed", "gap"]);
   if (!samples || Object.keys(samples.channels).length === 0) {
     return (
@@ -39,6 +41,7 @@ export function LiveCharts({ samples, version, duration }: Props) {
           samples={samples}
           version={version}
           duration={duration}
+          paints={paints}
           onChoose={(next) => choose(place, next)}
         />
       ))}
@@ -51,14 +54,15 @@ interface ChartProps {
   samples: Samples;
   version: number;
   duration: number;
+  paints: Readonly<Record<string, string>>;
   onChoose: (name: string) => void;
 }
 
-function LiveChart({ name, samples, version, duration, onChoose }: ChartProps) {
+function LiveChart({ name, samples, version, duration, paints, onChoose }: ChartProps) {
   const dark = useDark();
   const names = Object.keys(samples.channels).join(" ");
   const shown = useMemo(() => drawn(name, names.split(" ")), [name, names]);
-  const lines = useMemo(() => linesOf(shown, names.split(" "), dark), [shown, names, dark]);
+  const lines = useMemo(() => linesOf(shown, names.split(" "), paints, dark), [shown, names, paints, dark]);
   // The columns grow in place, `version` tells when.
   const data = useMemo<Columns>(
     () => [samples.time, ...shown.map((channel) => samples.channels[channel] ?? [])],
@@ -83,10 +87,16 @@ function LiveChart({ name, samples, version, duration, onChoose }: ChartProps) {
 }
 
 /** One line per vehicle; a vehicle has the same colour in every chart. */
-function linesOf(channels: readonly string[], all: readonly string[], dark: boolean): Line[] {
+function linesOf(
+  channels: readonly string[],
+  all: readonly string[],
+  paints: Readonly<Record<string, string>>,
+  dark: boolean,
+): Line[] {
   const vehicles = vehiclesOf(all);
+  const colors = carColors(vehicles, paints, dark);
   return channels.map((channel) => {
     const { vehicle } = parts(channel);
-    return { key: channel, label: words(vehicle), color: lineColor(vehicles.indexOf(vehicle), dark) };
+    return { key: channel, label: words(vehicle), color: colors[vehicles.indexOf(vehicle)] as string };
   });
 }

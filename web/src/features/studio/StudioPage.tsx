@@ -68,7 +68,7 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
       />
       {active ? (
         <div className={classes.bottom}>
-          <LiveCharts samples={shown.samples} version={shown.version} duration={duration} />
+          <LiveCharts samples={shown.samples} version={shown.version} duration={duration} paints={scene.paints} />
           <SidePanel scenario={id} run={run} events={shown.events} />
         </div>
       ) : null}

@@ -26,7 +26,11 @@ export function useScene(id: string, set: Changes, live: number | undefined, ok:
   }, [error]);
   const client = useQueryClient();
   const again = useCallback(() => void client.refetchQueries({ queryKey: ["scene"], type: "active" }), [client]);
-  return { ...data, again };
+  const paints = useMemo(
+    () => Object.fromEntries(data.vehicles.map(({ name, color }) => [name, color])),
+    [data.vehicles],
+  );
+  return { ...data, paints, again };
 }
 
 const SEEN = /^(map|vehicles|traffic|platoon|route|routes)\b/;
