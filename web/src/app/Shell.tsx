@@ -182,7 +182,7 @@ const KEYS: [string[], string][] = [
   [["g", "s"], "Go to the studio"],
   [["g", "r"], "Go to the runs"],
   [["g", "c"], "Go to the comparison"],
-  [["↑", "↓"], "Move between rows of the runs"],
+  [["↑", "↓", "j", "k"], "Move between rows of the runs"],
   [["x"], "Select a row to compare"],
   [["enter"], "Open the run of a row"],
   [["?"], "Show this"],

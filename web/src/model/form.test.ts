@@ -10,6 +10,7 @@ import {
   matching,
   placed,
   refusal,
+  sameChanges,
   sections,
   unitAt,
   unitsOf,
@@ -89,6 +90,14 @@ describe("the form", () => {
     const once = withChange({}, field("radio.delay"), 0.3);
     expect(once).toEqual({ "radio.delay": 0.3 });
     expect(withChange(once, field("radio.delay"), 0.02)).toEqual({});
+  });
+});
+
+describe("two forms", () => {
+  it("are the same in whatever order they were filled in", () => {
+    expect(sameChanges({ a: 1, b: [2] }, { b: [2], a: 1 })).toBe(true);
+    expect(sameChanges({ a: 1 }, { a: 1, b: 2 })).toBe(false);
+    expect(sameChanges({ a: null }, { b: null })).toBe(false);
   });
 });
 

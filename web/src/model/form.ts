@@ -270,6 +270,15 @@ export function withChange(changes: Changes, field: Pick<Field, "path" | "initia
   return same(value, field.initial) ? others : { ...others, [field.path]: value };
 }
 
+/** Whether two forms set the same, in whatever order. */
+export function sameChanges(a: Changes, b: Changes): boolean {
+  const paths = Object.keys(a);
+  return (
+    paths.length === Object.keys(b).length &&
+    paths.every((path) => path in b && same(a[path] as Json, b[path] as Json))
+  );
+}
+
 /** All fields of the form, in the order in which they stand. */
 export function fieldsOf(all: readonly Section[]): Field[] {
   return all.flatMap((section) => [...section.fields, ...fieldsOf(section.sections)]);

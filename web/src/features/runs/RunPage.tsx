@@ -10,6 +10,7 @@ import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
 import { carColors, paintsOf } from "../../model/palette";
+import { goalsOf, type Wanted } from "../../model/goal";
 import type { Metric, RunDetail } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -50,6 +51,7 @@ function Detail({ run }: { run: RunDetail }) {
         <Card title="Metrics">
           <Metrics metrics={run.metrics} unmet={run.unmet} />
         </Card>
+        <Goals run={run} />
         <Card title="Parameters that were set">
           <Parameters run={run} />
         </Card>
@@ -155,6 +157,56 @@ function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: r
         ))}
       </Table.Tbody>
     </Table>
+  );
+}
+
+/** What the scenario wants of its metrics, and by how much that was met. */
+function Goals({ run }: { run: RunDetail }) {
+  const goals = goalsOf(run);
+  if (goals.length === 0) return null;
+  return (
+    <Card title="Goals of the scenario">
+      <Table verticalSpacing={3} horizontalSpacing={6} fz="sm" data-testid="goals">
+        <Table.Thead>
+          <Table.Tr>
+            <Table.Th>Metric</Table.Th>
+            <Table.Th>Wanted</Table.Th>
+            <Table.Th ta="right">Value</Table.Th>
+            <Table.Th>Met</Table.Th>
+          </Table.Tr>
+        </Table.Thead>
+        <Table.Tbody>
+          {goals.map((goal) => (
+            <GoalRow key={`${goal.metric} ${goal.bound}`} goal={goal} />
+          ))}
+        </Table.Tbody>
+      </Table>
+    </Card>
+  );
+}
+
+function GoalRow({ goal: { metric, bound, wanted, value, unit, margin } }: { goal: Wanted }) {
+  const met = margin === null ? "not measured" : margin >= 0 ? "met" : "not met";
+  return (
+    <Table.Tr>
+      <Table.Td>{words(metric)}</Table.Td>
+      <Table.Td>
+        {bound === "least" ? "at least" : "at most"} {formatNumber(wanted)} {unitText(unit)}
+      </Table.Td>
+      <Table.Td ta="right" style={{ fontVariantNumeric: "tabular-nums", whiteSpace: "nowrap" }}>
+        <b>{value === null ? "–" : formatNumber(value)}</b> {unitText(unit)}
+      </Table.Td>
+      <Table.Td>
+        <Badge size="xs" color={met === "met" ? "teal" : "orange"} variant="light" tt="none">
+          {met}
+        </Badge>
+        {margin === null ? null : (
+          <Text size="xs" c="dimmed" style={{ whiteSpace: "nowrap" }}>
+            {margin >= 0 ? "to spare" : "missed by"} {formatNumber(Math.abs(margin))} {unitText(unit)}
+          </Text>
+        )}
+      </Table.Td>
+    </Table.Tr>
   );
 }
 

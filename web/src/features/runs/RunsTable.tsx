@@ -11,13 +11,14 @@ import {
   useTable,
 } from "@tanstack/react-table";
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useMemo, useRef } from "react";
+import { type KeyboardEvent, type RefObject, useEffect, useMemo, useRef } from "react";
 import { useUnits } from "../../api/units";
 import type { Json, Run } from "../../model/run";
 import { type Column, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
 import { formatMoment, formatNumber, formatValue, withUnit } from "../../model/units";
 import { Icon } from "../../ui/Icon";
 import { StatusBadge } from "../../ui/StatusBadge";
+import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Runs.module.css";
 import type { RunsView } from "./RunsPage";
 
@@ -138,6 +139,7 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
   const above = items[0]?.start ?? 0;
   const below = virtual.getTotalSize() - (items.at(-1)?.end ?? 0);
   const width = table.getVisibleLeafColumns().length + 1;
+  useRowKeys(scroller, items.length > 0);
 
   return (
     <div ref={scroller} className={classes.scroller}>
@@ -190,6 +192,16 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
       </table>
     </div>
   );
+}
+
+/** The keyboard works at once: the first row has the focus, and gets it back from nowhere. */
+function useRowKeys(scroller: RefObject<HTMLDivElement | null>, filled: boolean) {
+  const first = () =>
+    scroller.current?.querySelector<HTMLElement>("tr[data-run]")?.focus({ preventScroll: true });
+  useEffect(() => {
+    if (filled && !document.activeElement?.matches("input, textarea, select")) first();
+  }, [filled]);
+  useShortcuts({ ArrowDown: first, ArrowUp: first, j: first, k: first, J: first, K: first });
 }
 
 const byId = (columns: readonly Column[], id: string): Column =>
@@ -275,6 +287,14 @@ function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
   );
 }
 
+/** Where a key leads from a row. */
+const STEPS: Record<string, "nextElementSibling" | "previousElementSibling"> = {
+  arrowdown: "nextElementSibling",
+  j: "nextElementSibling",
+  arrowup: "previousElementSibling",
+  k: "previousElementSibling",
+};
+
 interface RowProps {
   run: Run;
   columns: readonly Column[];
@@ -291,9 +311,11 @@ function RunRow({ run, columns, selected, onToggle }: RowProps) {
   };
   const onKey = (event: KeyboardEvent) => {
     if (event.key === "Enter" && event.target === event.currentTarget) open();
-    if (event.key === "x" && event.target === event.currentTarget) onToggle();
-    if (event.key === "ArrowDown") (event.currentTarget.nextElementSibling as HTMLElement | null)?.focus();
-    if (event.key === "ArrowUp") (event.currentTarget.previousElementSibling as HTMLElement | null)?.focus();
+    if (/^x$/i.test(event.key) && event.target === event.currentTarget) onToggle();
+    const step = STEPS[event.key.toLowerCase()];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    (event.currentTarget[step] as HTMLElement | null)?.focus();
   };
   return (
     <tr

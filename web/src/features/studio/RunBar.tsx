@@ -68,7 +68,7 @@ export function RunBar(props: Props) {
       <Motion {...props} />
       <NativeSelect
         size="xs"
-        w={148}
+        className={classes.pace}
         aria-label="Pace"
         data-testid="pace"
         data={PACES}
@@ -79,7 +79,7 @@ export function RunBar(props: Props) {
         <label htmlFor="seed">Seed</label>
         <NumberEntry
           size="xs"
-          w={72}
+          className={classes.seedField}
           id="seed"
           data-testid="seed"
           min={0}
@@ -167,7 +167,7 @@ function TimeShown({ progress, duration }: { progress: Progressing | undefined; 
         </span>
         {progress ? (
           <span className={classes.runState}>
-            <Text span size="xs" c="dimmed" title="Simulated seconds per second of real time">
+            <Text span size="xs" c="dimmed" className={classes.factor} title="Simulated seconds per second of real time">
               {progress.status === "running"
                 ? `${formatNumber(Number(progress.factor.toFixed(2)))} × real time`
                 : ""}

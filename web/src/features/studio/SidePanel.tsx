@@ -6,7 +6,7 @@ import { Link, useNavigate } from "@tanstack/react-router";
 import { memo, useState } from "react";
 import { runs } from "../../api/queries";
 import { fromSet } from "../../model/form";
-import { leaf, type Run, type RunEvent } from "../../model/run";
+import { isLive, leaf, type Run, type RunEvent, type Status } from "../../model/run";
 import { formatMoment, formatValue, words } from "../../model/units";
 import { EventList } from "../../ui/EventList";
 import { Icon } from "../../ui/Icon";
@@ -17,10 +17,12 @@ import classes from "./Studio.module.css";
 interface Props {
   scenario: string;
   run: number | undefined;
+  /** How that run stands now, which the list of runs learns only later. */
+  status: Status | undefined;
   events: readonly RunEvent[];
 }
 
-export const SidePanel = memo(function SidePanel({ scenario, run, events }: Props) {
+export const SidePanel = memo(function SidePanel({ scenario, run, status, events }: Props) {
   return (
     <Tabs defaultValue="runs" className={classes.side} keepMounted={false}>
       <Tabs.List>
@@ -39,7 +41,7 @@ export const SidePanel = memo(function SidePanel({ scenario, run, events }: Prop
         </Tabs.Tab>
       </Tabs.List>
       <Tabs.Panel value="runs" className={classes.sideBody}>
-        <History scenario={scenario} shown={run} />
+        <History scenario={scenario} shown={run} status={status} />
       </Tabs.Panel>
       <Tabs.Panel value="events" className={classes.sideBody}>
         <Events events={events} />
@@ -48,7 +50,13 @@ export const SidePanel = memo(function SidePanel({ scenario, run, events }: Prop
   );
 });
 
-function History({ scenario, shown }: { scenario: string; shown: number | undefined }) {
+interface HistoryProps {
+  scenario: string;
+  shown: number | undefined;
+  status: Status | undefined;
+}
+
+function History({ scenario, shown, status }: HistoryProps) {
   const { data } = useQuery(runs({ scenario, limit: 30 }));
   const [selected, setSelected] = useState<number[]>([]);
   const navigate = useNavigate();
@@ -75,6 +83,7 @@ function History({ scenario, shown }: { scenario: string; shown: number | undefi
           <HistoryRow
             key={run.run}
             run={run}
+            status={run.run === shown ? current(run, status) : run.status}
             shown={run.run === shown}
             selected={selected.includes(run.run)}
             onToggle={() => toggle(run.run)}
@@ -100,14 +109,19 @@ function History({ scenario, shown }: { scenario: string; shown: number | undefi
   );
 }
 
+/** A run that has ended in the list stays so, whatever was heard of it last. */
+const current = (run: Run, status: Status | undefined): Status =>
+  isLive(run.status) && status !== undefined ? status : run.status;
+
 interface RowProps {
   run: Run;
+  status: Status;
   shown: boolean;
   selected: boolean;
   onToggle: () => void;
 }
 
-function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
+function HistoryRow({ run, status, shown, selected, onToggle }: RowProps) {
   return (
     <div
       className={classes.historyRow}
@@ -125,11 +139,11 @@ function HistoryRow({ run, shown, selected, onToggle }: RowProps) {
         #{run.run}
       </Link>
       <Tooltip label={<Setting run={run} />} multiline maw={360} openDelay={300}>
-        <Text size="xs" truncate span tabIndex={0}>
+        <Text size="xs" truncate span tabIndex={0} title={settingText(run)}>
           {settingText(run)}
         </Text>
       </Tooltip>
-      <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />
+      <StatusBadge status={status} error={run.error} unmet={run.unmet} />
     </div>
   );
 }

@@ -1,12 +1,12 @@
 /** The studio: the scene, the parameters, the run and its charts. */
 
-import { NativeSelect, Text } from "@mantine/core";
+import { Button, NativeSelect, Text } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { memo } from "react";
 import * as queries from "../../api/queries";
-import { exchanged, withChange } from "../../model/form";
-import { isLive } from "../../model/run";
+import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
+import { isLive, type RunDetail } from "../../model/run";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { useControl, useTakeOver } from "./control";
@@ -48,7 +48,13 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
 
   return (
     <div className={classes.studio} inert={!active} aria-hidden={!active}>
-      {active ? <Parameters id={id} form={form} draft={draft} update={update} /> : null}
+      {active ? <Parameters
+          id={id}
+          form={form}
+          draft={draft}
+          update={update}
+          other={isOther(shown.detail, draft, seed) ? run : undefined}
+        /> : null}
       {active ? (
         <RunBar
           {...control}
@@ -69,7 +75,7 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
       {active ? (
         <div className={classes.bottom}>
           <LiveCharts samples={shown.samples} version={shown.version} duration={duration} paints={scene.paints} />
-          <SidePanel scenario={id} run={run} events={shown.events} />
+          <SidePanel scenario={id} run={run} status={shown.progress?.status} events={shown.events} />
         </div>
       ) : null}
     </div>
@@ -81,15 +87,18 @@ interface ParametersProps {
   form: Form;
   draft: Draft;
   update: (part: Partial<Draft>) => void;
+  /** The run that is shown, when the form does not stem from it. */
+  other: number | undefined;
 }
 
 /** The left side. Its parts change only with the form, not ten times a second with the run. */
-const Parameters = memo(function Parameters({ id, form, draft, update }: ParametersProps) {
+const Parameters = memo(function Parameters({ id, form, draft, update, other }: ParametersProps) {
   const { applications } = form;
   const { changes } = draft;
   return (
     <aside className={classes.panel} aria-label="Parameters">
       <ScenarioHead id={id} />
+      {other === undefined ? null : <OtherRun id={id} run={other} />}
       {form.error ? <Failure error={form.error} onRetry={form.retry} /> : null}
       {form.sections ? (
         <ParameterPanel
@@ -111,6 +120,34 @@ const Parameters = memo(function Parameters({ id, form, draft, update }: Paramet
     </aside>
   );
 });
+
+/** Whether the form neither descends from this run nor says the same. */
+function isOther(run: RunDetail | undefined, { changes, parent }: Draft, seed: number): boolean {
+  if (!run || parent === run.run) return false;
+  return seed !== run.seed || !sameChanges(changes, fromSet(run.parameters));
+}
+
+/** A link may show a run beside a form that was made for another one. */
+function OtherRun({ id, run }: { id: string; run: number }) {
+  const navigate = useNavigate();
+  return (
+    <div className={classes.other} role="note" data-testid="other-run">
+      <span>
+        This is run <b>#{run}</b>; the form is the next run's.
+      </span>
+      <Button
+        size="compact-xs"
+        variant="light"
+        data-testid="take-over"
+        onClick={() =>
+          navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run, from: run } })
+        }
+      >
+        Take over its setting
+      </Button>
+    </div>
+  );
+}
 
 /** Which scenario, and what it is about. */
 function ScenarioHead({ id }: { id: string }) {

@@ -30,6 +30,7 @@ export function useShownRun(run: number | undefined) {
   const samples = useStoredSamples(live ? undefined : detail);
   return {
     live,
+    detail,
     samples: live?.samples ?? samples,
     version: live?.version ?? 0,
     events: live?.events ?? detail?.events ?? NONE,
