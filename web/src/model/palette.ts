@@ -22,7 +22,7 @@ const GROUND = { light: [255, 255, 255], dark: [36, 36, 36] };
 /** Contrast that graphics need: WCAG 2.2, success criterion 1.4.11. */
 const ENOUGH = 3;
 /** Colours nearer than this, of 441 between black and white, are taken for one another. */
-const APART = 60;
+const APART = 40;
 
 type Rgb = readonly number[];
 

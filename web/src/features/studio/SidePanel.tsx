@@ -78,7 +78,7 @@ function History({ scenario, shown, status }: HistoryProps) {
   const [a, b] = [...selected].sort((one, other) => one - other);
   return (
     <>
-      <ScrollArea className={classes.history} type="auto">
+      <ScrollArea className={classes.history} classNames={{ content: classes.historyContent ?? "" }} type="auto">
         {data.map((run) => (
           <HistoryRow
             key={run.run}
@@ -181,7 +181,7 @@ function Events({ events }: { events: readonly RunEvent[] }) {
     );
   }
   return (
-    <ScrollArea className={classes.history} type="auto">
+    <ScrollArea className={classes.history} classNames={{ content: classes.historyContent ?? "" }} type="auto">
       <EventList events={events} />
     </ScrollArea>
   );
