@@ -121,7 +121,6 @@ def test_6_a_wrong_value_is_told_at_its_field(page):
     field = page.get_by_test_id(HEADWAY)
     field.fill("99")
     field.press("Tab")
-    expect(page.locator("body")).to_contain_text("5")
     expect(page.get_by_test_id(HEADWAY)).to_have_attribute("aria-invalid", "true")
     field.fill("1.2")
     field.press("Tab")

@@ -10,7 +10,7 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.road.signals import GREEN
 from studio.world.build import build
-from studio.world.state import ACTIVE, FRONT, OFFSET, RED_STATION, STATION, V_X, VEHICLE, X, Y
+from studio.world.state import ACTIVE, FRONT, OFFSET, RED_STATION, STATION, V_X, X, Y
 from studio.world.tick import tick
 
 
@@ -169,4 +169,3 @@ def test_traffic_comes_in_again(sample):
         last = now
     assert jumps > 5
     assert world.vehicles.state[ACTIVE, 5:].sum() >= 15
-    assert VEHICLE[ACTIVE].name == "active"
