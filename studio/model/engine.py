@@ -1,0 +1,66 @@
+"""Engine or electric motor: full-load curve, drag, idle control, rev limit, governor, first order with a dead time.
+
+    tau_e dT_e/dt = T_req(t - t_d) - T_e,    T_drag(w) <= T_req <= T_full(w)        (Massow & Radusch 2018, Eq. 11)
+    J_e dw/dt = T_e - T_load                                                       (Eq. 10; stepped with the coupling)
+
+All torques are net, at the shaft. The pedal spans the range between drag and full load. The full-load curve is linear
+between equidistant knots, written as a sum of hinges c_0 + sum c_k max(w - w_k, 0), which needs no search.
+Source: L. Guzzella, C. Onder, Introduction to Modeling and Control of Internal Combustion Engine Systems, 2nd edition 2010.
+"""
+
+from studio.compiled import inlined
+from studio.model import actuator
+
+IDLE_GAIN = 2.0  # [Nm s/rad] of the idle control
+GOVERNOR_GAIN = 2.0  # [Nm s/rad] of the speed control while a clutch slips
+TAPER = 0.03  # [1] of the limit speed, over which full load fades at the rev limit
+SLOW = 10.0  # [rad/s] below this drag and regeneration fade out
+
+
+@inlined
+def drag(w, T_0, slope):
+    """Torque [Nm] with the pedal lifted, negative; w [rad/s]."""
+    return -(T_0 + slope * abs(w)) * min(max(w * (1.0 / SLOW), -1.0), 1.0)
+
+
+@inlined
+def full_load(w, T_curve, T_drag, w_limit):
+    """Greatest torque [Nm]: the curve, faded to the drag at the rev limit."""
+    share = min(max((w_limit - w) / (TAPER * w_limit), 0.0), 1.0)
+    return T_drag + (T_curve - T_drag) * share
+
+
+@inlined
+def lowest(w, T_drag, T_regeneration):
+    """Least torque [Nm] on request: drag and regeneration."""
+    return T_drag - T_regeneration * min(max(w * (1.0 / SLOW), -1.0), 1.0)
+
+
+@inlined
+def by_pedal(pedal, T_drag, T_full):
+    """Torque [Nm] that a pedal position asks for."""
+    return T_drag + min(max(pedal, 0.0), 1.0) * (T_full - T_drag)
+
+
+@inlined
+def pedal_for(T, T_drag, T_full):
+    """Pedal position [1] that asks for a torque."""
+    return min(max((T - T_drag) / max(T_full - T_drag, 1.0), 0.0), 1.0)
+
+
+@inlined
+def idled(T, w, w_idle):
+    """The request, at least what keeps the engine idling."""
+    return max(T, IDLE_GAIN * (w_idle - w)) if w_idle > 0.0 else T
+
+
+@inlined
+def governed(T, w, w_wanted, T_carried):
+    """The request, at most what the clutch carries plus what leads to the wanted speed [rad/s]."""
+    return min(T, T_carried + GOVERNOR_GAIN * (w_wanted - w))
+
+
+@inlined
+def torque(T_e, T_req, T_low, T_full, tau, dt):
+    """T_e [Nm] after dt towards the request, within what the engine can do."""
+    return actuator.lag(T_e, min(max(T_req, T_low), T_full), tau, dt)

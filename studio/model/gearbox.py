@@ -1,0 +1,54 @@
+"""The gearbox's control unit: which gear, and what the clutch does meanwhile. It works once a tick.
+
+A shift is: open the clutch over the old gear's time, wait while it is open, engage the new gear, close over its time
+(Massow & Radusch 2018, Eq. 7 and Table 4). Gears are chosen by the speed of the input against the accelerator, one curve
+up and one down per gear; the distance between them is the hysteresis.
+"""
+
+from studio.compiled import compiled
+
+TOUCH = 0.01  # [1] pedal position that counts as pressed
+WALKING = 1.0  # [m/s] above this nobody shifts between forward and reverse
+OPEN, CLOSED = 0.0, 1.0
+
+
+@compiled
+def threshold(light, full, pedal):
+    """Speed [rad/s] of a shift at a pedal position: between touched and full."""
+    return light + pedal * (full - light)
+
+
+@compiled
+def automatic(gear, top, w_in, up, down):
+    """The gear that the schedule wants; w_in [rad/s], up and down the thresholds of the present gear."""
+    if gear < top and w_in > up:
+        return gear + 1
+    if gear > 1 and w_in < down:
+        return gear - 1
+    return max(gear, 1)
+
+
+@compiled
+def permitted(wanted, gear, top, v, w_wanted, w_limit):
+    """A requested gear, or the present one where it would do harm: over-revving, or reverse while driving."""
+    wanted = min(max(wanted, -1), top)
+    turns_back = (wanted < 0) != (gear < 0) and wanted != 0 and abs(v) > WALKING
+    return gear if turns_back or w_wanted > w_limit else wanted
+
+
+@compiled
+def clutch_closes(w_in, pedal, w_idle):
+    """Whether an automated clutch closes in gear: the driver wants to go, or the car is fast enough."""
+    return pedal > TOUCH or w_in > w_idle
+
+
+@compiled
+def lock_up_closes(w_in, w_lock_up, is_closed):
+    """Whether the lock-up of a converter closes, with a hysteresis of a tenth."""
+    return w_in > (0.9 * w_lock_up if is_closed else w_lock_up)
+
+
+@compiled
+def rate(time, tick):
+    """Speed [1/s] of the clutch that moves it over its whole way within `time` [s]."""
+    return 1.0 / max(time, tick)

@@ -1,0 +1,1 @@
+"""Test rigs: a part or a whole vehicle by itself, driven by a table of inputs."""

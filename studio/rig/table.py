@@ -1,0 +1,142 @@
+"""Tables of numbers as CSV, plain or gzipped: reading with everything that can be wrong, and writing."""
+
+import csv
+import gzip
+import io
+import zlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isnan
+from pathlib import Path
+
+import numpy as np
+
+from studio.errors import Problem, ScenarioError, nearest
+
+SIZE_LIMIT = 200_000_000  # [B] of a table, unpacked
+MOST = 20  # problems that a message lists
+
+Ranges = dict[str, tuple[float, float, str]]  # of each column: lowest and highest value, and how a message says it
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table as text: its head, its rows, and the line of the file that each row stands in."""
+
+    name: str
+    head: list[str]
+    rows: list[list[str]]
+    lines: list[int]
+
+    def where(self, row: int, column: str) -> str:
+        """Place of a cell for a message."""
+        return f"{self.name}, line {self.lines[row]}, column {column}"
+
+
+def read(path: Path, *, needed: Iterable[str], known: Iterable[str] | None = None) -> Table:
+    """A CSV file with the needed columns, and no others than the known ones when these are given; raises ScenarioError."""
+    reader = csv.reader(io.StringIO(text(path), newline=""), strict=True)
+    rows, lines = [], []
+    try:
+        for row in reader:
+            if any(cell.strip() for cell in row):
+                rows.append([cell.strip() for cell in row])
+                lines.append(reader.line_num)
+    except csv.Error as error:
+        refuse(path.name, [Problem(f"{path.name}, line {reader.line_num}", f"is not CSV: {error}")])
+    if not rows:
+        refuse(path.name, [Problem(str(path), "is empty", allowed=f"a head with {', '.join(needed)}, then rows")])
+    table = Table(path.name, rows[0], rows[1:], lines[1:])
+    refuse(path.name, head_problems(table, list(needed), known) or shape_problems(table))
+    return table
+
+
+def text(path: Path) -> str:
+    """Text of a plain or gzipped file."""
+    try:
+        opened = gzip.open if path.suffix == ".gz" else open
+        with opened(path, "rb") as file:
+            data = file.read(SIZE_LIMIT + 1)
+    except OSError as error:
+        refuse(path.name, [Problem(str(path), f"cannot be opened: {error.strerror or error}")])
+    except (EOFError, zlib.error) as error:
+        refuse(path.name, [Problem(str(path), f"is damaged: {error}", remedy="pack it again with gzip")])
+    if len(data) > SIZE_LIMIT:
+        refuse(path.name, [Problem(str(path), "is too large", allowed=f"{SIZE_LIMIT} bytes", remedy="cut it into parts")])
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return refuse(path.name, [Problem(str(path), "is not a text file", allowed="CSV in UTF-8")])
+
+
+def head_problems(table: Table, needed: list[str], known: Iterable[str] | None) -> list[Problem]:
+    """Columns that are missing, stand twice, or are not known."""
+    where = f"{table.name}, line 1"
+    if len(table.head) == 1 and any(mark in table.head[0] for mark in ";\t"):
+        return [Problem(where, "has one column only", table.head[0][:MOST], "columns separated by commas")]
+    missing = [name for name in needed if name not in table.head]
+    twice = sorted({name for name in table.head if table.head.count(name) > 1})
+    strange = [name for name in dict.fromkeys(table.head) if known is not None and name not in known]
+    return [
+        *(Problem(where, f"has no column {name}", remedy=nearest(name, table.head)) for name in missing),
+        *(Problem(where, "has a column twice", name, "every name once") for name in twice),
+        *(Problem(where, "has a column that is not known", name or "no name", remedy=nearest(name, known)) for name in strange),
+    ]
+
+
+def shape_problems(table: Table) -> list[Problem]:
+    """No rows, or rows that do not fit the head."""
+    if not table.rows:
+        return [Problem(table.name, "has a head but no rows")]
+    width = len(table.head)
+    return [
+        Problem(f"{table.name}, line {line}", "has another number of cells than the head", str(len(row)), str(width))
+        for row, line in zip(table.rows, table.lines, strict=True)
+        if len(row) != width
+    ]
+
+
+def numbers(table: Table, ranges: Ranges) -> np.ndarray:
+    """The columns of the ranges, shaped [column, row]; raises ScenarioError that names the cells out of their range."""
+    at = [table.head.index(name) for name in ranges]
+    values = [[number(row[column]) for row in table.rows] for column in at]
+    problems = [
+        cell_problem(table, i, name, value, allowed)
+        for (name, (low, high, allowed)), column in zip(ranges.items(), values, strict=True)
+        for i, value in enumerate(column)
+        if not low <= value <= high
+    ]
+    refuse(table.name, problems)
+    return np.array(values)
+
+
+def number(cell: str) -> float:
+    """A number, or NaN for what is none."""
+    try:
+        return float(cell)
+    except ValueError:
+        return float("nan")
+
+
+def cell_problem(table: Table, row: int, column: str, value: float, allowed: str) -> Problem:
+    """A cell that is no number or out of range."""
+    what = "is not a number" if isnan(value) else "is out of range"
+    cell = table.rows[row][table.head.index(column)]
+    return Problem(table.where(row, column), what, cell or "nothing", allowed)
+
+
+def write(path: Path, rows: list[list[str]]) -> None:
+    """Writes CSV, gzipped when the name ends in .gz."""
+    try:
+        opened = gzip.open if path.suffix == ".gz" else open
+        with opened(path, "wt", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
+    except OSError as error:
+        refuse(path.name, [Problem(str(path), f"cannot be written: {error.strerror or error}")], "cannot be written")
+
+
+def refuse(name: str, problems: list[Problem], what: str = "cannot be used as a table") -> None:
+    """Raises ScenarioError when there are problems; shows the first of many."""
+    if problems:
+        more = f" The first {MOST} of {len(problems)} problems:" if len(problems) > MOST else ""
+        raise ScenarioError(f"{name} {what}.{more}", problems[:MOST])
