@@ -5,6 +5,7 @@
     ├── MapError            a map file is missing, unreadable or holds no roads
     ├── RouteError          roads do not connect, or are not on the map
     ├── ApplicationError    a plug-in does not load, or raised during a run
+    ├── RunError            a state is not finite any more
     ├── StoreError          runs.db cannot be opened or written
     ├── UnknownError        a run, scenario or channel that does not exist
     └── ServerError         the server cannot start
@@ -70,6 +71,10 @@ class RouteError(StudioError):
 
 class ApplicationError(StudioError):
     """A plug-in does not load, or raised during a run."""
+
+
+class RunError(StudioError):
+    """A state is not finite any more."""
 
 
 class StoreError(StudioError):

@@ -11,7 +11,8 @@ An application is a module with
 reached it. It acts only through the actuators. It keeps nothing outside `memory`, so a run can be repeated, cut and
 batched. It is plain Python over NamedTuples of floats; with `COMPILED = True`, and `@compiled` above it, the same function is machine code.
 
-What a command leaves at `LEAVE` stays the driver's.
+What a command leaves at `LEAVE` stays the driver's. Most applications return a `Command`; one that works closer to the
+hardware returns `Actuators`.
 """
 
 from math import nan
@@ -69,7 +70,23 @@ class Observation(NamedTuple):
 
 
 class Command(NamedTuple):
-    """What an application asks of the actuators."""
+    """What an application asks of the car, as production cars offer it to their own assistance."""
 
     acceleration: float  # [m/s²]
     steering: float  # [rad] road wheel angle
+
+
+class Actuators(NamedTuple):
+    """The same, and every actuator by itself. Of several that do the same, the last given one counts."""
+
+    acceleration: float  # [m/s²] drive and brake together
+    steering: float  # [rad] road wheel angle
+    steering_torque: float  # [Nm] at the steering wheel, left positive; instead of the angle
+    accelerator: float  # [1] pedal position
+    drive_torque: float  # [Nm] at the wheels, sum; negative for engine braking or regeneration
+    engine_torque: float  # [Nm] at the shaft
+    brake_torque: float  # [Nm] at the wheels, sum, through the hydraulics
+    gear: float  # [1] -1 reverse, 0 neutral, 1 first ...; what would do harm is not done
+
+
+ACTUATORS = Actuators._fields

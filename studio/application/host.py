@@ -13,18 +13,21 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
+from math import nan
 from pathlib import Path
 
 import numpy as np
+from numba import literal_unroll
 
-from studio.application.contract import Clock, Command, Front, Message, Observation, Own
+from studio.application.contract import Actuators, Clock, Command, Front, Message, Observation, Own
 from studio.application.registry import Application
-from studio.compiled import CACHE
+from studio.compiled import CACHE, compiled
 from studio.errors import ApplicationError
 
 TEMPLATE = '''"""Calls {name} for all its cars."""
 
 from studio.application.contract import Clock, Front, Message, Observation, Own
+from studio.application.host import put
 from studio.compiled import compiled
 from {module} import Memory, ParameterTuple, decide
 
@@ -41,8 +44,7 @@ def run(columns, parameters, memory, observed, commands):
         )
         remembered, command = decide(ParameterTuple({parameters}), Memory({memory}), observation)
 {store}
-        commands[0, v] = command.acceleration
-        commands[1, v] = command.steering
+        put(command, v, commands)
 '''
 FLAGS = ("detected", "received")
 
@@ -92,9 +94,19 @@ def python_loop(application: Application) -> Callable:
                 observation_of(observed[:, j].tolist()),
             )
             memory[:, j] = memory_of(remembered, module.Memory)
-            commands[:, v] = command_of(command)
+            put.py_func(command_of(command), v, commands)
 
     return run
+
+
+@compiled
+def put(command, v, commands):
+    """Writes a command, whose fields are the first of the actuators or all of them; the rest is left to the driver."""
+    commands[:, v] = nan
+    i = 0
+    for value in literal_unroll(command):
+        commands[i, v] = value
+        i += 1
 
 
 def memory_of(remembered, kind: type) -> tuple[float, ...]:
@@ -104,11 +116,11 @@ def memory_of(remembered, kind: type) -> tuple[float, ...]:
     return remembered
 
 
-def command_of(command) -> tuple[float, float]:
-    """Both actuators; raises TypeError when `decide` returned something else."""
-    if not isinstance(command, Command):
-        raise TypeError(f"decide() returned {command!r} as its command, not a Command")
-    return command.acceleration, command.steering
+def command_of(command) -> Command | Actuators:
+    """The command; raises TypeError when `decide` returned something else."""
+    if not isinstance(command, (Command, Actuators)):
+        raise TypeError(f"decide() returned {command!r} as its command, not a Command or Actuators")
+    return command
 
 
 def observation_of(values: list[float]) -> Observation:

@@ -5,6 +5,7 @@ import numpy as np
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.vehicle import Dimensions
+from studio.scenario.catalogue import find_vehicle
 from studio.world.build import vehicles_of
 from studio.world.setting import Setting
 from studio.world.state import *  # noqa: F403 - the names of the rows
@@ -13,16 +14,15 @@ from studio.world.world import Vehicles
 JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way
 MOTION = (pose.X, pose.Y, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEEL_ANGLE)
 
-HEIGHT = 1.43  # [m] of the drawn body; the dynamics have no use for it
 
 def poses(vehicles: Vehicles) -> np.ndarray:
-    """float32[POSE_ROWS, vehicle] of the vehicles now; body angles follow the load transfer."""
+    """float32[POSE_ROWS, vehicle] of the vehicles now; the body rolls, pitches and heaves on its springs."""
     state, parameter = vehicles.state, vehicles.parameter
     n = state.shape[1]
     rows = np.zeros((pose.POSE_ROWS, n), np.float32)
     rows[pose.X], rows[pose.Y], rows[pose.YAW] = state[X], state[Y], state[PSI]
-    rows[pose.ROLL] = parameter[ROLL_COMPLIANCE] * state[TRANSFER_Y]
-    rows[pose.PITCH] = -parameter[PITCH_COMPLIANCE] * state[TRANSFER_X]
+    rows[pose.Z] = state[Z] - parameter[H]
+    rows[pose.ROLL], rows[pose.PITCH] = state[ROLL], state[PITCH]
     rows[pose.STEER] = state[DELTA]
     rows[pose.WHEEL_ANGLE] = vehicles.wheels[ROTATION, 2 * n : 3 * n]
     rows[pose.VISIBLE] = state[ACTIVE]
@@ -46,15 +46,16 @@ def standing(setting: Setting) -> np.ndarray:
 def looks(setting: Setting) -> list[Look]:
     """How the vehicles look, in the order of their columns."""
     parameter = vehicles_of(list(setting.cars)).parameter
-    return [Look(car.name, car.colour, dimensions(parameter[:, v])) for v, car in enumerate(setting.cars)]
+    heights = [find_vehicle(car.model).values.body.height for car in setting.cars]
+    return [Look(car.name, car.colour, dimensions(parameter[:, v], heights[v])) for v, car in enumerate(setting.cars)]
 
 
-def dimensions(p: np.ndarray) -> Dimensions:
-    """Outer dimensions from a column of parameters."""
+def dimensions(p: np.ndarray, height: float) -> Dimensions:
+    """Outer dimensions from a column of parameters; the dynamics have no use for the height."""
     return Dimensions(
         length=float(p[LENGTH]),
         width=float(p[WIDTH]),
-        height=HEIGHT,
+        height=height,
         wheelbase=float(p[L_F] + p[L_R]),
         track=float(p[TRACK_F]),
         wheel_radius=float(p[RADIUS]),

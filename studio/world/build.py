@@ -4,18 +4,16 @@
 """
 
 from collections.abc import Sequence
-from functools import cache
 
 import numpy as np
 
 from studio.application import registry
+from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
-from studio.conventions import GRAVITY
-from studio.model import tyre
-from studio.model.tyre import Tyre
 from studio.road import conflict
 from studio.scenario import catalogue
-from studio.world.control import torques
+from studio.world.control import wheel_torque
+from studio.world.fleet import Start, fleet
 from studio.world.setting import Car, Setting, pose
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
@@ -60,57 +58,17 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
 def vehicles_of(cars: list[Car]) -> Vehicles:
     """State, parameters and minds at the start: on the path, rolling without slip."""
     n = len(cars)
-    tyres, tyre_of, stiffness = tyres_of(cars)
-    parameter = np.array([parameters_of(car.model) for car in cars]).T.copy()
-    parameter[C_FRONT] = [stiffness(car.model) for car in cars]
-    state = np.zeros((len(VEHICLE), n))
-    for v, car in enumerate(cars):
-        state[[X, Y, PSI], v] = pose(car.path, car.station)
-        state[V_X, v] = car.speed
-    state[ACTIVE] = 1.0
-    wheels = np.zeros((len(WHEEL), 4 * n))
-    wheels[OMEGA] = np.tile(state[V_X] / parameter[RADIUS], 4)
+    starts = [Start(catalogue.find_vehicle(car.model), *pose(car.path, car.station), car.speed) for car in cars]
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     return Vehicles(
-        state=state,
-        wheels=wheels,
-        contact=np.zeros((len(CONTACT), 4 * n)),
-        parameter=parameter,
-        tyres=tyres,
-        tyre_of=tyre_of,
+        **vars(fleet(starts)),
         drivers=np.array([[getattr(car.driver, row.name) for row in DRIVER] for car in cars]).T.copy(),
         mind=mind,
         script=np.tile([[0.0], [-np.inf], [0.0]], n),
-        commands=np.zeros((len(COMMAND), RING * n)),
         returns=np.array([int(car.returns) for car in cars]),
-        app_command=np.full((2, n), np.nan),
+        app_command=np.full((len(ACTUATORS), n), np.nan),
     )
-
-
-COMPUTED = {"front_stiffness": 0.0, "friction": 1.0}  # not in vehicle files: from the tyre, and from the road
-
-
-@cache
-def parameters_of(model: str) -> tuple[float, ...]:
-    """The parameter rows of a catalogue vehicle."""
-    values = catalogue.find_vehicle(model).parameters
-    return tuple(COMPUTED[row.name] if row.name in COMPUTED else float(values[row.name].value) for row in PARAMETER)
-
-
-def tyres_of(cars: list[Car]):
-    """The table of tyres, which tyre each car has, and the cornering stiffness [N/rad] of a model's front axle."""
-    names = sorted({catalogue.find_vehicle(car.model).tyre for car in cars})
-    table = np.array([catalogue.tyre_coefficients(name, Tyre._fields) for name in names]).T.copy()
-    tyre_of = np.array([names.index(catalogue.find_vehicle(car.model).tyre) for car in cars])
-
-    def stiffness(model: str) -> float:
-        p = parameters_of(model)
-        load = p[MASS] * GRAVITY * p[L_R] / (p[L_F] + p[L_R]) / 2
-        coefficients = Tyre(*table[:, names.index(catalogue.find_vehicle(model).tyre)])
-        return -2.0 * tyre.cornering_stiffness(coefficients, 0.0, load)
-
-    return table, tyre_of, stiffness
 
 
 def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
@@ -263,9 +221,8 @@ def settle(world: World) -> None:
     """Past commands and actuators as if every car had kept its speed for long."""
     vehicles, n = world.vehicles, world.size
     for v in range(n):
-        drive, brake = torques(v, 0.0, vehicles.state, vehicles.parameter)
-        vehicles.state[TORQUE_DRIVE, v] = drive
-        vehicles.state[TORQUE_BRAKE, v] = brake
-        vehicles.commands[U_DRIVE, v::n] = drive
-        vehicles.commands[U_BRAKE, v::n] = brake
-
+        T = wheel_torque(v, 0.0, vehicles.state, vehicles.ground, vehicles.parameter)
+        ratio = vehicles.state[RATIO, v]
+        vehicles.state[T_ENGINE, v] = T / ratio if vehicles.state[CLUTCH, v] >= 1.0 else 0.0
+        vehicles.state[TORQUE_DRIVE, v] = T
+        vehicles.commands[U_DRIVE, v::n] = T

@@ -1,17 +1,27 @@
 """Control: who commands what. Triggers start scripted maneuvers; maneuver, application and driver share the actuators.
 
 Order of precedence on the pedals: a scripted maneuver, then the application, then the driver. A driver whose application
-keeps the gap still brakes for a red light and for a car that merges first: an application sees neither.
+drives still brakes for a red light and for a car that merges first: an application sees neither. What an application
+does not command stays the driver's.
+
+An acceleration is turned into torques by inverting the resistances: F = m_eff u + F_air + F_roll + m g sin(slope). The
+engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain does not do.
 """
 
-from math import inf, isnan
+from math import cos, inf, isnan, nan, sin
 
+from studio.application.contract import ACTUATORS
 from studio.compiled import compiled
-from studio.model import actuator, vehicle
-from studio.world.motion import rolling_force
+from studio.conventions import GRAVITY
+from studio.model import actuator, aerodynamics
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
+HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
+HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
+(
+    APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
+) = range(len(ACTUATORS))  # fmt: skip
 
 
 @compiled
@@ -38,41 +48,114 @@ def is_scripted(v, time, state, script):
 
 
 @compiled
-def request(v, time, state, script, mind, app_acceleration):
-    """Acceleration [m/s²] that reaches the actuators."""
-    if is_scripted(v, time, state, script):
-        return -script[SCRIPT_BRAKE, v]
-    u = mind[WISH, v]
-    if not isnan(app_acceleration):
-        u = min(app_acceleration, min(mind[STOPPING, v], mind[YIELDING, v]))
+def safe(v, mind):
+    """Acceleration [m/s²] that lights and cars which go first permit."""
+    return min(mind[STOPPING, v], mind[YIELDING, v])
+
+
+@compiled
+def request(v, mind, app_acceleration):
+    """Acceleration [m/s²] that application or driver ask for."""
+    u = mind[WISH, v] if isnan(app_acceleration) else min(app_acceleration, safe(v, mind))
     return min(max(u, STRONGEST_BRAKE), STRONGEST_DRIVE)
 
 
 @compiled
-def torques(v, u, state, parameter):
-    """Drive and brake torque [Nm] that give the acceleration u on the level."""
-    R, m = parameter[RADIUS, v], parameter[MASS, v]
-    m_eff = m + 4.0 * parameter[J_W, v] / (R * R)
-    air = vehicle.air_drag(parameter[C_D, v], parameter[AREA, v], state[V_X, v])
-    F = actuator.wheel_force(u, m_eff, air, rolling_force(m, parameter[C_ROLL, v]))
-    drive = actuator.drive_torque(F, R, state[V_X, v], parameter[DRIVE_MAX, v], parameter[POWER_MAX, v])
-    return drive, actuator.brake_torque(F, R, parameter[BRAKE_MAX, v])
+def grade(v, state, ground):
+    """Rise of the road ahead [1]."""
+    return ground[SLOPE_X, v] * cos(state[PSI, v]) + ground[SLOPE_Y, v] * sin(state[PSI, v])
 
 
 @compiled
-def command(k, time, state, parameter, script, mind, app_command, commands):
+def effective_mass(v, state, parameter):
+    """Mass [kg] with everything that spins; the engine counts while the clutch is closed."""
+    joined = parameter[J_E, v] if state[CLUTCH, v] >= 1.0 else 0.0
+    spinning = 2.0 * (parameter[J_WF, v] + parameter[J_WR, v]) + (joined + state[J_GEAR, v]) * state[RATIO, v] ** 2
+    return parameter[MASS, v] + spinning / (parameter[RADIUS, v] * parameter[RADIUS, v])
+
+
+@compiled
+def wheel_torque(v, u, state, ground, parameter):
+    """Torque [Nm] at the wheels that gives the acceleration u [m/s²]."""
+    m = parameter[MASS, v]
+    air = aerodynamics.air_drag(parameter[C_D, v], parameter[AREA, v], state[V_X, v])
+    resistance = parameter[C_ROLL, v] * m * GRAVITY + m * GRAVITY * grade(v, state, ground)
+    return actuator.wheel_force(u, effective_mass(v, state, parameter), air, resistance) * parameter[RADIUS, v]
+
+
+@compiled
+def brake_torque(v, T, state):
+    """Torque [Nm] that is left to the brakes when T [Nm] is wanted at the wheels: what the powertrain does not take away.
+
+    What still drives while the pedal is pressed is about to fade, and is not braked against.
+    """
+    fades = state[TORQUE_DRIVE, v] > 0.0 and state[ACCELERATOR, v] > 0.0
+    return max((0.0 if fades else state[TORQUE_DRIVE, v]) - T, 0.0)
+
+
+@compiled
+def is_held(v, u, state):
+    """Whether a car stands and is to stand."""
+    return u <= 0.0 and abs(state[V_X, v]) < HOLD_SPEED
+
+
+@compiled
+def holding_torque(v, state, ground, parameter):
+    """Brake torque [Nm] that holds a standing car."""
+    return parameter[MASS, v] * (HOLD + GRAVITY * abs(grade(v, state, ground))) * parameter[RADIUS, v]
+
+
+@compiled
+def pedals(v, column, u, state, ground, parameter, commands):
+    """An acceleration becomes a drive and a brake request."""
+    T = wheel_torque(v, u, state, ground, parameter)
+    held = is_held(v, u, state)
+    commands[U, column] = u
+    commands[U_DRIVE, column] = nan if held else T
+    commands[U_PEDAL, column] = commands[U_ENGINE, column] = nan
+    commands[U_BRAKE, column] = holding_torque(v, state, ground, parameter) if held else brake_torque(v, T, state)
+
+
+@compiled
+def take_over(v, column, state, parameter, mind, app_command, commands):
+    """Drive and brake that an application commands itself, unless the driver has to brake."""
+    drives = not (isnan(app_command[APP_ACCELERATOR, v]) and isnan(app_command[APP_DRIVE, v]) and isnan(app_command[APP_ENGINE, v]))
+    if drives and safe(v, mind) >= 0.0:
+        commands[U_PEDAL, column] = app_command[APP_ACCELERATOR, v]
+        commands[U_DRIVE, column] = app_command[APP_DRIVE, v]
+        commands[U_ENGINE, column] = app_command[APP_ENGINE, v]
+    if not isnan(app_command[APP_BRAKE, v]):
+        others = commands[U_BRAKE, column] if safe(v, mind) < 0.0 else 0.0
+        commands[U_BRAKE, column] = max(max(app_command[APP_BRAKE, v], 0.0), others)
+    if drives or not isnan(app_command[APP_BRAKE, v]):
+        T = state[TORQUE_DRIVE, v] - commands[U_BRAKE, column]
+        commands[U, column] = T / (parameter[RADIUS, v] * effective_mass(v, state, parameter))
+
+
+@compiled
+def steer(v, column, parameter, mind, app_command, commands):
+    """Steering: a torque at the wheel, or an angle; the driver's when the application commands neither."""
+    angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
+    limit = parameter[STEER_MAX, v]
+    commands[U_STEER, column] = min(max(angle, -limit), limit)
+    commands[U_STEER_TORQUE, column] = app_command[APP_STEERING_TORQUE, v]
+
+
+@compiled
+def command(k, time, state, ground, parameter, script, mind, app_command, commands):
     """Writes this tick's commands into the ring."""
     n = state.shape[1]
     for v in range(n):
         column = (k % RING) * n + v
-        u = request(v, time, state, script, mind, app_command[0, v])
-        drive, brake = torques(v, u, state, parameter)
-        steer = mind[STEER_WISH, v] if isnan(app_command[1, v]) else app_command[1, v]
-        steer = min(max(steer, -parameter[STEER_MAX, v]), parameter[STEER_MAX, v])
-        commands[U, column] = u
-        commands[U_STEER, column] = steer
-        commands[U_DRIVE, column] = drive
-        commands[U_BRAKE, column] = brake
+        steer(v, column, parameter, mind, app_command, commands)
+        commands[U_GEAR, column] = app_command[APP_GEAR, v]
+        if state[ACTIVE, v] == 0.0:
+            pedals(v, column, STRONGEST_BRAKE, state, ground, parameter, commands)
+        elif is_scripted(v, time, state, script):
+            pedals(v, column, -script[SCRIPT_BRAKE, v], state, ground, parameter, commands)
+        else:
+            pedals(v, column, request(v, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
+            take_over(v, column, state, parameter, mind, app_command, commands)
 
 
 @compiled

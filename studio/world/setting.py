@@ -149,8 +149,8 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         found.append(Problem(f"{where}: radio.delay", "is longer than messages are kept", f"{longest} s", f"≤ {kept:g} s"))
     models = {vehicle.model for vehicle in scenario.vehicles.values()} | {scenario.traffic.model}
     for model in sorted(models & set(catalogue.vehicle_names())):
-        for name in ("drive_delay", "brake_delay"):
-            delay = catalogue.find_vehicle(model).parameters[name].value
+        values = catalogue.find_vehicle(model).values
+        for name, delay in (("engine.delay", values.engine.delay), ("brakes.delay", values.brakes.delay)):
             if delay > (RING - 1) * tick:
                 found.append(Problem(f"{model}: {name}", "is longer than commands are kept", f"{delay} s", f"≤ {(RING - 1) * tick:g} s"))
     return found

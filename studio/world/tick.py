@@ -5,7 +5,7 @@ applications and drivers decide, commands go out. Between two ticks every vehicl
 """
 
 from studio.application.host import Hosted
-from studio.world import collision, control, motion, perception, traffic
+from studio.world import collision, control, fleet, perception, traffic
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import World
 
@@ -95,15 +95,12 @@ def observe(world: World, hosted: Hosted) -> None:
 def act(world: World) -> None:
     """Maneuvers, applications and drivers command the actuators."""
     v, clock = world.vehicles, world.clock
-    control.command(clock.k, clock.time, v.state, v.parameter, v.script, v.mind, v.app_command, v.commands)
+    control.command(clock.k, clock.time, v.state, v.ground, v.parameter, v.script, v.mind, v.app_command, v.commands)
 
 
 def move(world: World) -> None:
-    """Every vehicle integrates to the next tick."""
-    v, clock = world.vehicles, world.clock
-    motion.integrate(
-        v.state, v.parameter, v.tyres, v.tyre_of, v.wheels, v.contact, v.commands, clock.k, clock.tick, clock.step
-    )
+    """Gearboxes decide, and every vehicle integrates to the next tick."""
+    fleet.advance(world.vehicles, world.clock.k, world.clock.tick, world.clock.step)
 
 
 def collide(world: World) -> None:
@@ -117,5 +114,5 @@ def recirculate(world: World) -> None:
     """Traffic that has arrived comes in again."""
     v, r, w = world.vehicles, world.roads, world.worlds
     traffic.recirculate(
-        v.returns, r.points, r.path_first, w.of, w.first, w.count, v.state, v.parameter, v.wheels, v.mind
+        v.returns, r.points, r.path_first, w.of, w.first, w.count, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
     )

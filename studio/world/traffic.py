@@ -20,6 +20,7 @@ from studio.road.path import (
     project,
 )
 from studio.road.signals import GREEN, signal_state
+from studio.world.shift import start
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
@@ -228,24 +229,13 @@ def is_free(x, y, first, count, state):
 
 
 @compiled
-def enter(v, points, start, state, parameter, wheels, mind):
-    """Puts a car at the start of its path, rolling at the permitted speed."""
-    n = state.shape[1]
-    state[:, v] = 0.0
-    state[X, v], state[Y, v], state[PSI, v] = points[PATH_X, start], points[PATH_Y, start], points[PATH_HEADING, start]
-    state[V_X, v] = points[PATH_SPEED, start]
-    state[ACTIVE, v] = 1.0
-    mind[STATION, v] = 0.0
-    for corner in range(4):
-        wheels[OMEGA, corner * n + v] = state[V_X, v] / parameter[RADIUS, v]
-
-
-@compiled
-def recirculate(returns, points, path_first, world_of, first, count, state, parameter, wheels, mind):
+def recirculate(returns, points, path_first, world_of, first, count, state, wheels, ground, parameter, gears, mind):
     """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:
             continue
-        start, w = path_first[v], world_of[v]
-        if is_free(points[PATH_X, start], points[PATH_Y, start], first[w], count[w], state):
-            enter(v, points, start, state, parameter, wheels, mind)
+        at, w = path_first[v], world_of[v]
+        x, y = points[PATH_X, at], points[PATH_Y, at]
+        if is_free(x, y, first[w], count[w], state):
+            start(v, x, y, points[PATH_HEADING, at], points[PATH_SPEED, at], state, wheels, ground, parameter, gears)
+            mind[STATION, v] = 0.0

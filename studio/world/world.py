@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.application.host import Hosted
+from studio.world.fleet import Fleet
 
 
 @dataclass
@@ -23,21 +24,14 @@ class Clock:
 
 
 @dataclass
-class Vehicles:
-    """State, parameters and minds of all vehicles, [row, vehicle]; wheels and contact [row, corner · n + vehicle]."""
+class Vehicles(Fleet):
+    """A fleet with drivers: what they want, know and are told, [row, vehicle]."""
 
-    state: np.ndarray
-    wheels: np.ndarray
-    contact: np.ndarray
-    parameter: np.ndarray
-    tyres: np.ndarray  # [coefficient, tyre]
-    tyre_of: np.ndarray
     drivers: np.ndarray
     mind: np.ndarray
     script: np.ndarray
-    commands: np.ndarray  # [row, slot · n + vehicle]
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
-    app_command: np.ndarray  # [acceleration, steering] of applications, not a number where there is none
+    app_command: np.ndarray  # [actuator, vehicle] of applications, not a number where there is none
 
 
 @dataclass

@@ -1,0 +1,71 @@
+"""Figures that follow from a vehicle's values, by which an engineer sees whether it is plausible."""
+
+from math import pi, sqrt
+
+import numpy as np
+
+from studio.conventions import GRAVITY
+from studio.scenario.vehicle import Engine, Vehicle
+
+
+def drive(values: Vehicle) -> str:
+    """Which wheels are driven: front, rear or all."""
+    return {0.0: "rear", 1.0: "front"}.get(values.gearbox.front_share, "all")
+
+
+def peak_power(engine: Engine) -> tuple[float, float]:
+    """Greatest power [W] on the full-load curve below the rev limit, and its speed [rad/s]."""
+    w = np.linspace(0.0, min(engine.speeds[-1], engine.limit_speed), 2001)
+    P = w * np.interp(w, engine.speeds, engine.torques)
+    best = int(np.argmax(P))
+    return float(P[best]), float(w[best])
+
+
+def stall_speed(values: Vehicle) -> float:
+    """Speed [rad/s] at which a converter with standing turbine takes all of the engine's full-load torque; 0 without one."""
+    if values.coupling.kind != "converter":
+        return 0.0
+    w = np.linspace(0.0, values.engine.limit_speed, 20001)
+    surplus = np.interp(w, values.engine.speeds, values.engine.torques) - values.coupling.pump[0] * w * w
+    return float(w[np.flatnonzero(surplus > 0.0)[-1]])
+
+
+def ride(values: Vehicle) -> dict[str, tuple[float, float]]:
+    """Natural frequency [Hz] and damping ratio [1] of the body on its springs, front and rear: D = d/(2 sqrt(k m))."""
+    body, springs = values.body, values.suspension
+    m_front, m_rear = axle_loads(values)
+    m_f, m_r = 0.5 * (m_front - body.unsprung_mass_front), 0.5 * (m_rear - body.unsprung_mass_rear)
+    return {
+        "front": oscillation(m_f, springs.stiffness_front, springs.damping_front),
+        "rear": oscillation(m_r, springs.stiffness_rear, springs.damping_rear),
+    }
+
+
+def oscillation(m: float, k: float, d: float) -> tuple[float, float]:
+    """Natural frequency [Hz] and damping ratio [1] of a mass [kg] on a spring [N/m] and a damper [N s/m]."""
+    return sqrt(k / m) / (2.0 * pi), d / (2.0 * sqrt(k * m))
+
+
+def axle_loads(values: Vehicle) -> tuple[float, float]:
+    """Masses [kg] that stand on the front and on the rear axle."""
+    rear = values.body.mass * values.body.front_distance / values.body.wheelbase
+    return values.body.mass - rear, rear
+
+
+def roll_gradient(values: Vehicle) -> float:
+    """Body roll over lateral acceleration [rad s²/m], steady state, springs and tyres in series."""
+    body, springs, wheels = values.body, values.suspension, values.wheels
+    front = series(springs.stiffness_front, springs.anti_roll_front, wheels.stiffness_front, body.front_track)
+    rear = series(springs.stiffness_rear, springs.anti_roll_rear, wheels.stiffness_rear, body.rear_track)
+    share = body.front_distance / body.wheelbase
+    axis = (1.0 - share) * springs.roll_centre_front + share * springs.roll_centre_rear
+    unsprung = body.unsprung_mass_front + body.unsprung_mass_rear
+    sprung = body.mass - unsprung
+    arm = (body.mass * body.gravity_height - unsprung * wheels.radius) / sprung - axis
+    return sprung * arm / (front + rear - sprung * GRAVITY * arm)
+
+
+def series(k: float, bar: float, tyre: float, track: float) -> float:
+    """Roll stiffness [Nm/rad] of an axle: springs and bar, in series with the tyres."""
+    suspension, tyres = 0.5 * k * track**2 + bar, 0.5 * tyre * track**2
+    return suspension * tyres / (suspension + tyres)

@@ -1,0 +1,177 @@
+"""Shifting: the control unit of every gearbox, once a tick, and how a vehicle is put on the road."""
+
+from math import cos, sin, sqrt
+
+from studio.compiled import compiled
+from studio.model import body, gearbox
+from studio.world.state import *  # noqa: F403 - the names of the rows
+
+RIGID, CLUTCHED, CONVERTER = 0.0, 1.0, 2.0  # kinds of coupling
+
+
+@compiled
+def of_gear(quantity, gear, v, gears):
+    """A row of the gearbox in a gear."""
+    return gears[quantity * GEARS + int(gear) + 1, v]
+
+
+@compiled
+def top_gear(v, gears):
+    """Highest gear that exists."""
+    top = 1
+    while top + 2 < GEARS and gears[G_RATIO * GEARS + top + 2, v] != 0.0:
+        top += 1
+    return top
+
+
+@compiled
+def output_speed(v, n, wheels, parameter):
+    """Mean speed [rad/s] of the driven wheels, as the differentials have it."""
+    front = 0.5 * (wheels[OMEGA, v] + wheels[OMEGA, n + v])
+    rear = 0.5 * (wheels[OMEGA, 2 * n + v] + wheels[OMEGA, 3 * n + v])
+    return parameter[DRIVE_SHARE, v] * front + (1.0 - parameter[DRIVE_SHARE, v]) * rear
+
+
+@compiled
+def scheduled(v, w_out, state, gears):
+    """The gear of the schedule."""
+    gear, pedal = state[GEAR, v], state[ACCELERATOR, v]
+    w_in = abs(of_gear(G_RATIO, gear, v, gears) * w_out)
+    up = gearbox.threshold(of_gear(G_UP_LIGHT, gear, v, gears), of_gear(G_UP_FULL, gear, v, gears), pedal)
+    down = gearbox.threshold(of_gear(G_DOWN_LIGHT, gear, v, gears), of_gear(G_DOWN_FULL, gear, v, gears), pedal)
+    return gearbox.automatic(int(gear), top_gear(v, gears), w_in, up, down)
+
+
+@compiled
+def wanted(v, w_out, request, state, parameter, gears):
+    """The gear to be in: the requested one where it does no harm, else the schedule's. Reverse and neutral are kept."""
+    if request == request:
+        w_wanted = abs(of_gear(G_RATIO, min(max(request, -1.0), GEARS - 2.0), v, gears) * w_out)
+        top = top_gear(v, gears)
+        return gearbox.permitted(int(request), int(state[GEAR, v]), top, state[V_X, v], w_wanted, parameter[LIMIT, v])
+    return scheduled(v, w_out, state, gears) if state[GEAR, v] >= 1.0 else int(state[GEAR, v])
+
+
+@compiled
+def begin(v, gear, tick, state, gears):
+    """A shift begins: the clutch opens over the time of the gear that is left."""
+    state[NEXT_GEAR, v] = gear
+    state[NEXT_RATIO, v] = of_gear(G_RATIO, gear, v, gears)
+    state[OPEN_TIME, v] = 0.0
+    state[CLUTCH_RATE, v] = -gearbox.rate(of_gear(G_DISENGAGE, state[GEAR, v], v, gears), tick)
+
+
+@compiled
+def engage(v, tick, state, gears):
+    """The new gear is in; the clutch closes over its time."""
+    gear = state[NEXT_GEAR, v]
+    state[GEAR, v], state[RATIO, v] = gear, state[NEXT_RATIO, v]
+    state[J_GEAR, v] = of_gear(G_INERTIA, gear, v, gears)
+    state[CLUTCH_RATE, v] = gearbox.rate(of_gear(G_ENGAGE, gear, v, gears), tick)
+
+
+@compiled
+def shift(v, tick, state, parameter, gears):
+    """One tick of a shift."""
+    if state[CLUTCH, v] > 0.0 and parameter[COUPLING, v] != RIGID:
+        return
+    if parameter[COUPLING, v] == CLUTCHED:
+        state[RATIO, v] = 0.0
+    state[OPEN_TIME, v] += tick
+    if state[OPEN_TIME, v] >= of_gear(G_OPEN, state[NEXT_GEAR, v], v, gears):
+        engage(v, tick, state, gears)
+
+
+@compiled
+def drive(v, w_out, tick, state, parameter, gears):
+    """One tick in gear: the clutch or lock-up closes or opens."""
+    w_in = abs(state[RATIO, v] * w_out)
+    closes = True
+    if parameter[COUPLING, v] == CLUTCHED:
+        closes = state[GEAR, v] != 0.0 and gearbox.clutch_closes(w_in, state[ACCELERATOR, v], parameter[IDLE, v])
+    elif parameter[COUPLING, v] == CONVERTER:
+        closes = gearbox.lock_up_closes(w_in, parameter[LOCK_UP, v], state[CLUTCH, v] > 0.0)
+    quantity = G_ENGAGE if closes else G_DISENGAGE
+    rate = gearbox.rate(of_gear(quantity, state[GEAR, v], v, gears), tick)
+    state[CLUTCH_RATE, v] = rate if closes else -rate
+
+
+@compiled
+def shifts(k, tick, state, wheels, parameter, gears, commands):
+    """Every gearbox decides."""
+    n = state.shape[1]
+    for v in range(n):
+        w_out = output_speed(v, n, wheels, parameter)
+        if state[NEXT_GEAR, v] != state[GEAR, v]:
+            shift(v, tick, state, parameter, gears)
+            continue
+        gear = wanted(v, w_out, commands[U_GEAR, (k % RING) * n + v], state, parameter, gears)
+        if gear != int(state[GEAR, v]):
+            begin(v, gear, tick, state, gears)
+        else:
+            drive(v, w_out, tick, state, parameter, gears)
+
+
+# --- on the road ---------------------------------------------------------------------------------------------------------
+
+
+@compiled
+def first_gear_for(v, w_out, gears):
+    """The highest gear that the schedule would keep at this speed of the driven wheels, pedal lifted."""
+    best = 1
+    for gear in range(2, top_gear(v, gears) + 1):
+        if of_gear(G_RATIO, gear, v, gears) * w_out > of_gear(G_UP_LIGHT, gear - 1, v, gears) * (
+            of_gear(G_RATIO, gear, v, gears) / of_gear(G_RATIO, gear - 1, v, gears)
+        ):
+            best = gear
+    return best
+
+
+@compiled
+def stand(v, n, x, y, psi, state, ground, parameter):
+    """Places a vehicle on the plane under its first wheel, level with it: orientation and height."""
+    g_x, g_y = ground[SLOPE_X, v], ground[SLOPE_Y, v]
+    n_z = 1.0 / sqrt(1.0 + g_x * g_x + g_y * g_y)
+    half = 1.0 / sqrt(2.0 * (1.0 + n_z))
+    a, b, c = (1.0 + n_z) * half, g_y * n_z * half, -g_x * n_z * half  # turns the vertical into the normal
+    d, e = cos(0.5 * psi), sin(0.5 * psi)
+    state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v] = a * d, b * d + c * e, c * d - b * e, a * e
+    state[X, v], state[Y, v], state[PSI, v] = x, y, psi
+    state[Z, v] = ground[HEIGHT, v] + g_x * x + g_y * y + parameter[H, v] / n_z
+    R = body.rotation(state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v])
+    state[PITCH, v] = -g_x * n_z * cos(psi) - g_y * n_z * sin(psi)
+    state[V_EAST, v], state[V_NORTH, v], state[V_UP, v] = body.to_world(R, state[V_X, v], 0.0, 0.0)
+
+
+@compiled
+def start(v, x, y, psi, speed, state, wheels, ground, parameter, gears):
+    """Puts a vehicle on the road: rolling without slip, in the gear for its speed, springs at rest."""
+    n = state.shape[1]
+    state[:, v] = 0.0
+    state[V_X, v] = speed
+    state[ACTIVE, v] = 1.0
+    stand(v, n, x, y, psi, state, ground, parameter)
+    for corner in range(4):
+        w = corner * n + v
+        wheels[:, w] = 0.0
+        wheels[OMEGA, w] = speed / parameter[RADIUS, v]
+        wheels[F_Z, w] = parameter[STATIC_F, v] if corner < 2 else parameter[STATIC_R, v]
+    start_engine(v, speed / parameter[RADIUS, v], state, parameter, gears)
+
+
+@compiled
+def start_engine(v, w_out, state, parameter, gears):
+    """Engine, clutch and gear for a speed of the driven wheels [rad/s]."""
+    start_in_gear(v, first_gear_for(v, w_out, gears), w_out, state, parameter, gears)
+
+
+@compiled
+def start_in_gear(v, gear, w_out, state, parameter, gears):
+    """The same in a given gear."""
+    i = of_gear(G_RATIO, gear, v, gears)
+    w_in = i * w_out
+    state[GEAR, v], state[NEXT_GEAR, v], state[RATIO, v], state[NEXT_RATIO, v] = gear, gear, i, i
+    state[J_GEAR, v] = of_gear(G_INERTIA, gear, v, gears)
+    state[OMEGA_E, v] = w_in if parameter[COUPLING, v] == RIGID else max(w_in, parameter[IDLE, v])
+    locks = w_in > (parameter[LOCK_UP, v] if parameter[COUPLING, v] == CONVERTER else parameter[IDLE, v])
+    state[CLUTCH, v] = 1.0 if locks or parameter[COUPLING, v] == RIGID else 0.0
