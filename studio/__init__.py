@@ -4,13 +4,21 @@
 >>> scenario = studio.load("scenarios/grosser_stern_platoon.yaml")
 >>> run = studio.run(scenario, seed=1)
 >>> run.metrics["min_ttc"].value, run.trace("follower_1.speed"), run.time
+>>> drive = studio.drive("bmw_320i", {"time_s": [0, 10], "throttle": [1, 1]})
+>>> drive["vx_mps"].max()
 """
 
 from typing import Any
 
-NAMES = {"load": "studio.job", "run": "studio.job", "open_runs": "studio.store.runs", "StudioError": "studio.errors"}
+NAMES = {
+    "load": "studio.job",
+    "run": "studio.job",
+    "drive": "studio.rig.drive",
+    "open_runs": "studio.store.runs",
+    "StudioError": "studio.errors",
+}
 
-__all__ = ["StudioError", "load", "open_runs", "run"]
+__all__ = ["StudioError", "drive", "load", "open_runs", "run"]
 
 
 def __getattr__(name: str) -> Any:

@@ -1,6 +1,6 @@
 """Benchmark: how many vehicle steps and ticks a second this machine does.
 
-    dynamics    one vehicle step is one integration step (5 ms) of one car, three passes, nothing else
+    dynamics    one vehicle step is one integration step (5 ms) of one car with the whole model, nothing else
     tick        one vehicle tick is one tick (20 ms, four steps) of one car in the whole world: lights, drivers, sensors,
                 radio, applications, integration, collisions
 
@@ -13,7 +13,6 @@ import platform
 import statistics
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -22,35 +21,29 @@ import numpy as np
 
 from studio import job
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
-from studio.scenario.schema import Driver, FrontSensor
-from studio.world import motion
-from studio.world.build import build, tyres_of, vehicles_of
-from studio.world.setting import Car
+from studio.errors import Problem, ServerError
+from studio.scenario import catalogue
+from studio.world import fleet
+from studio.world.build import build
+from studio.world.fleet import Fleet, Start
+from studio.world.state import RING, U_DRIVE, U_STEER
 from studio.world.tick import tick
 
 FLEETS = (1, 8, 100, 1000, 10_000)
+DEVICE_FLEETS = (1000, 10_000, 100_000)
 REPEATS = 5
 SPAN = 0.2  # [s] of real time that one repeat takes at least
 MODEL = "bmw_320i"
 STEPS = round(DEFAULT_TICK / DEFAULT_STEP)
 
 
-@dataclass(frozen=True)
-class Straight:
-    """A path that is only a straight line, for cars that nobody steers."""
-
-    points: np.ndarray
-
-
-def fleet(count: int):
-    """`count` cars side by side at 20 m/s with steering commands of their own: arrays of `integrate`, in its order."""
-    line = np.zeros((5, 2))
-    line[0] = [0.0, 1.0]
-    cars = [Car(f"car_{i}", MODEL, Straight(line), 0.0, 20.0, Driver(), FrontSensor(range=0.0), "#ffffff") for i in range(count)]
-    v = vehicles_of(cars)
-    v.commands[1] = np.tile(np.linspace(-0.02, 0.02, count), v.commands.shape[1] // count)
-    tyres, tyre_of, _ = tyres_of(cars)
-    return v.state, v.parameter, tyres, tyre_of, v.wheels, v.contact, v.commands
+def cars(count: int) -> Fleet:
+    """`count` cars side by side at 20 m/s with steering commands of their own, a little drive, in gear."""
+    model = catalogue.find_vehicle(MODEL)
+    made = fleet.fleet([Start(model, 0.0, 4.0 * i, 0.0, 20.0) for i in range(count)])
+    made.commands[U_STEER] = np.tile(np.linspace(-0.02, 0.02, count), RING)
+    made.commands[U_DRIVE] = 100.0
+    return made
 
 
 def rate(action: Callable[[], Any], units: int) -> float:
@@ -68,8 +61,8 @@ def rate(action: Callable[[], Any], units: int) -> float:
 
 def dynamics(count: int) -> float:
     """Vehicle steps a second on one core for a fleet of this size."""
-    arrays = fleet(count)
-    return rate(lambda: motion.integrate(*arrays, 0, DEFAULT_TICK, DEFAULT_STEP), count * STEPS)
+    f = cars(count)
+    return rate(lambda: fleet.integrate(f, 0, DEFAULT_TICK, DEFAULT_STEP), count * STEPS)
 
 
 def whole_tick(sample: Path) -> float:
@@ -95,11 +88,68 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
     progress(1 - 1 / (len(FLEETS) + 2))
     return {
         "machine": machine(),
-        "versions": {"studio": job.code_version(), "python": platform.python_version(), "numba": version("numba")},
+        "versions": versions(),
         "unit": {"dynamics": "vehicle steps/s", "tick": "vehicle ticks/s"},
         "dynamics": {"one_core": one_core, "all_cores": all_cores()},
         "tick": {"one_core": tick_rate},
     }
+
+
+def run_device(progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
+    """Vehicle steps a second on a GPU, and how far its result is from the CPU's; raises ServerError when there is none."""
+    try:
+        from studio.world import cuda
+    except ImportError as error:
+        raise no_device("the extra `cuda` is not installed", f"uv pip install 'cooperative-adas-studio[cuda]' ({error})") from None
+    if not cuda.is_available():
+        raise no_device("there is no GPU, or no driver for it", "run it on a machine with an NVIDIA GPU")
+    figures = {}
+    for i, count in enumerate(DEVICE_FLEETS):
+        figures[str(count)] = device_rate(count)
+        progress((i + 1) / (len(DEVICE_FLEETS) + 1))
+    return {
+        "machine": cuda.name(),
+        "versions": versions() | {"numba-cuda": version("numba-cuda")},
+        "unit": {"dynamics": "vehicle steps/s", "difference": "m"},
+        "dynamics": {"cuda": figures},
+        "difference": device_difference(),
+    }
+
+
+def no_device(what: str, remedy: str) -> ServerError:
+    """Why a GPU cannot be measured."""
+    return ServerError("The GPU cannot be measured.", [Problem("--device cuda", what, allowed="cpu, cuda", remedy=remedy)])
+
+
+def device_rate(count: int, ticks: int = 50) -> float:
+    """Vehicle steps a second of a fleet on the GPU, `ticks` ticks in a launch."""
+    from studio.world import cuda
+
+    device = cuda.Device(cars(count))
+
+    def launch() -> None:
+        device.integrate(0, DEFAULT_TICK, DEFAULT_STEP, ticks=ticks)
+        device.synchronize()
+
+    return rate(launch, count * STEPS * ticks)
+
+
+def device_difference(count: int = 1000, seconds: float = 10.0) -> float:
+    """Largest distance [m] between the places of a car on GPU and CPU after a drive."""
+    from studio.world import cuda
+
+    here, there = cars(count), cars(count)
+    device = cuda.Device(there)
+    for k in range(round(seconds / DEFAULT_TICK)):
+        fleet.integrate(here, k, DEFAULT_TICK, DEFAULT_STEP)
+        device.integrate(k, DEFAULT_TICK, DEFAULT_STEP)
+    device.fetch(there)
+    return float(np.hypot(*(here.state[:2] - there.state[:2])).max())
+
+
+def versions() -> dict[str, str]:
+    """Of everything that makes the machine code."""
+    return {"studio": job.code_version(), "python": platform.python_version(), "numba": version("numba")}
 
 
 def machine() -> str:

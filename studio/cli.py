@@ -136,22 +136,106 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
 
 
 @app.command()
-def bench(as_json: AsJson = False) -> None:
+def vehicles(
+    name: Annotated[str | None, typer.Argument(help="A vehicle of the catalogue, or a vehicle file (YAML); none: the list.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Lists the vehicles of the catalogue, or shows every value of one with its unit and where it comes from."""
+    from studio.scenario import catalogue, listing
+
+    if name is None:
+        print_json(listing.list_json()) if as_json else print_table(list(listing.LIST_HEAD), listing.list_rows())
+        return
+    model = catalogue.find_vehicle(name)
+    if as_json:
+        print_json({"name": model.name, "values": listing.value_json(model)})
+    else:
+        print_table(list(listing.VALUE_HEAD), listing.value_rows(model))
+
+
+@app.command()
+def drive(
+    vehicle: Annotated[str, typer.Argument(help="A vehicle of the catalogue, or a vehicle file (YAML).")],
+    inputs: Annotated[Path, typer.Option("--inputs", help="CSV: time_s and any of the columns that `studio drive --help` names.")],
+    out: Annotated[Path, typer.Option("--out", help="CSV for every state and force; .gz packs it.")],
+    speed: Annotated[float, typer.Option("--speed", help="Speed at the start [m/s].")] = 0.0,
+    tyre: Annotated[Path | None, typer.Option("--tyre", help="Tyre property file (.tir) for all wheels.")] = None,
+    set_: Sets = None,
+    step: Annotated[float, typer.Option("--step", help="Integration step [s].")] = 0.005,
+    period: Annotated[float, typer.Option("--period", help="Time between two rows of the result [s].")] = 0.01,
+) -> None:
+    """Drives one vehicle open loop on an endless plane.
+
+    Input columns, any subset: time_s, road_wheel_angle_rad (past the steering's actuator) or steering_wheel_angle_rad, throttle
+    or engine_torque_request_Nm, brake, gear, drive_torque_Nm and brake_torque_Nm (sums put on the wheels, past powertrain and
+    hydraulics). Without throttle, engine torque or gear the gearbox stays in neutral. --set changes values of the vehicle by
+    path (body.mass=1200), and the road: road.friction=0.5, road.slope=0.1.
+    """
+    with progress("preparing") as report:
+        from studio.rig import drive as rig
+
+        made = rig.drive(vehicle, inputs, speed=speed, tyre=tyre, changes=changes(set_), step=step, period=period, progress=report)
+        rows = rig.write(made, out)
+    print(f"{out}: {rows} rows, {made.time[-1]:g} s, {len(made.columns)} columns")
+
+
+@app.command()
+def tyre(
+    file: Annotated[Path, typer.Argument(metavar="FILE.tir", help="A tyre property file.")],
+    rows: Annotated[Path | None, typer.Option("--rows", help="CSV with kappa, alpha_rad, gamma_rad, Fz_N.")] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="CSV for these rows with Fx_N, Fy_N, Mz_Nm.")] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="PNG for the diagrams.")] = None,
+) -> None:
+    """Puts a tyre on the bench: forces for a table of slips, and diagrams."""
+    from studio.errors import ScenarioError
+    from studio.rig import tyre as rig
+    from studio.scenario import tir
+
+    if (rows is None) != (out is None):
+        raise ScenarioError("The bench needs both tables.", [Problem("--rows, --out", "belong together", remedy="give both")])
+    properties = tir.read(file)
+    print(f"{properties.name}: {properties.size}")
+    for note in properties.notes:
+        print(f"  {note}")
+    if rows is not None and out is not None:
+        print(f"{out}: {rig.bench(file, rows, out)} rows")
+    if plot is not None:
+        rig.plot(file, plot)
+        print(f"{plot}: diagrams")
+
+
+@app.command()
+def bench(
+    device: Annotated[str, typer.Option(help="cpu, or cuda for a GPU.")] = "cpu",
+    as_json: AsJson = False,
+) -> None:
     """Measures vehicle steps and ticks a second on this machine; takes about half a minute."""
+    if device not in ("cpu", "cuda"):
+        raise UnknownError(f"There is no device {device!r}.", [Problem("--device", "is not known", device, "cpu, cuda")])
     with progress("measuring") as report:
         from studio import bench as measure
         from studio.server.serve import SAMPLES
 
-        figures = measure.run(SAMPLES / "grosser_stern_platoon.yaml", report)
+        figures = measure.run_device(report) if device == "cuda" else measure.run(SAMPLES / "grosser_stern_platoon.yaml", report)
     if as_json:
         print_json(figures)
         return
-    versions = ", ".join(f"{name} {number}" for name, number in figures["versions"].items())
-    print(f"{figures['machine']}; {versions}")
-    rows = [[f"dynamics, {n} vehicles, one core", f"{value:,.0f}", "vehicle steps/s"] for n, value in figures["dynamics"]["one_core"].items()]
-    rows.append(["dynamics, 1000 vehicles, all cores", f"{figures['dynamics']['all_cores']:,.0f}", "vehicle steps/s"])
-    rows.append(["whole tick of the sample, one core", f"{figures['tick']['one_core']:,.0f}", "vehicle ticks/s"])
-    print_table(["what", "median", "unit"], rows)
+    print(f"{figures['machine']}; {', '.join(f'{name} {number}' for name, number in figures['versions'].items())}")
+    print_table(["what", "median", "unit"], bench_rows(figures))
+
+
+def bench_rows(figures: dict[str, Any]) -> list[list[str]]:
+    """The figures of a benchmark for people."""
+    dynamics = figures["dynamics"]
+    rows = [[f"dynamics, {n} vehicles, one core", f"{value:,.0f}", "vehicle steps/s"] for n, value in dynamics.get("one_core", {}).items()]
+    rows += [[f"dynamics, {n} vehicles, GPU", f"{value:,.0f}", "vehicle steps/s"] for n, value in dynamics.get("cuda", {}).items()]
+    if "all_cores" in dynamics:
+        rows.append(["dynamics, 1000 vehicles a core, all cores", f"{dynamics['all_cores']:,.0f}", "vehicle steps/s"])
+    if "tick" in figures:
+        rows.append(["whole tick of the sample, one core", f"{figures['tick']['one_core']:,.0f}", "vehicle ticks/s"])
+    if "difference" in figures:
+        rows.append(["distance to the CPU's result after 10 s", f"{figures['difference']:.1e}", "m"])
+    return rows
 
 
 @app.command()

@@ -24,7 +24,7 @@ import numba
 import platformdirs
 
 PACKAGE = Path(__file__).parent
-COMPILED_ROOMS = ("model", "road", "application", "world", "assess")
+COMPILED_ROOMS = ("model", "road", "application", "world", "assess", "rig")
 KEPT_CACHES = 4
 
 

@@ -1,77 +1,63 @@
-"""An open plane without drivers: cars with constant commands, for closed forms and references."""
+"""An open plane without drivers: equal cars with constant commands, for closed forms and references."""
 
 import numpy as np
 
-from studio.model.tyre import Tyre
 from studio.scenario import catalogue
-from studio.world import motion
-from studio.world.build import parameters_of
+from studio.world import fleet
+from studio.world.fleet import Start
 from studio.world.state import (
-    ACTIVE,
-    C_D,
-    C_ROLL,
-    COMMAND,
-    CONTACT,
-    OMEGA,
-    RADIUS,
-    RING,
-    TORQUE_BRAKE,
-    TORQUE_DRIVE,
-    U_BRAKE,
-    U_DRIVE,
-    U_STEER,
-    V_X,
-    VEHICLE,
-    WHEEL,
-)
+    C_D, C_ROLL, GEAR, J_GEAR, NEXT_GEAR, NEXT_RATIO, RATIO, RING, SLOPE_X, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER,
+)  # fmt: skip
 
 TICK = 0.02
+ROWS = {
+    "steering": U_STEER, "drive": U_DRIVE, "brake": U_BRAKE, "pedal": U_PEDAL, "engine": U_ENGINE, "gear": U_GEAR,
+    "applied_drive": U_APPLIED, "applied_brake": U_APPLIED_BRAKE,
+}  # fmt: skip
 
 
 class Ground:
-    """n equal cars that roll at `speed` [m/s]; arrays as in the world, commands set by hand."""
+    """n equal cars that roll east at `speed` [m/s]; in neutral, unless `powertrain`.
 
-    def __init__(self, model="bmw_320i", *, n=1, speed=20.0, resistances=True, step=0.005):
+    resistances=False: no air drag, no rolling resistance. slope: rise of the road ahead [1]. friction [1].
+    """
+
+    def __init__(
+        self, model="bmw_320i", *, n=1, speed=20.0, resistances=True, powertrain=False, slope=0.0, friction=1.0, step=0.005, changes=None
+    ):  # fmt: skip
         self.n, self.step, self.k = n, step, 0
-        self.parameter = np.tile(np.array(parameters_of(model))[:, None], n)
+        self.model = catalogue.find_vehicle(model, changes or {})
+        ground = fleet.level_ground(n, friction=friction)
+        ground[SLOPE_X] = slope
+        self.fleet = fleet.fleet([Start(self.model, 0.0, 0.0, 0.0, speed)] * n, ground=ground)
         if not resistances:
             self.parameter[[C_D, C_ROLL]] = 0.0
-        tyre = catalogue.find_vehicle(model).tyre
-        self.tyres = np.array([catalogue.tyre_coefficients(tyre, Tyre._fields)]).T.copy()
-        self.tyre_of = np.zeros(n, dtype=np.int64)
-        self.state = np.zeros((len(VEHICLE), n))
-        self.state[V_X] = speed
-        self.state[ACTIVE] = 1.0
-        self.wheels = np.zeros((len(WHEEL), 4 * n))
-        self.wheels[OMEGA] = np.tile(self.state[V_X] / self.parameter[RADIUS], 4)
-        self.contact = np.zeros((len(CONTACT), 4 * n))
-        self.commands = np.zeros((len(COMMAND), RING * n))
+        if not powertrain:
+            self.state[[GEAR, NEXT_GEAR, RATIO, NEXT_RATIO, J_GEAR]] = 0.0
+            self.command(gear=0.0)
 
-    def command(self, *, steering=None, drive=None, brake=None):
-        """Constant commands from now on, past ones too: no dead time is left."""
-        for row, value in ((U_STEER, steering), (U_DRIVE, drive), (U_BRAKE, brake)):
-            if value is not None:
-                self.commands[row] = np.tile(np.broadcast_to(value, self.n), RING)
-        return self
+    state = property(lambda self: self.fleet.state)
+    wheels = property(lambda self: self.fleet.wheels)
+    parameter = property(lambda self: self.fleet.parameter)
+    p = property(lambda self: self.fleet.parameter[:, 0])
 
-    def hold(self, *, drive, brake):
-        """Actuators that have settled at these torques [Nm]."""
-        self.command(drive=drive, brake=brake)
-        self.state[TORQUE_DRIVE], self.state[TORQUE_BRAKE] = drive, brake
+    def command(self, **values):
+        """Constant commands from now on, past ones too: no dead time is left. Names as in ROWS."""
+        for name, value in values.items():
+            self.fleet.commands[ROWS[name]] = np.tile(np.broadcast_to(value, self.n), RING)
         return self
 
     def run(self, seconds, before_tick=lambda ground: None):
         """Advances; `before_tick` may change commands."""
         for _ in range(round(seconds / TICK)):
             before_tick(self)
-            motion.integrate(
-                self.state, self.parameter, self.tyres, self.tyre_of, self.wheels, self.contact, self.commands,
-                self.k, TICK, self.step,
-            )  # fmt: skip
+            fleet.advance(self.fleet, self.k, TICK, self.step)
             self.k += 1
         return self
 
+    def wheel(self, row, v=0):
+        """A row of the four wheels of one car."""
+        return self.wheels[row].reshape(4, self.n)[:, v]
+
     def __getitem__(self, row):
         return self.state[row, 0]
-
-

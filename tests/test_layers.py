@@ -16,6 +16,7 @@ FLOORS = [
     {"assess"},
     {"store"},
     {"job"},
+    {"rig"},
     {"bench"},
     {"scene"},
     {"server"},

@@ -8,6 +8,7 @@ import numpy as np
 
 from studio.errors import ApplicationError
 from studio.execution.record import Chain, Happening, Record, Recorder
+from studio.world import broken
 from studio.world.build import build
 from studio.world.setting import Setting
 from studio.world.state import (
@@ -21,14 +22,12 @@ from studio.world.state import (
     RED_STATION,
     STATION,
     V_X,
-    VEHICLE,
 )
 from studio.world.tick import environment, look, meet, part
-from studio.world.world import World, first_not_finite
+from studio.world.world import World
 
 AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits
 STANDING = 0.1  # [m/s]
-CHECK_EVERY = 50  # ticks between two looks for numbers that are not finite
 
 
 @dataclass
@@ -76,10 +75,10 @@ class Simulation:
             self.fail(error.message)
             return
         self.recorder.take(world, world.clock.k)
+        before = world.vehicles.state.copy(), world.vehicles.wheels.copy()
         part(world)
         self.report()
-        if world.clock.k % CHECK_EVERY == 0 or world.clock.k >= self.ticks:
-            self.check()
+        self.check(*before)
         if world.clock.k >= self.ticks and not self.is_over:
             self.end("done")
 
@@ -100,13 +99,17 @@ class Simulation:
         if not self.is_over:
             self.end("stopped")
 
-    def check(self) -> None:
-        """Ends the run when a number is not finite, and names vehicle, quantity and time."""
-        found = first_not_finite(self.world.vehicles.state)
-        if found:
-            row, column = found
-            name = self.setting.names[column]
-            self.fail(f"{VEHICLE[row].name} of {name} is not finite at {self.time:.2f} s")
+    def check(self, state: np.ndarray, wheels: np.ndarray) -> None:
+        """Ends the run when a state is not finite any more, and names vehicle, time and the first quantity that broke.
+
+        state and wheels are those before the tick.
+        """
+        vehicles, clock = self.world.vehicles, self.world.clock
+        columns = broken.columns(vehicles)
+        if columns.size:
+            found = broken.first(vehicles, state, wheels, int(columns[0]), k=clock.k - 1, tick=clock.tick, step=clock.step)
+            name = self.setting.names[int(columns[0])]
+            self.fail(f"{found.quantity} of {name} is not finite any more at {clock.time - clock.tick + found.after:.3f} s")
 
     def happen(self, when: float, text: str, vehicle: str) -> None:
         """Adds an event."""

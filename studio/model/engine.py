@@ -3,10 +3,13 @@
     tau_e dT_e/dt = T_req(t - t_d) - T_e,    T_drag(w) <= T_req <= T_full(w)        (Massow & Radusch 2018, Eq. 11)
     J_e dw/dt = T_e - T_load                                                       (Eq. 10; stepped with the coupling)
 
-All torques are net, at the shaft. The pedal spans the range between drag and full load. The full-load curve is linear
+All torques are net, at the shaft. The pedal spans the range between drag and full load degressively, by f(u) = u (2 - u): the
+first part of a throttle's way does most, as cars are tuned. The full-load curve is linear
 between equidistant knots, written as a sum of hinges c_0 + sum c_k max(w - w_k, 0), which needs no search.
 Source: L. Guzzella, C. Onder, Introduction to Modeling and Control of Internal Combustion Engine Systems, 2nd edition 2010.
 """
+
+from math import sqrt
 
 from studio.compiled import inlined
 from studio.model import actuator
@@ -37,15 +40,17 @@ def lowest(w, T_drag, T_regeneration):
 
 
 @inlined
-def by_pedal(pedal, T_drag, T_full):
+def by_pedal(pedal, T_drag, T_curve):
     """Torque [Nm] that a pedal position asks for."""
-    return T_drag + min(max(pedal, 0.0), 1.0) * (T_full - T_drag)
+    u = min(max(pedal, 0.0), 1.0)
+    return T_drag + u * (2.0 - u) * (T_curve - T_drag)
 
 
 @inlined
-def pedal_for(T, T_drag, T_full):
+def pedal_for(T, T_drag, T_curve):
     """Pedal position [1] that asks for a torque."""
-    return min(max((T - T_drag) / max(T_full - T_drag, 1.0), 0.0), 1.0)
+    share = min(max((T - T_drag) / max(T_curve - T_drag, 1.0), 0.0), 1.0)
+    return 1.0 - sqrt(1.0 - share)
 
 
 @inlined

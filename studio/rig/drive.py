@@ -255,8 +255,9 @@ def recorded(name: str, rig: Fleet, given: Mapping[str, np.ndarray], step: float
     for k in range(steps):
         command(rig, given, k, k * step)
         fleet.advance(rig, k, step, step)
-        if not np.isfinite(rig.state).all():
-            raise RunError(f"{broken.first(rig, *before)} of {name} is not finite any more at {(k + 1) * step:.3f} s.")
+        if broken.columns(rig).size:
+            found = broken.first(rig, *before, 0, k=k, tick=step, step=step)
+            raise RunError(f"{found.quantity} of {name} is not finite any more at {k * step + found.after:.3f} s.")
         before[0][:], before[1][:] = rig.state, rig.wheels
         if (k + 1) % every == 0:
             rows.append(sample(rig, (k + 1) * step))

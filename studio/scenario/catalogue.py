@@ -51,16 +51,26 @@ def vehicle_names() -> list[str]:
 def find_vehicle(name: str, changes: Mapping[str, Any] = NO_CHANGES, *, folder: Path = Path()) -> VehicleModel:
     """A vehicle of the catalogue, or of a file, with some values changed by path.
 
-    What ends in .yaml or .yml or has a separator in it is a path, relative to `folder`. Raises UnknownError for a name that
-    the catalogue does not have, ScenarioError for a file or a change that is wrong.
+    What ends in .yaml or .yml or has a separator in it is a path, relative to `folder`; so are paths of tyres in the changes.
+    Raises UnknownError for a name that the catalogue does not have, ScenarioError for a file or a change that is wrong.
     """
     model = from_file(folder / name) if is_path(name, ".yaml", ".yml") else from_catalogue(name)
-    return changed(model, changes) if changes else model
+    return changed(model, with_tyres_from(folder, changes)) if changes else model
 
 
 def is_path(name: str, *suffixes: str) -> bool:
     """Whether a name means a file and not an entry of the catalogue."""
     return name.lower().endswith(suffixes) or "/" in name or "\\" in name
+
+
+def with_tyres_from(folder: Path, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Changes in which paths of tyres do not depend on a folder any more."""
+    return {
+        path: str((folder / value).resolve())
+        if path.startswith("tyres.") and isinstance(value, str) and is_path(value, ".tir")
+        else value
+        for path, value in changes.items()
+    }
 
 
 @cache

@@ -1,33 +1,55 @@
-"""Which quantity broke first: the step in which a state stopped being finite, looked at again, in the order of causes."""
+"""Which quantity broke first: the tick in which a state stopped being finite, gone through again step by step.
+
+Of one step, the quantities are looked at from cause to effect: what the wheels carry and feel, what drives and steers, what
+the body does.
+"""
+
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from studio.world.fleet import Fleet
+from studio.world import motion
+from studio.world.fleet import Fleet, integrate
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
-# From cause to effect: what is commanded, what the wheels carry, what drives them, what the body does.
-CAUSES = (*range(DELTA, J_GEAR + 1), TORQUE_BRAKE, TORQUE_DRIVE, A_X, A_Y, A_Z)
-WHEEL_CAUSES = (TRAVEL, TRAVEL_RATE, KAPPA, ALPHA, F_Z, F_X, F_Y, M_Z, OMEGA, ROTATION)
+FELT = (TRAVEL, TRAVEL_RATE, KAPPA, ALPHA, F_Z, F_X, F_Y, M_Z)
+DRIVES = (DELTA, DELTA_RATE, PRESSURE_F, PRESSURE_R, TORQUE_BRAKE, T_ENGINE, OMEGA_E, CLUTCH, TORQUE_DRIVE)
+MOVED = (A_X, A_Y, A_Z, *range(len(VEHICLE)))
 
 
-def first(fleet: Fleet, state: np.ndarray, wheels: np.ndarray, column: int = 0) -> str:
-    """Name and place of the first quantity of a vehicle that is not finite; state and wheels are those before the step."""
-    n = fleet.size
-    for name, value in earlier(state, wheels, column, n):
-        if not np.isfinite(value):
-            return name
-    for row in WHEEL_CAUSES[:8]:
-        for corner in range(4):
-            if not np.isfinite(fleet.wheels[row, corner * n + column]):
-                return f"{WHEEL[row].name} of wheel {corner + 1}"
-    order = (*CAUSES, *range(len(VEHICLE)))
-    return next(VEHICLE[row].name for row in order if not np.isfinite(fleet.state[row, column]))
+class Found(NamedTuple):
+    """A quantity, and the time [s] after the start of the tick at which it was not finite."""
+
+    quantity: str
+    after: float
 
 
-def earlier(state: np.ndarray, wheels: np.ndarray, column: int, n: int):
-    """Everything that was there before the step."""
-    for row in range(len(VEHICLE)):
-        yield VEHICLE[row].name, state[row, column]
-    for row in range(len(WHEEL)):
-        for corner in range(4):
-            yield f"{WHEEL[row].name} of wheel {corner + 1}", wheels[row, corner * n + column]
+def columns(fleet: Fleet) -> np.ndarray:
+    """Vehicles whose state is not finite."""
+    wheels = np.isfinite(fleet.wheels).all(axis=0).reshape(4, -1).all(axis=0)
+    return np.flatnonzero(~(np.isfinite(fleet.state).all(axis=0) & wheels))
+
+
+def first(fleet: Fleet, state, wheels, column: int, *, k: int, tick: float, step: float) -> Found:
+    """What broke first of a vehicle in tick k; state and wheels are those before it."""
+    again = replace(fleet)
+    for steps in range(motion.steps_of(tick, step) + 1):
+        again.state, again.wheels = state.copy(), wheels.copy()
+        integrate(again, k, tick, step, steps)
+        name = not_finite(again.state, again.wheels, column)
+        if name:
+            return Found(name, steps * step)
+    return Found(not_finite(fleet.state, fleet.wheels, column), tick)
+
+
+def not_finite(state: np.ndarray, wheels: np.ndarray, column: int) -> str:
+    """The first quantity that is not finite, or nothing."""
+    by_corner = wheels.reshape(len(WHEEL), 4, -1)[:, :, column]
+    candidates = [
+        *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in FELT for corner in range(4)),
+        *((VEHICLE[row].name, state[row, column]) for row in DRIVES),
+        *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in (OMEGA, ROTATION) for corner in range(4)),
+        *((VEHICLE[row].name, state[row, column]) for row in MOVED),
+    ]
+    return next((name for name, value in candidates if not np.isfinite(value)), "")

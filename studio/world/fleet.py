@@ -147,6 +147,13 @@ def advance(moving: Fleet, k: int, tick: float, step: float) -> None:
     """One tick: gearboxes decide, then everybody moves."""
     f = moving
     shift.shifts(k, tick, f.state, f.wheels, f.parameter, f.gears, f.commands)
+    integrate(f, k, tick, step)
+
+
+def integrate(moving: Fleet, k: int, tick: float, step: float, steps: int | None = None) -> None:
+    """Motion alone: all steps of tick k, or only the first ones."""
+    f = moving
     motion.integrate(
-        f.blocks, f.order, f.state, f.wheels, f.ground, f.parameter, f.tyres, f.commands, k, tick, step, f.tile
-    )
+        f.blocks, f.order, f.state, f.wheels, f.ground, f.parameter, f.tyres, f.commands, k, tick, step,
+        motion.steps_of(tick, step) if steps is None else steps, f.tile,
+    )  # fmt: skip

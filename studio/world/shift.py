@@ -4,9 +4,8 @@ from math import cos, sin, sqrt
 
 from studio.compiled import compiled
 from studio.model import body, gearbox
+from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
 from studio.world.state import *  # noqa: F403 - the names of the rows
-
-RIGID, CLUTCHED, CONVERTER = 0.0, 1.0, 2.0  # kinds of coupling
 
 
 @compiled

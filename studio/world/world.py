@@ -154,11 +154,3 @@ class World:
         """Wheel state [row, corner, vehicle] of some vehicles."""
         wheels = self.vehicles.wheels
         return wheels.reshape(wheels.shape[0], 4, self.size)[:, :, columns]
-
-
-def first_not_finite(state: np.ndarray) -> tuple[int, int] | None:
-    """Row and column of the first value that is not finite, or None."""
-    rows, columns = np.nonzero(~np.isfinite(state))
-    return (int(rows[0]), int(columns[0])) if rows.size else None
-
-

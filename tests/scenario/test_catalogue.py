@@ -299,6 +299,13 @@ def test_a_vehicle_may_bring_its_own_tyres(tmp_path):
     assert catalogue.find_tyre(model.values.tyres.rear, folder=model.folder).values["FNOMIN"] == 4000
 
 
+def test_tyres_of_a_change_lie_beside_the_scenario(tmp_path):
+    (tmp_path / "mine.tir").write_bytes((catalogue.TYRES / "passenger_car.tir").read_bytes())
+    model = find_vehicle("suv", {"tyres.front": "mine.tir"}, folder=tmp_path)
+    assert catalogue.tyre_path(model, "front") == tmp_path / "mine.tir"
+    assert catalogue.tyre_path(model, "rear").parent == catalogue.TYRES
+
+
 def test_missing_tyres_are_told_with_what_there_is(tmp_path):
     written = text("bmw_320i").replace(
         "front: passenger_car, rear: passenger_car", "front: pasenger_car, rear: mine.tir"

@@ -1,0 +1,180 @@
+"""Actuators and powertrain of one vehicle, lane v of a tile: steering, brakes, engine, coupling, gearbox, wheel spins."""
+
+from studio.compiled import inlined
+from studio.model import brake, coupling, engine, steering, transmission, wheel
+from studio.world.corner import at_axle
+from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.tile import LANES
+
+RIGID, CLUTCHED, CONVERTER = 0.0, 1.0, 2.0  # kinds of coupling
+
+
+# --- steering and brakes -------------------------------------------------------------------------------------------------
+
+
+@inlined
+def steer_step(v, state, wheels, parameter, command, dt):
+    """The road wheel angle moves: under the torque at the steering wheel if one is commanded, else towards the angle."""
+    T, limit = command[U_STEER_TORQUE, v], parameter[STEER_MAX, v]
+    M = steering.kingpin_moment(wheels[M_Z, v], wheels[F_Y, v], parameter[TRAIL, v])
+    M += steering.kingpin_moment(wheels[M_Z, LANES + v], wheels[F_Y, LANES + v], parameter[TRAIL, v])
+    free, rate = steering.by_torque(
+        state[DELTA, v], state[DELTA_RATE, v], T, M, parameter[STEER_RATIO, v], parameter[J_STEER, v],
+        parameter[D_STEER, v], parameter[UNASSISTED, v], dt,
+    )  # fmt: skip
+    held, held_rate = steering.by_angle(
+        state[DELTA, v], command[U_STEER, v], parameter[TAU_STEER, v], parameter[STEER_RATE, v], dt
+    )
+    by_torque = T == T
+    delta = free if by_torque else held
+    state[DELTA_RATE, v] = 0.0 if abs(delta) > limit else (rate if by_torque else held_rate)
+    state[DELTA, v] = min(max(delta, -limit), limit)
+
+
+@inlined
+def brake_step(v, state, parameter, command, dt):
+    """Pressures move; returns the brake torque [Nm] of one front and one rear wheel."""
+    K, T_max, tau, share = parameter[K_BRAKE, v], parameter[BRAKE_MAX, v], parameter[TAU_BRAKE, v], parameter[BRAKE_SHARE, v]
+    applied = command[U_APPLIED_BRAKE, v]
+    state[PRESSURE_F, v] = brake.pressure(state[PRESSURE_F, v], command[U_BRAKE, v], K, T_max, tau, dt)
+    state[PRESSURE_R, v] = brake.pressure(state[PRESSURE_R, v], command[U_BRAKE, v], K, T_max, tau, dt)
+    front = brake.axle_torque(state[PRESSURE_F, v], K, share) + share * applied
+    rear = brake.axle_torque(state[PRESSURE_R, v], K, 1.0 - share) + (1.0 - share) * applied
+    state[TORQUE_BRAKE, v] = front + rear
+    return 0.5 * front, 0.5 * rear
+
+
+# --- engine, coupling, gearbox -------------------------------------------------------------------------------------------
+
+
+@inlined
+def full_curve(w_e, v, parameter):
+    """Full-load torque [Nm] before drag and rev limit: the sum of hinges."""
+    T = parameter[CURVE_0, v]
+    for k in range(CURVE - 1):
+        T += parameter[CURVE_0 + 1 + k, v] * max(w_e - k * parameter[KNOT, v], 0.0)
+    return T
+
+
+@inlined
+def torque_ratio(T_p, T_t, v, parameter):
+    """By how much a converter multiplies now [1]; 1 for everything else."""
+    multiplies = parameter[COUPLING, v] == CONVERTER and T_t > T_p and T_p > 1.0
+    return min(T_t / (T_p if multiplies else 1.0), 3.0) if multiplies else 1.0
+
+
+@inlined
+def request(v, i, T_ratio, T_drag, T_curve, command):
+    """Engine torque [Nm] that is asked for: directly, as a drive torque at the wheels, or by the pedal."""
+    T_engine, T_wheels, pedal = command[U_ENGINE, v], command[U_DRIVE, v], command[U_PEDAL, v]
+    in_gear = i != 0.0
+    by_wheels = T_wheels / ((i if in_gear else 1.0) * T_ratio) if in_gear else 0.0
+    by_pedal = engine.by_pedal(pedal if pedal == pedal else 0.0, T_drag, T_curve)
+    return T_engine if T_engine == T_engine else (by_wheels if T_wheels == T_wheels else by_pedal)
+
+
+@inlined
+def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
+    """The engine's torque moves towards the request, bounded by what the engine can and the coupling should."""
+    w, i = state[OMEGA_E, v], state[RATIO, v]
+    T_drag = engine.drag(w, parameter[DRAG, v], parameter[DRAG_SLOPE, v])
+    T_curve = full_curve(w, v, parameter)
+    T_full = engine.full_load(w, T_curve, T_drag, parameter[LIMIT, v])
+    T = request(v, i, torque_ratio(T_p, T_t, v, parameter), T_drag, T_curve, command)
+    pedal = engine.pedal_for(T, T_drag, T_curve)
+    slips = parameter[COUPLING, v] == CLUTCHED and state[CLUTCH, v] < 1.0
+    w_wanted = max(abs(state[NEXT_RATIO, v] * w_out), parameter[IDLE, v] + pedal * (parameter[LAUNCH, v] - parameter[IDLE, v]))
+    T = engine.governed(T, w, w_wanted, T_cap) if slips else T
+    T = engine.idled(T, w, parameter[IDLE, v])
+    T_low = engine.lowest(w, T_drag, parameter[REGEN, v])
+    state[ACCELERATOR, v] = pedal
+    state[T_ENGINE, v] = engine.torque(state[T_ENGINE, v], T, T_low, T_full, parameter[TAU_DRIVE, v], dt)
+
+
+@inlined
+def converter_torques(v, w_in, state, parameter):
+    """Torques [Nm] of pump and turbine; none in neutral, and none without a converter, whose coefficients are zero."""
+    T_p, T_t = coupling.converter(
+        state[OMEGA_E, v], w_in, parameter[PUMP_1, v], parameter[PUMP_2, v], parameter[PUMP_3, v], parameter[TURBINE_1, v],
+        parameter[TURBINE_2, v], parameter[TURBINE_3, v], parameter[FLUID_1, v], parameter[FLUID_2, v], parameter[FLUID_3, v],
+        parameter[FLUID_RATIO, v],
+    )  # fmt: skip
+    in_gear = state[RATIO, v] != 0.0
+    return T_p if in_gear else 0.0, T_t if in_gear else 0.0
+
+
+@inlined
+def clutch_capacity(v, state, parameter):
+    """Torque [Nm] that clutch or lock-up can carry now; none in neutral."""
+    T_cap = coupling.capacity(
+        state[CLUTCH, v], parameter[CAPACITY, v], state[OMEGA_E, v],
+        parameter[IDLE, v] if parameter[COUPLING, v] == CLUTCHED else 0.0,
+    )  # fmt: skip
+    return T_cap if state[RATIO, v] != 0.0 else 0.0
+
+
+@inlined
+def powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt):
+    """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels.
+
+    w_out [rad/s] mean speed of the driven wheels, w_free what it would be without drive, mobility its change per torque
+    and time [1/(kg m²)].
+    """
+    i, J_g, J_e = state[RATIO, v], state[J_GEAR, v], parameter[J_E, v]
+    w_in, A, B = i * w_out, i * w_free, i * i * mobility
+    T_p, T_t = converter_torques(v, w_in, state, parameter)
+    T_cap = clutch_capacity(v, state, parameter)
+    engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt)
+    T_e = state[T_ENGINE, v]
+    eta = transmission.efficiency(T_e, parameter[LOSS_SHARE, v])
+    T_loss = transmission.constant_loss(w_in, parameter[LOSS_TORQUE, v])
+    free = transmission.input_free(A, B, w_in, eta * T_t - T_loss, J_g, dt)
+    T_c = coupling.clutch(T_cap, state[OMEGA_E, v], T_e - T_p, J_e, free, eta * transmission.input_mobility(B, J_g), dt)
+    T = eta * (T_t + T_c) - T_loss
+    w_in_new = transmission.input_free(A, B, w_in, T, J_g, dt)
+    state[CLUTCH, v] = min(max(state[CLUTCH, v] + dt * state[CLUTCH_RATE, v], 0.0), 1.0)
+    w_e = state[OMEGA_E, v] + dt * (T_e - T_p - T_c) / J_e
+    state[OMEGA_E, v] = w_e if parameter[COUPLING, v] == RIGID else max(w_e, 0.0)
+    return transmission.output_torque(T, J_g, (w_in_new - w_in) / dt, i)
+
+
+# --- wheels --------------------------------------------------------------------------------------------------------------
+
+
+@inlined
+def wheel_free(corner, v, T_brake, wheels, contact, parameter, dt):
+    """Spin [rad/s] of a wheel after dt without drive, and 1/inertia [1/(kg m²)] that it shows meanwhile."""
+    w, R = corner * LANES + v, parameter[RADIUS, v]
+    I = wheel.implicit_inertia(parameter[at_axle(corner, J_WF, J_WR), v], R, contact[SPIN_SLOPE, w], dt)  # noqa: E741
+    return wheel.spin(wheels[OMEGA, w], wheels[F_X, w], 0.0, T_brake + contact[ROLLING, w], R, I, dt), 1.0 / I
+
+
+@inlined
+def wheel_turn(corner, v, T_drive, T_brake, mobility, wheels, contact, parameter, dt):
+    """Spins a wheel on; its tyre force is corrected to the end of the step. Returns the change of its spin [rad/s]."""
+    w, R, omega = corner * LANES + v, parameter[RADIUS, v], wheels[OMEGA, corner * LANES + v]
+    new = wheel.spin(omega, wheels[F_X, w], T_drive, T_brake + contact[ROLLING, w], R, 1.0 / mobility, dt)
+    wheels[OMEGA, w] = new
+    wheels[ROTATION, w] += new * dt
+    wheels[F_X, w] += contact[SPIN_SLOPE, w] * (new - omega)
+    return new - omega
+
+
+@inlined
+def drive_step(v, T_front, T_rear, state, wheels, contact, parameter, command, dt):
+    """Powertrain and wheel spins; returns the moment [Nm] about the body's y axis with which the wheels resist."""
+    o_1, m_1 = wheel_free(0, v, T_front, wheels, contact, parameter, dt)
+    o_2, m_2 = wheel_free(1, v, T_front, wheels, contact, parameter, dt)
+    o_3, m_3 = wheel_free(2, v, T_rear, wheels, contact, parameter, dt)
+    o_4, m_4 = wheel_free(3, v, T_rear, wheels, contact, parameter, dt)
+    s_f, s_r = 0.5 * parameter[DRIVE_SHARE, v], 0.5 * (1.0 - parameter[DRIVE_SHARE, v])
+    w_out = s_f * (wheels[OMEGA, v] + wheels[OMEGA, LANES + v]) + s_r * (wheels[OMEGA, 2 * LANES + v] + wheels[OMEGA, 3 * LANES + v])
+    mobility = s_f * s_f * (m_1 + m_2) + s_r * s_r * (m_3 + m_4)
+    T = powertrain_step(v, w_out, s_f * (o_1 + o_2) + s_r * (o_3 + o_4), mobility, state, parameter, command, dt)
+    T += command[U_APPLIED, v]
+    state[TORQUE_DRIVE, v] = T
+    front = wheel_turn(0, v, s_f * T, T_front, m_1, wheels, contact, parameter, dt)
+    front += wheel_turn(1, v, s_f * T, T_front, m_2, wheels, contact, parameter, dt)
+    rear = wheel_turn(2, v, s_r * T, T_rear, m_3, wheels, contact, parameter, dt)
+    rear += wheel_turn(3, v, s_r * T, T_rear, m_4, wheels, contact, parameter, dt)
+    return -(parameter[J_WF, v] * front + parameter[J_WR, v] * rear) / dt
