@@ -1,7 +1,6 @@
 """Polylines in the plane, float64[2, n]: length, points along them, smoothing."""
 
 import numpy as np
-from scipy.linalg import solveh_banded
 
 BESIDE = 0.5  # [m]
 
@@ -89,4 +88,6 @@ def whittaker(points: np.ndarray, weight: np.ndarray, stiffness: float) -> np.nd
         for b in range(a, 4):
             band[3 - (b - a), b : n - 3 + b] += stiffness * third[a] * third[b]
     band[3] += weight
+    from scipy.linalg import solveh_banded  # takes a third of a second, and kept paths do not need it
+
     return solveh_banded(band, (weight * points).T).T

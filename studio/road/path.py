@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.compiled import compiled
-from studio.road import curve
+from studio.road import curve, kept
 from studio.road.network import Lane, Network
 from studio.road.route import LanePath
 
 PATH_SPACING = 1.0  # [m]
 PATH_X, PATH_Y, PATH_HEADING, PATH_CURVATURE, PATH_SPEED = range(5)
 PATH_ROWS = 5
+MAKERS = ("path.py", "curve.py")
 
 GRAIN = 0.25  # [m] spacing of the curve while it is made
 CORRIDOR = 0.27  # [m] how far smoothing may leave the centre line on a road
@@ -84,7 +85,7 @@ class Draft:
 
 
 def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, deceleration=1.5) -> Path:
-    """The driving line along a lane path.
+    """The driving line along a lane path; kept on disk.
 
     Args:
         network: the map.
@@ -92,6 +93,16 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
         lateral_acceleration: what PATH_SPEED allows in bends [m/s²].
         deceleration: what PATH_SPEED needs before slower places [m/s²].
     """
+    digest = kept.digest_of(network.digest, lane_path.lanes, lateral_acceleration, deceleration, sources=MAKERS)
+    found = kept.recall("paths", digest)
+    if not isinstance(found, Path):
+        found = made(network, lane_path, lateral_acceleration, deceleration)
+        kept.keep("paths", digest, found)
+    return found
+
+
+def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float) -> Path:
+    """The same, made anew."""
     draft = drafted(network, lane_path)
     points = sampled(smooth(draft))
     limit = limits(draft, points)

@@ -101,7 +101,7 @@ class FrontSensor(Part):
 class Vehicle(Part):
     """One named car."""
 
-    model: str = Field("bmw_320i", title="Model", description="a name of the catalogue")
+    model: str = Field("bmw_320i", max_length=300, title="Model", description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
     route: Name = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
@@ -146,10 +146,34 @@ class Traffic(Part):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
     count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
-    model: str = Field("ford_escort", title="Model", description="a name of the catalogue")
+    model: str = Field("ford_escort", max_length=300, title="Model", description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
     driver: Driver = Field(default_factory=Driver, title="Drivers")
+
+
+class Patch(Part):
+    """A stretch along a route on which the road is more or less slippery."""
+
+    route: Name = Field(..., title="Along the route")
+    start: float = number(..., unit="m", title="From station", ge=0)
+    end: float = number(..., unit="m", title="To station", gt=0)
+    friction: float = number(..., unit="1", title="Friction", description="over that of a dry test track", ge=0.02, le=1.5)
+    width: float = number(3.5, unit="m", title="Width", ge=0.2, le=20)
+    side: Literal["both", "left", "right"] = Field("both", title="Side", description="of the route's line")
+
+    @model_validator(mode="after")
+    def is_a_stretch(self):
+        if self.end <= self.start:
+            raise ValueError(f"the patch must end ({self.end} m) behind its start ({self.start} m)")
+        return self
+
+
+class Road(Part):
+    """The surface of all roads: weather, and patches of ice, leaves or new asphalt."""
+
+    friction: float = number(1.0, unit="1", title="Friction", description="over that of a dry test track: 1 dry, 0.7 wet, 0.3 snow, 0.1 ice", ge=0.02, le=1.5)
+    patches: dict[Name, Patch] = Field({}, title="Patches")
 
 
 class Radio(Part):
@@ -192,6 +216,7 @@ class Scenario(Part):
     applications: dict[Name, Application] = Field({}, title="Applications")
     triggers: dict[Name, Trigger] = Field({}, title="Triggers")
     traffic: Traffic = Field(default_factory=Traffic, title="Traffic")
+    road: Road = Field(default_factory=Road, title="Road surface")
     radio: Radio = Field(default_factory=Radio, title="Radio")
     recording: Recording = Field(default_factory=Recording, title="Recording")
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")

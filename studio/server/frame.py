@@ -5,7 +5,6 @@ import numpy as np
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.vehicle import Dimensions
-from studio.scenario.catalogue import find_vehicle
 from studio.world.build import vehicles_of
 from studio.world.setting import Setting
 from studio.world.state import *  # noqa: F403 - the names of the rows
@@ -46,7 +45,7 @@ def standing(setting: Setting) -> np.ndarray:
 def looks(setting: Setting) -> list[Look]:
     """How the vehicles look, in the order of their columns."""
     parameter = vehicles_of(list(setting.cars)).parameter
-    heights = [find_vehicle(car.model).values.body.height for car in setting.cars]
+    heights = [car.model.values.body.height for car in setting.cars]
     return [Look(car.name, car.colour, dimensions(parameter[:, v], heights[v])) for v, car in enumerate(setting.cars)]
 
 

@@ -11,7 +11,7 @@ from studio.application import registry
 from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
 from studio.road import conflict
-from studio.scenario import catalogue
+from studio.world import ground
 from studio.world.control import wheel_torque
 from studio.world.fleet import Start, fleet
 from studio.world.setting import Car, Setting, pose
@@ -58,7 +58,7 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
 def vehicles_of(cars: list[Car]) -> Vehicles:
     """State, parameters and minds at the start: on the path, rolling without slip."""
     n = len(cars)
-    starts = [Start(catalogue.find_vehicle(car.model), *pose(car.path, car.station), car.speed) for car in cars]
+    starts = [Start(car.model, *pose(car.path, car.station), car.speed) for car in cars]
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     return Vehicles(
@@ -100,7 +100,22 @@ def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
         zone_pair=pair,
         zone_span=span,
         **signals_of(settings),
+        **surface_of(settings),
     )
+
+
+def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
+    """Friction of the weather per world, and the pieces of all patches."""
+    found = [
+        ground.pieces(patch, path, w)
+        for w, each in enumerate(settings)
+        for patch, path in zip(each.scenario.road.patches.values(), each.patches, strict=True)
+    ]
+    return {
+        "weather": np.array([each.scenario.road.friction for each in settings]),
+        "pieces": np.concatenate([np.zeros((len(PIECE), 0)), *found], axis=1),
+        "near": np.zeros(ground.MOST_NEAR, dtype=np.int64),
+    }
 
 
 def zones_of(settings: Sequence[Setting], worlds: Worlds, points, path_first, path_count):

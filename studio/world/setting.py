@@ -11,15 +11,17 @@ from pathlib import Path as FilePath
 import numpy as np
 
 from studio import road
-from studio.errors import MapError, Problem, RouteError, ScenarioError, nearest
+from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road import path as road_path
 from studio.road.network import Network
 from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
 from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
+from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
 from studio.world.channel import BY_NAME
+from studio.world.fleet import check_step
 from studio.world.state import RING
 
 CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
@@ -34,7 +36,7 @@ class Car:
     """A car before it is a column: its model, path, start and driver."""
 
     name: str
-    model: str
+    model: VehicleModel
     path: road_path.Path
     station: float  # [m] of the centre of gravity
     speed: float  # [m/s]
@@ -46,11 +48,12 @@ class Car:
 
 @dataclass(frozen=True)
 class Setting:
-    """A scenario with everything resolved that names something: its map and its cars."""
+    """A scenario with everything resolved that names something: its map, its cars, and the paths of its patches."""
 
     scenario: Scenario
     network: Network
     cars: tuple[Car, ...]
+    patches: tuple[road_path.Path, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -62,10 +65,55 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
     check_names(scenario, where)
+    models = models_of(scenario, folder, where)
     paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
-    cars = [named_car(name, scenario, path, where) for name, path in paths.items()]
+    cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     check_starts(cars, where)
-    return Setting(scenario, network, tuple(cars + traffic(scenario, network, cars)))
+    filled = tuple(cars + traffic(scenario, network, models, cars))
+    return Setting(scenario, network, filled, patch_paths(scenario, network, where))
+
+
+def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
+    """The vehicles that are named, of the catalogue or from files beside the scenario; fit for its step and tick."""
+    named = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
+    if scenario.traffic.count:
+        named["traffic.model"] = scenario.traffic.model
+    found: dict[str, VehicleModel] = {}
+    for path, name in named.items():
+        if name not in found:
+            try:
+                found[name] = catalogue.find_vehicle(name, folder=folder)
+            except UnknownError as error:
+                problem = Problem(f"{where}: {path}", "names no vehicle of the catalogue", repr(name), remedy=error.message)
+                raise ScenarioError(f"{where} is not a valid scenario.", [problem]) from None
+            check_step(found[name], scenario.clock.step)
+            check_delays(found[name], scenario.clock.tick, f"{where}: {path}")
+    return found
+
+
+def check_delays(model: VehicleModel, tick: float, where: str) -> None:
+    """Dead times must fit into what is kept of past commands."""
+    delays = {"engine.delay": model.values.engine.delay, "brakes.delay": model.values.brakes.delay}
+    kept = (RING - 1) * tick
+    problems = [
+        Problem(f"{where}: {name}", "is longer than commands are kept", f"{delay} s", f"≤ {kept:g} s")
+        for name, delay in delays.items()
+        if delay > kept
+    ]
+    if problems:
+        raise ScenarioError(f"{model.name} does not fit the clock.", problems)
+
+
+def patch_paths(scenario: Scenario, network: Network, where: str) -> tuple[road_path.Path, ...]:
+    """The path of every patch's route; a patch must lie on it."""
+    found = []
+    for name, patch in scenario.road.patches.items():
+        path = road_path.path(network, connect(network, scenario.routes[patch.route].roads))
+        if patch.end > path.length:
+            problem = Problem(f"{where}: road.patches.{name}.end", "lies beyond the end of its route", f"{patch.end} m", f"≤ {path.length:.0f} m")
+            raise ScenarioError(f"{where} is not a valid scenario.", [problem])
+        found.append(path)
+    return tuple(found)
 
 
 def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
@@ -82,7 +130,7 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
 
 def check_names(scenario: Scenario, where: str) -> None:
     """Every vehicle, route, model and sender that is named must exist; all problems at once."""
-    vehicles, found = set(scenario.vehicles), []
+    vehicles, known_models, found = set(scenario.vehicles), set(catalogue.vehicle_names()), []
 
     def check(path: str, name: str, known, kind: str) -> None:
         if name not in known:
@@ -90,8 +138,12 @@ def check_names(scenario: Scenario, where: str) -> None:
 
     for name, vehicle in scenario.vehicles.items():
         check(f"vehicles.{name}.route", vehicle.route, set(scenario.routes), "route of this scenario")
-        check(f"vehicles.{name}.model", vehicle.model, set(catalogue.vehicle_names()), "vehicle of the catalogue")
-    check("traffic.model", scenario.traffic.model, set(catalogue.vehicle_names()), "vehicle of the catalogue")
+        if not catalogue.is_path(vehicle.model, ".yaml", ".yml"):
+            check(f"vehicles.{name}.model", vehicle.model, known_models, "vehicle of the catalogue")
+    if not catalogue.is_path(scenario.traffic.model, ".yaml", ".yml"):
+        check("traffic.model", scenario.traffic.model, known_models, "vehicle of the catalogue")
+    for name, patch in scenario.road.patches.items():
+        check(f"road.patches.{name}.route", patch.route, set(scenario.routes), "route of this scenario")
     for group, application in scenario.applications.items():
         for field in ("vehicles", "listens_to"):
             for i, name in enumerate(getattr(application, field)):
@@ -147,12 +199,6 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     kept = (RING - 1) * scenario.radio.period
     if longest > kept:
         found.append(Problem(f"{where}: radio.delay", "is longer than messages are kept", f"{longest} s", f"≤ {kept:g} s"))
-    models = {vehicle.model for vehicle in scenario.vehicles.values()} | {scenario.traffic.model}
-    for model in sorted(models & set(catalogue.vehicle_names())):
-        values = catalogue.find_vehicle(model).values
-        for name, delay in (("engine.delay", values.engine.delay), ("brakes.delay", values.brakes.delay)):
-            if delay > (RING - 1) * tick:
-                found.append(Problem(f"{model}: {name}", "is longer than commands are kept", f"{delay} s", f"≤ {(RING - 1) * tick:g} s"))
     return found
 
 
@@ -205,7 +251,7 @@ def annotated(path: road_path.Path, speeds, joined: float) -> road_path.Path:
     return replace(path, points=points)
 
 
-def named_car(name: str, scenario: Scenario, path: road_path.Path, where: str) -> Car:
+def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], path: road_path.Path, where: str) -> Car:
     """A car of the scenario file; its start must lie on its path."""
     vehicle = scenario.vehicles[name]
     position = vehicle.position
@@ -217,13 +263,13 @@ def named_car(name: str, scenario: Scenario, path: road_path.Path, where: str) -
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, vehicle.model, path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour)
+    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour)
 
 
 # --- traffic -----------------------------------------------------------------------------------------------------------
 
 
-def traffic(scenario: Scenario, network: Network, named: list[Car]) -> list[Car]:
+def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car]) -> list[Car]:
     """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
     wanted = scenario.traffic
     taken = [position(car.path, car.station) for car in named]
@@ -242,7 +288,7 @@ def traffic(scenario: Scenario, network: Network, named: list[Car]) -> list[Car]
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
         name = f"traffic_{i + 1:02d}"
-        cars.append(Car(name, wanted.model, path, station, speed, driver, FrontSensor(range=0.0), PAINTS[i % len(PAINTS)], returns=True))
+        cars.append(Car(name, models[wanted.model], path, station, speed, driver, FrontSensor(range=0.0), PAINTS[i % len(PAINTS)], returns=True))
     return cars
 
 

@@ -87,6 +87,18 @@ GROUND = (
 )
 (HEIGHT, SLOPE_X, SLOPE_Y, MU) = range(len(GROUND))
 
+# Pieces of the patches on the roads.
+PIECE = (
+    Row("x", "m", "middle of the piece"),
+    Row("y", "m", "middle of the piece"),
+    Row("heading", "rad", "of the route there"),
+    Row("left", "m", "how far it reaches to the left"),
+    Row("right", "m", "how far it reaches to the right"),
+    Row("friction", "1", "relative to the tyre's test track"),
+    Row("world", "1", "number of the world"),
+)
+(PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD) = range(len(PIECE))
+
 # Scratch: what one pass hands to the next within a step, per wheel; directions in the body's axes.
 CONTACT = (
     Row("forward_x", "1", "wheel heading in the road's plane"),

@@ -5,7 +5,7 @@ applications and drivers decide, commands go out. Between two ticks every vehicl
 """
 
 from studio.application.host import Hosted
-from studio.world import collision, control, fleet, perception, traffic
+from studio.world import collision, control, fleet, ground, perception, traffic
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import World
 
@@ -36,8 +36,9 @@ def part(world: World) -> None:
 
 
 def environment(world: World) -> None:
-    """Lights and triggers."""
-    r, e, time = world.roads, world.events, world.clock.time
+    """Lights, triggers, and the road under the wheels."""
+    v, r, e, time = world.vehicles, world.roads, world.events, world.clock.time
+    ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
     control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
 

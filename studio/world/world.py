@@ -64,6 +64,9 @@ class Roads:
     phase_end: np.ndarray
     phase_state: np.ndarray
     shown: np.ndarray
+    weather: np.ndarray  # friction [1] per world
+    pieces: np.ndarray  # of patches, [row, piece]
+    near: np.ndarray  # scratch: pieces around one vehicle
 
 
 @dataclass

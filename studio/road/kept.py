@@ -1,0 +1,56 @@
+"""What is made from a map, kept on disk: the second time it is only read back.
+
+A file is named by the digest of everything that it is made of. Anything unreadable counts as nothing and is made again;
+a full disk only costs the next making.
+"""
+
+import hashlib
+import os
+import pickle
+import tempfile
+from pathlib import Path
+
+from studio.compiled import cache_root
+
+
+def digest_of(*parts: object, sources: tuple[str, ...]) -> str:
+    """Digest of what something is made of, and of the files of this folder that make it."""
+    digest = hashlib.sha256(repr([part for part in parts if not isinstance(part, bytes)]).encode())
+    for name in sources:
+        digest.update(Path(__file__).with_name(name).read_bytes())
+    for part in parts:
+        if isinstance(part, bytes):
+            digest.update(part)
+    return digest.hexdigest()
+
+
+def kept_at(kind: str, digest: str) -> Path:
+    """The file that keeps the thing of this kind and digest."""
+    return cache_root() / kind / f"{digest}.pickle"
+
+
+def recall(kind: str, digest: str) -> object | None:
+    """What was kept, or None."""
+    try:
+        with kept_at(kind, digest).open("rb") as file:
+            checksum, body = file.read(32), file.read()
+        return pickle.loads(body) if hashlib.sha256(body).digest() == checksum else None
+    except Exception:  # a damaged pickle can raise anything
+        return None
+
+
+def keep(kind: str, digest: str, thing: object) -> None:
+    """Writes beside and renames, so that nobody reads a half-written file."""
+    body = pickle.dumps(thing, protocol=pickle.HIGHEST_PROTOCOL)
+    target = kept_at(kind, digest)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        handle, beside = tempfile.mkstemp(dir=target.parent)
+    except OSError:
+        return
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(hashlib.sha256(body).digest() + body)
+        os.replace(beside, target)
+    except OSError:
+        Path(beside).unlink(missing_ok=True)
