@@ -4,16 +4,18 @@ import numpy as np
 import pytest
 
 from studio import bench
-from studio.world import motion
+from studio.errors import ServerError
+from studio.world import cuda, fleet
 
 
-def test_a_fleet_drives(monkeypatch):
+def test_a_fleet_drives():
     """Cars of the benchmark move, each on its own way, and none stands out by its place in the fleet."""
-    arrays = bench.fleet(9)
+    cars = bench.cars(9)
     for k in range(50):
-        motion.integrate(*arrays, k, bench.DEFAULT_TICK, bench.DEFAULT_STEP)
-    x, y = arrays[0][:2]
-    assert (x > 15).all() and np.isfinite(arrays[0]).all()
+        fleet.integrate(cars, k, bench.DEFAULT_TICK, bench.DEFAULT_STEP)
+    x, y = cars.state[:2] - [[0.0], [4.0]] * np.arange(9)
+    assert (x > 15).all() and np.isfinite(cars.state).all()
+    assert (np.diff(y) > 0).all()
     np.testing.assert_allclose(y, -y[::-1], atol=1e-9)
 
 
@@ -35,3 +37,11 @@ def test_a_rate_counts_units(monkeypatch, count):
     calls = []
     assert bench.rate(lambda: calls.append(1), count) > 0
     assert len(calls) > bench.REPEATS
+
+
+def test_without_a_gpu_the_reason_is_told(monkeypatch):
+    monkeypatch.setattr(cuda, "is_available", lambda: False)
+    with pytest.raises(ServerError) as caught:
+        bench.run_device()
+    (problem,) = caught.value.problems
+    assert problem.where == "--device cuda" and "GPU" in problem.what and problem.remedy

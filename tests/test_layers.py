@@ -65,6 +65,6 @@ def test_models_are_pure():
 
 
 def test_only_the_world_indexes_rows():
-    """Names of rows are used in `world/`, and where a frame for the eye or a record is made of them."""
+    """Names of rows are used in `world/`, where a frame for the eye or a record is made of them, and by rig and benchmark."""
     users = {path.relative_to(PACKAGE).parts[0] for path in FILES if "studio.world.state" in path.read_text(encoding="utf-8")}
-    assert users <= {"world", "execution", "server"}
+    assert users <= {"world", "execution", "server", "rig", "bench.py"}

@@ -18,12 +18,13 @@ def blocks(text, language):
 
 
 def test_commands(text, root, tmp_path_factory):
-    """The commands of the first ten minutes, in their order, in an empty folder; serving is tested elsewhere."""
+    """All commands in their order, in a folder with the samples; serving is tested elsewhere."""
     folder = tmp_path_factory.mktemp("readme")
-    (folder / "scenarios").symlink_to(root / "scenarios")
+    for name in ("scenarios", "studio"):
+        (folder / name).symlink_to(root / name)
     lines = [line for block in blocks(text, "sh") for line in block.splitlines() if line.startswith("uv run studio ")]
     commands = [shlex.split(line)[3:] for line in lines if "--applications" not in line]
-    assert [each[0] for each in commands] == ["check", "run", "run", "runs", "compare"]
+    assert [each[0] for each in commands] == ["check", "run", "run", "runs", "compare", "vehicles", "vehicles", "drive", "drive", "tyre"]
     for command in commands:
         done = subprocess.run([sys.executable, "-m", "studio.cli", *command], cwd=folder, capture_output=True, text=True)
         assert done.returncode == 0, (command, done.stderr)
@@ -34,8 +35,8 @@ def test_python(text, root, monkeypatch, capsys):
     monkeypatch.chdir(root)
     (block,) = blocks(text, "python")
     exec(compile(block, "README.md", "exec"), {})
-    ttc, fastest, end = map(float, capsys.readouterr().out.split())
-    assert ttc > 0 and 10 < fastest < 20 and end == 60
+    ttc, fastest, end, electric = map(float, capsys.readouterr().out.split())
+    assert ttc > 0 and 10 < fastest < 20 and end == 60 and 30 < electric < 40
 
 
 def test_links(text, root):

@@ -7,7 +7,7 @@ from studio import job
 from studio.application.contract import LEAVE, Command
 from studio.execution.simulation import simulation
 from studio.world.build import build
-from studio.world.state import DELTA, DETECTED, RANGE, RING, SENT, STEER_MAX, X
+from studio.world.state import ACTIVE, DELTA, DETECTED, RANGE, RING, SENT, STEER_MAX, X
 from studio.world.tick import tick
 
 
@@ -48,7 +48,7 @@ def test_a_sender_that_left_is_silent(sample):
     world = build([job.prepare(job.load(sample, {"radio.loss": 0.5, "traffic.count": 0}))])
     for _ in range(100):
         tick(world)
-    world.vehicles.state[13, 0] = 0.0  # the leader leaves
+    world.vehicles.state[ACTIVE, 0] = 0.0  # the leader leaves
     for _ in range(10):
         tick(world)
     last = world.units.inbox[SENT, 0]

@@ -10,7 +10,7 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.road.signals import GREEN
 from studio.world.build import build
-from studio.world.state import ACTIVE, FRONT, OFFSET, RED_STATION, STATION, V_X, X, Y
+from studio.world.state import ACTIVE, FRONT, OFFSET, OMEGA, OMEGA_E, RED_STATION, STATION, V_EAST, V_X, X, Y
 from studio.world.tick import tick
 
 
@@ -148,12 +148,19 @@ def drive_alone(sample, roads):
     return False, worst
 
 
-def test_the_state_that_breaks_is_named(sample_setting):
+@pytest.mark.parametrize(
+    ("part", "row", "quantity"),
+    [("state", V_EAST, "velocity_east"), ("state", OMEGA_E, "engine_speed"), ("wheels", OMEGA, "wheel_speed of wheel 1")],
+)
+def test_the_state_that_breaks_is_named(sample_setting, part, row, quantity):
+    """A run that meets a number which is none fails in the same tick, and says whose, which and when."""
     broken = simulation(sample_setting)
-    broken.world.vehicles.state[V_X, 3] = np.nan
-    as_fast_as_possible(broken)
+    for _ in range(7):
+        broken.advance()
+    getattr(broken.world.vehicles, part)[row, 3] = np.nan
+    broken.advance()
     assert broken.status == "failed"
-    assert "follower_3" in broken.error and "not finite" in broken.error and "s" in broken.error
+    assert broken.error == f"{quantity} of follower_3 is not finite any more at 0.140 s"
 
 
 def test_traffic_comes_in_again(sample):
