@@ -34,6 +34,3 @@ AIR_DENSITY = 1.293  # [kg/m³] Massow & Radusch 2018, Table 4
 
 DEFAULT_STEP = 0.005  # [s] integration of one vehicle
 DEFAULT_TICK = 0.02  # [s] vehicles, sensors, messages and applications meet
-
-WHEELS = 4
-FRONT_LEFT, FRONT_RIGHT, REAR_LEFT, REAR_RIGHT = range(WHEELS)

@@ -32,10 +32,11 @@ class Ground:
         names = [models] if isinstance(models, str) else list(models)
         found = {name: catalogue.find_vehicle(name, dict(changes or {})) for name in dict.fromkeys(names)}
         self.names = [name for name in names for _ in range(n)]
+        self.models = [found[name] for name in self.names]
         self.n, self.step, self.tick, self.k = len(self.names), step, tick, 0
         ground = fleet.level_ground(self.n)
         ground[MU], ground[SLOPE_X] = np.tile(self.each(friction), 4), np.tile(self.each(slope), 4)
-        starts = [Start(found[name], 0.0, 0.0, 0.0, v) for name, v in zip(self.names, self.each(speed), strict=True)]
+        starts = [Start(model, 0.0, 0.0, 0.0, v) for model, v in zip(self.models, self.each(speed), strict=True)]
         self.fleet = fleet.fleet(starts, ground=ground)
         if not resistances:
             self.parameter[[C_D, C_ROLL]] = 0.0

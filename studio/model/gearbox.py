@@ -43,9 +43,11 @@ def clutch_closes(w_in, pedal, w_idle):
 
 
 @compiled
-def lock_up_closes(w_in, w_lock_up, is_closed):
-    """Whether the lock-up of a converter closes, with a hysteresis of a tenth."""
-    return w_in > (0.9 * w_lock_up if is_closed else w_lock_up)
+def lock_up_closes(w_in, w_e, w_lock_up, coupling_ratio, is_closed):
+    """Whether the lock-up of a converter closes: fast enough, and nothing to multiply any more; hysteresis of a tenth."""
+    if is_closed:
+        return w_in > 0.9 * w_lock_up
+    return w_in > w_lock_up and w_in > coupling_ratio * w_e
 
 
 @compiled

@@ -101,7 +101,7 @@ def level_ground(n: int, *, friction: float = 1.0) -> np.ndarray:
 def no_commands(n: int) -> np.ndarray:
     """A ring in which nothing is commanded: wheels straight, brakes open, pedal lifted."""
     commands = np.full((len(COMMAND), RING * n), np.nan)
-    commands[[U_STEER, U_BRAKE, U_APPLIED, U_APPLIED_BRAKE]] = 0.0
+    commands[[U, U_STEER, U_BRAKE, U_APPLIED, U_APPLIED_BRAKE]] = 0.0
     return commands
 
 

@@ -64,11 +64,17 @@ def torque_ratio(T_p, T_t, v, parameter):
 
 
 @inlined
-def request(v, i, T_ratio, T_drag, T_curve, command):
+def for_wheels(v, T_wheels, w_in, i, T_ratio, parameter):
+    """Engine torque [Nm] that brings the drive torque T_wheels [Nm] to the wheels: ratio, converter and losses undone."""
+    T = T_wheels / ((i if i != 0.0 else 1.0) * T_ratio) + transmission.constant_loss(w_in, parameter[LOSS_TORQUE, v])
+    return T / transmission.efficiency(T, parameter[LOSS_SHARE, v]) if i != 0.0 else 0.0
+
+
+@inlined
+def request(v, w_in, i, T_ratio, T_drag, T_curve, parameter, command):
     """Engine torque [Nm] that is asked for: directly, as a drive torque at the wheels, or by the pedal."""
     T_engine, T_wheels, pedal = command[U_ENGINE, v], command[U_DRIVE, v], command[U_PEDAL, v]
-    in_gear = i != 0.0
-    by_wheels = T_wheels / ((i if in_gear else 1.0) * T_ratio) if in_gear else 0.0
+    by_wheels = for_wheels(v, T_wheels, w_in, i, T_ratio, parameter)
     by_pedal = engine.by_pedal(pedal if pedal == pedal else 0.0, T_drag, T_curve)
     return T_engine if T_engine == T_engine else (by_wheels if T_wheels == T_wheels else by_pedal)
 
@@ -80,7 +86,7 @@ def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
     T_drag = engine.drag(w, parameter[DRAG, v], parameter[DRAG_SLOPE, v])
     T_curve = full_curve(w, v, parameter)
     T_full = engine.full_load(w, T_curve, T_drag, parameter[LIMIT, v])
-    T = request(v, i, torque_ratio(T_p, T_t, v, parameter), T_drag, T_curve, command)
+    T = request(v, i * w_out, i, torque_ratio(T_p, T_t, v, parameter), T_drag, T_curve, parameter, command)
     pedal = engine.pedal_for(T, T_drag, T_curve)
     slips = parameter[COUPLING, v] == CLUTCHED and state[CLUTCH, v] < 1.0
     w_wanted = max(abs(state[NEXT_RATIO, v] * w_out), parameter[IDLE, v] + pedal * (parameter[LAUNCH, v] - parameter[IDLE, v]))
@@ -114,13 +120,22 @@ def clutch_capacity(v, state, parameter):
 
 
 @inlined
+def ratio_step(v, state, dt):
+    """The ratio, which moves to the next one while the clutches of an automatic gearbox hand over."""
+    change = state[RATIO_RATE, v] * dt
+    i = state[RATIO, v] + min(max(state[NEXT_RATIO, v] - state[RATIO, v], -change), change)
+    state[RATIO, v] = i
+    return i
+
+
+@inlined
 def powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt):
     """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels.
 
     w_out [rad/s] mean speed of the driven wheels, w_free what it would be without drive, mobility its change per torque
     and time [1/(kg m²)].
     """
-    i, J_g, J_e = state[RATIO, v], state[J_GEAR, v], parameter[J_E, v]
+    i, J_g, J_e = ratio_step(v, state, dt), state[J_GEAR, v], parameter[J_E, v]
     w_in, A, B = i * w_out, i * w_free, i * i * mobility
     T_p, T_t = converter_torques(v, w_in, state, parameter)
     T_cap = clutch_capacity(v, state, parameter)

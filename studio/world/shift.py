@@ -7,6 +7,8 @@ from studio.model import body, gearbox
 from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
+CALM = 0.35  # [1] pedal position of calm driving
+
 
 @compiled
 def of_gear(quantity, gear, v, gears):
@@ -61,12 +63,18 @@ def begin(v, gear, tick, state, gears):
 
 
 @compiled
-def engage(v, tick, state, gears):
-    """The new gear is in; the clutch closes over its time."""
+def engage(v, tick, state, parameter, gears):
+    """The new gear is in; the clutch closes over its time. Behind a converter the gears hand over within that time instead."""
     gear = state[NEXT_GEAR, v]
-    state[GEAR, v], state[RATIO, v] = gear, state[NEXT_RATIO, v]
+    state[GEAR, v] = gear
     state[J_GEAR, v] = of_gear(G_INERTIA, gear, v, gears)
-    state[CLUTCH_RATE, v] = gearbox.rate(of_gear(G_ENGAGE, gear, v, gears), tick)
+    rate = gearbox.rate(of_gear(G_ENGAGE, gear, v, gears), tick)
+    if parameter[COUPLING, v] == CONVERTER and state[RATIO, v] * state[NEXT_RATIO, v] > 0.0:
+        state[RATIO_RATE, v] = rate * abs(state[NEXT_RATIO, v] - state[RATIO, v])
+        state[CLUTCH_RATE, v] = 0.0
+    else:
+        state[RATIO, v] = state[NEXT_RATIO, v]
+        state[CLUTCH_RATE, v] = rate
 
 
 @compiled
@@ -78,7 +86,7 @@ def shift(v, tick, state, parameter, gears):
         state[RATIO, v] = 0.0
     state[OPEN_TIME, v] += tick
     if state[OPEN_TIME, v] >= of_gear(G_OPEN, state[NEXT_GEAR, v], v, gears):
-        engage(v, tick, state, gears)
+        engage(v, tick, state, parameter, gears)
 
 
 @compiled
@@ -89,7 +97,10 @@ def drive(v, w_out, tick, state, parameter, gears):
     if parameter[COUPLING, v] == CLUTCHED:
         closes = state[GEAR, v] != 0.0 and gearbox.clutch_closes(w_in, state[ACCELERATOR, v], parameter[IDLE, v])
     elif parameter[COUPLING, v] == CONVERTER:
-        closes = gearbox.lock_up_closes(w_in, parameter[LOCK_UP, v], state[CLUTCH, v] > 0.0)
+        is_in = state[RATIO, v] == state[NEXT_RATIO, v]
+        closes = is_in and gearbox.lock_up_closes(
+            w_in, state[OMEGA_E, v], parameter[LOCK_UP, v], parameter[FLUID_RATIO, v], state[CLUTCH, v] > 0.0
+        )
     quantity = G_ENGAGE if closes else G_DISENGAGE
     rate = gearbox.rate(of_gear(quantity, state[GEAR, v], v, gears), tick)
     state[CLUTCH_RATE, v] = rate if closes else -rate
@@ -116,12 +127,11 @@ def shifts(k, tick, state, wheels, parameter, gears, commands):
 
 @compiled
 def first_gear_for(v, w_out, gears):
-    """The highest gear that the schedule would keep at this speed of the driven wheels, pedal lifted."""
+    """The highest gear that the schedule would keep at this speed of the driven wheels, pedal as for calm driving."""
     best = 1
     for gear in range(2, top_gear(v, gears) + 1):
-        if of_gear(G_RATIO, gear, v, gears) * w_out > of_gear(G_UP_LIGHT, gear - 1, v, gears) * (
-            of_gear(G_RATIO, gear, v, gears) / of_gear(G_RATIO, gear - 1, v, gears)
-        ):
+        down = gearbox.threshold(of_gear(G_DOWN_LIGHT, gear, v, gears), of_gear(G_DOWN_FULL, gear, v, gears), CALM)
+        if of_gear(G_RATIO, gear, v, gears) * w_out > down:
             best = gear
     return best
 

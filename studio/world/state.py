@@ -48,6 +48,7 @@ VEHICLE = (
     Row("next_gear", "1", "gear that is being shifted to"),
     Row("ratio", "1", "of gearbox and final drive; 0 in neutral"),
     Row("next_ratio", "1", "of the gear that is being shifted to"),
+    Row("ratio_rate", "1/s", "how fast the ratio moves to it where a converter's clutches hand over; 0 where it jumps"),
     Row("gear_inertia", "kg m²", "of the gearbox at its input"),
     Row("drive_torque", "Nm", "drive torque, sum of the wheels"),
     Row("brake_torque", "Nm", "brake torque that the brakes can hold, sum of the wheels"),
@@ -61,7 +62,7 @@ VEHICLE = (
 (
     X, Y, Z, Q_W, Q_X, Q_Y, Q_Z, V_EAST, V_NORTH, V_UP, ROLL_RATE, PITCH_RATE, YAW_RATE, A_X, A_Y, A_Z, DELTA, DELTA_RATE,
     PRESSURE_F, PRESSURE_R, OMEGA_E, T_ENGINE, ACCELERATOR, CLUTCH, CLUTCH_RATE, OPEN_TIME, GEAR, NEXT_GEAR, RATIO, NEXT_RATIO,
-    J_GEAR, TORQUE_DRIVE, TORQUE_BRAKE, PSI, ROLL, PITCH, V_X, V_Y, ACTIVE,
+    RATIO_RATE, J_GEAR, TORQUE_DRIVE, TORQUE_BRAKE, PSI, ROLL, PITCH, V_X, V_Y, ACTIVE,
 ) = range(len(VEHICLE))  # fmt: skip
 
 WHEEL = (

@@ -1,10 +1,11 @@
-"""Sensor, radio and actuators: their laws."""
+"""Sensor, radio, actuators, brakes and air: their laws."""
 
 from math import exp, pi
 
 import pytest
 
-from studio.model import actuator, radio, sensor, vehicle, wheel
+from studio.conventions import AIR_DENSITY
+from studio.model import actuator, aerodynamics, brake, radio, sensor
 
 
 def test_a_lag_follows_its_exponential():
@@ -16,11 +17,39 @@ def test_a_lag_follows_its_exponential():
         assert value == pytest.approx(1 - exp(-1), abs=tolerance)
 
 
-def test_power_limits_the_torque():
-    R, P = 0.3, 60_000.0
-    assert actuator.drive_torque(1e6, R, 20.0, 1e9, P) == pytest.approx(P * R / 20.0)
-    assert actuator.drive_torque(-100.0, R, 20.0, 1e9, P) == 0.0
-    assert actuator.brake_torque(-100.0, R, 1e9) == pytest.approx(30.0)
+def test_a_lag_without_time_is_immediate_and_never_overshoots():
+    assert actuator.lag(0.0, 1.0, 0.0, 0.005) == 1.0
+    assert 0.0 < actuator.lag(0.0, 1.0, 1e-6, 10.0) <= 1.0
+
+
+def test_a_rate_is_limited_both_ways():
+    assert actuator.rate_limited(0.0, 1.0, 0.05, 0.4, 0.005) == pytest.approx(0.002)
+    assert actuator.rate_limited(0.0, -1.0, 0.05, 0.4, 0.005) == pytest.approx(-0.002)
+    assert actuator.rate_limited(0.0, 1e-4, 0.05, 0.4, 0.005) == actuator.lag(0.0, 1e-4, 0.05, 0.005)
+
+
+def test_an_acceleration_asks_for_inertia_and_resistances():
+    assert actuator.wheel_force(2.0, 1500.0, 300.0, 120.0) == 3420.0
+
+
+def test_brake_pressure_follows_within_its_limits():
+    """tau dP/dt = b u - P; torque K_b P, shared between the axles and no more than the greatest one."""
+    K_b, T_max, tau, dt = 2e-4, 3000.0, 0.1, 1e-4
+    P = 0.0
+    for _ in range(1000):
+        P = brake.pressure(P, 2000.0, K_b, T_max, tau, dt)
+    assert K_b * P == pytest.approx(2000.0 * (1.0 - exp(-1.0)), rel=1e-3)
+    front, rear = brake.axle_torque(P, K_b, 0.7), brake.axle_torque(P, K_b, 0.3)
+    assert front / rear == pytest.approx(0.7 / 0.3) and front + rear == pytest.approx(K_b * P)
+    assert brake.pressure(0.0, 1e9, K_b, T_max, 0.0, dt) == pytest.approx(T_max / K_b)
+    assert brake.pressure(0.0, -500.0, K_b, T_max, 0.0, dt) == 0.0
+
+
+def test_air_drags_against_the_motion():
+    """Massow & Radusch 2018, Eq. 12."""
+    assert aerodynamics.air_drag(0.37, 1.93, 30.0) == pytest.approx(0.5 * 1.293 * 0.37 * 1.93 * 900.0)
+    assert aerodynamics.air_drag(0.37, 1.93, -30.0) == -aerodynamics.air_drag(0.37, 1.93, 30.0)
+    assert AIR_DENSITY == 1.293
 
 
 def test_the_corridor_bends_with_the_road():
@@ -44,20 +73,3 @@ def test_radio_limits():
     assert radio.is_lost(100.0, 300.0, 0.1, 0.001, 0.19) and not radio.is_lost(100.0, 300.0, 0.1, 0.001, 0.21)
     assert radio.delay(0.02, 0.005, 0.0) == pytest.approx(0.015)
     assert radio.delay(0.001, 0.005, 0.0) == 0.0
-
-
-def test_ackermann_points_at_one_centre():
-    """Both front wheels and the rear axle turn about the same point: cot(right) - cot(left) = track/wheelbase."""
-    from math import tan
-
-    L, track, delta = 2.6, 1.4, 0.3
-    left, right = vehicle.ackermann(delta, L, track / 2), vehicle.ackermann(delta, L, -track / 2)
-    assert left > delta > right
-    assert 1 / tan(right) - 1 / tan(left) == pytest.approx(track / L)
-
-
-def test_a_brake_holds_and_never_reverses():
-    omega, _ = wheel.spin(0.5, 0.1, 0.0, 60_000.0, 1.7, 0.3, 0.0, 5000.0, 0.0, 0.005)
-    assert omega == 0.0
-    still, F_x = wheel.spin(0.0, 0.0, 0.0, 60_000.0, 1.7, 0.3, 100.0, 5000.0, 0.0, 0.005)
-    assert still == 0.0 and F_x == 0.0

@@ -1,0 +1,61 @@
+"""The gearbox's control unit: its schedule, and what it refuses."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from studio.model import gearbox
+from studio.model.gearbox import WALKING
+
+patient = settings(deadline=None)  # the first call compiles
+UP, DOWN, TOP, LIMIT = 300.0, 150.0, 5, 600.0
+
+
+def test_a_pressed_pedal_shifts_later():
+    assert [gearbox.threshold(200.0, 500.0, pedal) for pedal in (0.0, 0.5, 1.0)] == [200.0, 350.0, 500.0]
+
+
+def test_the_schedule_goes_one_gear_at_a_time_within_the_gears():
+    assert gearbox.automatic(3, TOP, UP + 1, UP, DOWN) == 4
+    assert gearbox.automatic(3, TOP, DOWN - 1, UP, DOWN) == 2
+    assert gearbox.automatic(TOP, TOP, UP + 1, UP, DOWN) == TOP
+    assert gearbox.automatic(1, TOP, 0.0, UP, DOWN) == 1
+
+
+@patient
+@given(st.floats(DOWN, UP), st.integers(1, TOP))
+def test_between_the_curves_the_gear_is_kept(w_in, gear):
+    assert gearbox.automatic(gear, TOP, w_in, UP, DOWN) == gear
+
+
+def test_a_request_is_bounded_by_the_gears_there_are():
+    assert gearbox.permitted(9, 4, TOP, 20.0, 100.0, LIMIT) == TOP
+    assert gearbox.permitted(-3, 0, TOP, 0.0, 0.0, LIMIT) == -1
+
+
+def test_no_request_over_revs_the_engine():
+    assert gearbox.permitted(1, 4, TOP, 30.0, LIMIT + 1, LIMIT) == 4
+    assert gearbox.permitted(1, 4, TOP, 30.0, LIMIT - 1, LIMIT) == 1
+
+
+@pytest.mark.parametrize("speed", [2.0 * WALKING, -2.0 * WALKING])
+def test_nobody_shifts_between_forward_and_reverse_while_driving(speed):
+    assert gearbox.permitted(-1, 2, TOP, speed, 50.0, LIMIT) == 2
+    assert gearbox.permitted(1, -1, TOP, speed, 50.0, LIMIT) == -1
+    assert gearbox.permitted(0, 2, TOP, speed, 0.0, LIMIT) == 0  # neutral always
+    assert gearbox.permitted(-1, 1, TOP, 0.5 * WALKING, 50.0, LIMIT) == -1
+
+
+def test_an_automated_clutch_closes_when_somebody_wants_to_go_or_goes():
+    assert gearbox.clutch_closes(0.0, 0.2, 80.0) and gearbox.clutch_closes(100.0, 0.0, 80.0)
+    assert not gearbox.clutch_closes(50.0, 0.0, 80.0)
+
+
+def test_the_lock_up_has_a_hysteresis():
+    assert not gearbox.lock_up_closes(190.0, 200.0, False) and gearbox.lock_up_closes(190.0, 200.0, True)
+    assert gearbox.lock_up_closes(210.0, 200.0, False) and not gearbox.lock_up_closes(170.0, 200.0, True)
+
+
+def test_a_clutch_needs_a_tick_at_least():
+    assert gearbox.rate(0.5, 0.02) == 2.0
+    assert gearbox.rate(0.0, 0.02) == 50.0
