@@ -53,7 +53,7 @@ def axles(ground, v=0) -> tuple[Axle, Axle]:
 #     dF = c x - link F_y,  c = k + 2 k_a          springs, bar, links
 #     x  = -phi T - dF/k_t                         the tyres give as well
 # so x = phi a + F_y b with a = -T/(1 + c/k_t), b = (link/k_t)/(1 + c/k_t). Moments about the vehicle's axis, small angles:
-#     sum_axles ((T/2 - R camber) dF + R gain x (F_z0 - m_u g)) + H m (a_y + g phi) = 0
+#     sum_axles ((T/2 - R camber) dF - R gain x (F_z0 - m_u g)) + H m (a_y + g phi) = 0
 # The contact points stay in the planes of the leaning wheels, so the centre of gravity moves outwards by H phi against them;
 # static camber and its gain move them by R camber.
 
@@ -73,7 +73,7 @@ def rolling_moment(axle: Axle, R: float, phi: float, F_y: float) -> float:
     """Moment [Nm] of an axle's loads about the vehicle's axis, linear in phi [rad] and F_y [N]."""
     lever = 0.5 * axle.track - R * axle.camber
     shift = R * axle.gain * travel_difference(axle, phi, F_y)
-    return lever * load_difference(axle, phi, F_y) + shift * (axle.static - axle.m_u * GRAVITY)
+    return lever * load_difference(axle, phi, F_y) - shift * (axle.static - axle.m_u * GRAVITY)
 
 
 def roll_angle(ground, v=0) -> float:

@@ -14,8 +14,8 @@ from math import sqrt
 from studio.compiled import inlined
 from studio.model import actuator
 
-IDLE_GAIN = 2.0  # [Nm s/rad] of the idle control
-GOVERNOR_GAIN = 2.0  # [Nm s/rad] of the speed control while a clutch slips
+SPEED_TIME = 0.1  # [s] in which idle control and governor remove a difference of speed
+MATCH_TIME = 0.25  # [s] in which the engine is brought up for a lower gear; its lag must not carry it beyond
 TAPER = 0.03  # [1] of the limit speed, over which full load fades at the rev limit
 SLOW = 10.0  # [rad/s] below this drag and regeneration fade out
 
@@ -54,15 +54,21 @@ def pedal_for(T, T_drag, T_curve):
 
 
 @inlined
-def idled(T, w, w_idle):
+def idled(T, w, w_idle, J_e):
     """The request, at least what keeps the engine idling."""
-    return max(T, IDLE_GAIN * (w_idle - w)) if w_idle > 0.0 else T
+    return max(T, J_e * (1.0 / SPEED_TIME) * (w_idle - w)) if w_idle > 0.0 else T
 
 
 @inlined
-def governed(T, w, w_wanted, T_carried):
+def governed(T, w, w_wanted, T_carried, J_e):
     """The request, at most what the clutch carries plus what leads to the wanted speed [rad/s]."""
-    return min(T, T_carried + GOVERNOR_GAIN * (w_wanted - w))
+    return min(T, T_carried + J_e * (1.0 / SPEED_TIME) * (w_wanted - w))
+
+
+@inlined
+def matched(T, w, w_in, J_e):
+    """The request, at least what brings the engine up to the input speed [rad/s] of the gear that comes in."""
+    return max(T, J_e * (1.0 / MATCH_TIME) * (w_in - w))
 
 
 @inlined

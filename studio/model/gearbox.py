@@ -8,6 +8,7 @@ up and one down per gear; the distance between them is the hysteresis.
 from studio.compiled import compiled
 
 TOUCH = 0.01  # [1] pedal position that counts as pressed
+DRAGS = 1.7  # [1] of the idle speed, above which a clutch closes with the pedal lifted
 WALKING = 1.0  # [m/s] above this nobody shifts between forward and reverse
 OPEN, CLOSED = 0.0, 1.0
 
@@ -37,9 +38,12 @@ def permitted(wanted, gear, top, v, w_wanted, w_limit):
 
 
 @compiled
-def clutch_closes(w_in, pedal, w_idle):
-    """Whether an automated clutch closes in gear: the driver wants to go, or the car is fast enough."""
-    return pedal > TOUCH or w_in > w_idle
+def clutch_closes(w_in, pedal, w_idle, is_closed):
+    """Whether an automated clutch closes in gear: the driver wants to go, or the car is fast enough to drag the engine.
+
+    A car that slows down to a stop with the clutch open keeps it open; a closed one opens at idle.
+    """
+    return pedal > TOUCH or w_in > (w_idle if is_closed else DRAGS * w_idle)
 
 
 @compiled

@@ -89,9 +89,11 @@ def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
     T = request(v, i * w_out, i, torque_ratio(T_p, T_t, v, parameter), T_drag, T_curve, parameter, command)
     pedal = engine.pedal_for(T, T_drag, T_curve)
     slips = parameter[COUPLING, v] == CLUTCHED and state[CLUTCH, v] < 1.0
-    w_wanted = max(abs(state[NEXT_RATIO, v] * w_out), parameter[IDLE, v] + pedal * (parameter[LAUNCH, v] - parameter[IDLE, v]))
-    T = engine.governed(T, w, w_wanted, T_cap) if slips else T
-    T = engine.idled(T, w, parameter[IDLE, v])
+    w_next = abs(state[NEXT_RATIO, v] * w_out)
+    w_wanted = max(w_next, parameter[IDLE, v] + pedal * (parameter[LAUNCH, v] - parameter[IDLE, v]))
+    T_slips = engine.matched(engine.governed(T, w, w_wanted, T_cap, parameter[J_E, v]), w, w_next, parameter[J_E, v])
+    T = T_slips if slips else T
+    T = engine.idled(T, w, parameter[IDLE, v], parameter[J_E, v])
     T_low = engine.lowest(w, T_drag, parameter[REGEN, v])
     state[ACCELERATOR, v] = pedal
     state[T_ENGINE, v] = engine.torque(state[T_ENGINE, v], T, T_low, T_full, parameter[TAU_DRIVE, v], dt)

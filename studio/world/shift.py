@@ -64,17 +64,16 @@ def begin(v, gear, tick, state, gears):
 
 @compiled
 def engage(v, tick, state, parameter, gears):
-    """The new gear is in; the clutch closes over its time. Behind a converter the gears hand over within that time instead."""
+    """The new gear is in, the clutch still open. Behind a converter the gears hand over within the time for closing."""
     gear = state[NEXT_GEAR, v]
     state[GEAR, v] = gear
     state[J_GEAR, v] = of_gear(G_INERTIA, gear, v, gears)
-    rate = gearbox.rate(of_gear(G_ENGAGE, gear, v, gears), tick)
+    state[CLUTCH_RATE, v] = 0.0
     if parameter[COUPLING, v] == CONVERTER and state[RATIO, v] * state[NEXT_RATIO, v] > 0.0:
+        rate = gearbox.rate(of_gear(G_ENGAGE, gear, v, gears), tick)
         state[RATIO_RATE, v] = rate * abs(state[NEXT_RATIO, v] - state[RATIO, v])
-        state[CLUTCH_RATE, v] = 0.0
     else:
         state[RATIO, v] = state[NEXT_RATIO, v]
-        state[CLUTCH_RATE, v] = rate
 
 
 @compiled
@@ -95,7 +94,9 @@ def drive(v, w_out, tick, state, parameter, gears):
     w_in = abs(state[RATIO, v] * w_out)
     closes = True
     if parameter[COUPLING, v] == CLUTCHED:
-        closes = state[GEAR, v] != 0.0 and gearbox.clutch_closes(w_in, state[ACCELERATOR, v], parameter[IDLE, v])
+        closes = state[GEAR, v] != 0.0 and gearbox.clutch_closes(
+            w_in, state[ACCELERATOR, v], parameter[IDLE, v], state[CLUTCH, v] >= 1.0
+        )
     elif parameter[COUPLING, v] == CONVERTER:
         is_in = state[RATIO, v] == state[NEXT_RATIO, v]
         closes = is_in and gearbox.lock_up_closes(
