@@ -6,6 +6,7 @@ are the names that `--set`, the page and the run database use.
 
 import re
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -13,6 +14,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
+MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
+
 
 def number(default, *, unit: str, title: str, description: str = "", **bounds):
     """A field with a unit."""
@@ -101,7 +104,7 @@ class FrontSensor(Part):
 class Vehicle(Part):
     """One named car."""
 
-    model: str = Field("bmw_320i", max_length=300, title="Model", description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
+    model: str = Field("bmw_320i", max_length=300, title="Model", examples=MODELS, description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
     route: Name = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
@@ -146,7 +149,7 @@ class Traffic(Part):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
     count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
-    model: str = Field("ford_escort", max_length=300, title="Model", description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
+    model: str = Field("ford_escort", max_length=300, title="Model", examples=MODELS, description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
     driver: Driver = Field(default_factory=Driver, title="Drivers")

@@ -45,12 +45,15 @@ def scheduled(v, w_out, state, gears):
 
 @compiled
 def wanted(v, w_out, request, state, parameter, gears):
-    """The gear to be in: the requested one where it does no harm, else the schedule's. Reverse and neutral are kept."""
+    """The gear to be in: the requested one, else the schedule's, which begins forwards; never one that would do harm."""
     if request == request:
-        w_wanted = abs(of_gear(G_RATIO, min(max(request, -1.0), GEARS - 2.0), v, gears) * w_out)
-        top = top_gear(v, gears)
-        return gearbox.permitted(int(request), int(state[GEAR, v]), top, state[V_X, v], w_wanted, parameter[LIMIT, v])
-    return scheduled(v, w_out, state, gears) if state[GEAR, v] >= 1.0 else int(state[GEAR, v])
+        gear = int(min(max(request, -1.0), GEARS - 2.0))
+    elif state[GEAR, v] >= 1.0:
+        gear = scheduled(v, w_out, state, gears)
+    else:
+        gear = first_gear_for(v, w_out, gears)
+    w_wanted = abs(of_gear(G_RATIO, gear, v, gears) * w_out)
+    return gearbox.permitted(gear, int(state[GEAR, v]), top_gear(v, gears), state[V_X, v], w_wanted, parameter[LIMIT, v])
 
 
 @compiled

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from studio.model import engine
 
 patient = settings(deadline=None)  # the first call compiles
-T_DRAG, T_CURVE, LIMIT, IDLE = -25.0, 150.0, 600.0, 80.0
+T_DRAG, T_CURVE, LIMIT, IDLE, J_E = -25.0, 150.0, 600.0, 80.0, 0.15
 
 
 def test_drag_opposes_rotation_and_grows():
@@ -48,25 +48,36 @@ def test_pedal_and_torque_are_each_others_inverse(u, T_drag, T_curve):
 def test_an_engine_left_alone_idles():
     """From 60 rad/s up and from 300 rad/s down to the idle speed, where it stays."""
     for w in (60.0, 300.0):
-        T_e, dt, J = 0.0, 0.005, 0.15
+        T_e, dt = 0.0, 0.005
         for _ in range(4000):
             T_drag = engine.drag(w, 20.0, 0.05)
-            T = engine.idled(engine.by_pedal(0.0, T_drag, T_CURVE), w, IDLE)
+            T = engine.idled(engine.by_pedal(0.0, T_drag, T_CURVE), w, IDLE, J_E)
             T_e = engine.torque(T_e, T, T_drag, T_CURVE, 0.02, dt)
-            w += dt * T_e / J
+            w += dt * T_e / J_E
         assert w == pytest.approx(IDLE, rel=1e-3)
 
 
 def test_a_motor_does_not_idle():
-    assert engine.idled(-5.0, 0.0, 0.0) == -5.0
+    assert engine.idled(-5.0, 0.0, 0.0, J_E) == -5.0
 
 
 def test_the_governor_lets_a_slipping_clutch_bring_up_the_revs():
-    """At the wanted speed the engine gives what the clutch carries; below more, above less, never more than asked."""
-    assert engine.governed(150.0, 200.0, 200.0, 90.0) == 90.0
-    assert engine.governed(150.0, 180.0, 200.0, 90.0) == pytest.approx(90.0 + 20.0 * engine.GOVERNOR_GAIN)
-    assert engine.governed(150.0, 220.0, 200.0, 90.0) == pytest.approx(90.0 - 20.0 * engine.GOVERNOR_GAIN)
-    assert engine.governed(50.0, 180.0, 200.0, 90.0) == 50.0
+    """At the wanted speed the engine gives what the clutch carries; below more, above less: what removes the difference in
+    SPEED_TIME. Never more than asked."""
+    per_speed = J_E / engine.SPEED_TIME
+    assert engine.governed(150.0, 200.0, 200.0, 90.0, J_E) == 90.0
+    assert engine.governed(150.0, 180.0, 200.0, 90.0, J_E) == pytest.approx(90.0 + 20.0 * per_speed)
+    assert engine.governed(150.0, 220.0, 200.0, 90.0, J_E) == pytest.approx(90.0 - 20.0 * per_speed)
+    assert engine.governed(50.0, 180.0, 200.0, 90.0, J_E) == 50.0
+
+
+def test_an_engine_is_brought_up_for_a_lower_gear():
+    """Without clutch it goes to the new input speed as exp(-t/MATCH_TIME), and only upwards."""
+    w, dt = 150.0, 1e-4
+    for _ in range(round(engine.MATCH_TIME / dt)):
+        w += dt * engine.matched(0.0, w, 300.0, J_E) / J_E
+    assert w == pytest.approx(300.0 - 150.0 * exp(-1.0), rel=1e-3)
+    assert engine.matched(-20.0, 350.0, 300.0, J_E) < 0.0 and engine.matched(80.0, 350.0, 300.0, J_E) == 80.0
 
 
 def test_torque_follows_its_lag_within_what_the_engine_can():

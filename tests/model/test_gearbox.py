@@ -46,14 +46,21 @@ def test_nobody_shifts_between_forward_and_reverse_while_driving(speed):
     assert gearbox.permitted(-1, 1, TOP, 0.5 * WALKING, 50.0, LIMIT) == -1
 
 
-def test_an_automated_clutch_closes_when_somebody_wants_to_go_or_goes():
-    assert gearbox.clutch_closes(0.0, 0.2, 80.0) and gearbox.clutch_closes(100.0, 0.0, 80.0)
-    assert not gearbox.clutch_closes(50.0, 0.0, 80.0)
+def test_an_automated_clutch_closes_when_somebody_wants_to_go_or_the_car_drags_the_engine():
+    idle = 80.0
+    assert gearbox.clutch_closes(0.0, 0.2, idle, False)
+    assert gearbox.clutch_closes(2.0 * idle, 0.0, idle, False)
+    assert not gearbox.clutch_closes(1.2 * idle, 0.0, idle, False)  # it rolls out with the clutch open
+    assert gearbox.clutch_closes(1.2 * idle, 0.0, idle, True) and not gearbox.clutch_closes(0.9 * idle, 0.0, idle, True)
 
 
-def test_the_lock_up_has_a_hysteresis():
-    assert not gearbox.lock_up_closes(190.0, 200.0, False) and gearbox.lock_up_closes(190.0, 200.0, True)
-    assert gearbox.lock_up_closes(210.0, 200.0, False) and not gearbox.lock_up_closes(170.0, 200.0, True)
+def test_the_lock_up_closes_where_nothing_is_multiplied_and_has_a_hysteresis():
+    w_lock_up, ratio = 200.0, 0.88
+    assert gearbox.lock_up_closes(210.0, 220.0, w_lock_up, ratio, False)
+    assert not gearbox.lock_up_closes(190.0, 200.0, w_lock_up, ratio, False)
+    assert not gearbox.lock_up_closes(210.0, 300.0, w_lock_up, ratio, False)  # it multiplies still
+    assert gearbox.lock_up_closes(190.0, 300.0, w_lock_up, ratio, True)
+    assert not gearbox.lock_up_closes(170.0, 170.0, w_lock_up, ratio, True)
 
 
 def test_a_clutch_needs_a_tick_at_least():

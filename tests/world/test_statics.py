@@ -41,11 +41,11 @@ def test_static_loads(standing, v):
 
 @pytest.mark.parametrize("v", range(len(MODELS)), ids=MODELS)
 def test_a_vehicle_is_put_on_the_road_at_rest(standing, v):
-    """It neither sinks nor jumps, rolls nor turns: the springs are at rest; static camber lifts by less than half a mm."""
+    """It neither sinks nor jumps, rolls nor turns: the springs are at rest; static camber lifts by less than a mm."""
     s = standing.state[:, v]
-    assert s[Z] == pytest.approx(standing.parameter[H, v], abs=5e-4)
+    assert s[Z] == pytest.approx(standing.parameter[H, v], abs=1e-3)
     assert abs(s[X]) < 1e-3 and s[Y] == 0.0 and s[PSI] == 0.0
-    assert standing.wheel(TRAVEL, v) == pytest.approx(0.0, abs=5e-4)
+    assert standing.wheel(TRAVEL, v) == pytest.approx(0.0, abs=1e-3)
 
 
 @pytest.mark.parametrize("v", range(len(MODELS)), ids=MODELS)

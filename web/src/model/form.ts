@@ -17,6 +17,8 @@ export interface Field {
   unit: string;
   kind: Kind;
   choices: string[];
+  /** What a text may be, among others. */
+  suggestions: string[];
   minimum?: number;
   maximum?: number;
   /** What is allowed, in words. */
@@ -182,6 +184,7 @@ function field(path: string, schema: Schema, initial: Json, changes: Changes, em
     unit: unitText(schema.unit),
     kind: kindOf(schema, initial),
     choices: (schema.enum ?? []).map(String),
+    suggestions: (schema.examples ?? []).map(String),
     allowed: limits(schema),
     nullable: empty,
     initial,

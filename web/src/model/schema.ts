@@ -12,6 +12,7 @@ export interface Schema {
   default?: Json;
   const?: Json;
   enum?: Json[];
+  examples?: Json[];
   minimum?: number;
   maximum?: number;
   exclusiveMinimum?: number;

@@ -3,6 +3,7 @@
 import {
   Accordion,
   ActionIcon,
+  Autocomplete,
   Badge,
   NativeSelect,
   Switch,
@@ -174,7 +175,8 @@ interface RowProps {
 
 function FieldRow({ field, problems, onChange }: RowProps) {
   const id = useId();
-  const wide = field.kind === "list" || (field.kind === "text" && String(field.initial ?? "").length > 12);
+  const long = String(field.initial ?? "").length > 12 || field.suggestions.length > 0;
+  const wide = field.kind === "list" || (field.kind === "text" && long);
   return (
     <div className={classes.row} data-wide={wide || undefined} data-changed={field.changed || undefined}>
       <Label
@@ -297,7 +299,15 @@ function Control({ id, field, invalid, onChange }: ControlProps) {
     case "list":
       return <ListControl shared={shared} field={field} onChange={onChange} />;
     default:
-      return (
+      return field.suggestions.length > 0 ? (
+        <Autocomplete
+          {...shared}
+          value={String(field.value ?? "")}
+          data={field.suggestions}
+          filter={({ options }) => options}
+          onChange={onChange}
+        />
+      ) : (
         <TextInput
           {...shared}
           value={String(field.value ?? "")}
