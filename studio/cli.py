@@ -14,12 +14,13 @@ from typing import Annotated, Any
 
 import typer
 
-from studio.errors import Problem, StudioError, UnknownError
+from studio.errors import Problem, RunError, StudioError, UnknownError
 
 app = typer.Typer(
     help="Cooperative ADAS Studio. Without a command it serves the page.",
     no_args_is_help=False,
     add_completion=False,
+    rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
 
@@ -159,7 +160,7 @@ def drive(
     inputs: Annotated[Path, typer.Option("--inputs", help="CSV: time_s and any of the columns that `studio drive --help` names.")],
     out: Annotated[Path, typer.Option("--out", help="CSV for every state and force; .gz packs it.")],
     speed: Annotated[float, typer.Option("--speed", help="Speed at the start [m/s].")] = 0.0,
-    tyre: Annotated[Path | None, typer.Option("--tyre", help="Tyre property file (.tir) for all wheels.")] = None,
+    tyre: Annotated[str | None, typer.Option("--tyre", help="Tyre property file (.tir), or a name of the catalogue, for all wheels.")] = None,
     set_: Sets = None,
     step: Annotated[float, typer.Option("--step", help="Integration step [s].")] = 0.005,
     period: Annotated[float, typer.Option("--period", help="Time between two rows of the result [s].")] = 0.01,
@@ -173,10 +174,14 @@ def drive(
     """
     with progress("preparing") as report:
         from studio.rig import drive as rig
+        from studio.rig import table
 
+        table.check_output(out, inputs, Path(vehicle))
         made = rig.drive(vehicle, inputs, speed=speed, tyre=tyre, changes=changes(set_), step=step, period=period, progress=report)
         rows = rig.write(made, out)
     print(f"{out}: {rows} rows, {made.time[-1]:g} s, {len(made.columns)} columns")
+    if made.rolled_over is not None:
+        print(f"{vehicle} rolled over at {made.rolled_over:g} s; nothing after it is claimed", file=sys.stderr)
 
 
 @app.command()
@@ -268,7 +273,7 @@ def main(arguments: list[str] | None = None) -> None:
         app(arguments, standalone_mode=True)
     except StudioError as error:
         print(error, file=sys.stderr)
-        sys.exit(2)
+        sys.exit(1 if isinstance(error, RunError) else 2)
 
 
 # --- input -------------------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ The command line, Python, REST and live runs all go through these functions; the
     run(loaded)          →  Run                     everything at once
 """
 
+import hashlib
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -29,6 +30,7 @@ from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
 from studio.scenario.schema import Scenario
 from studio.store.runs import Row, Runs
+from studio.world.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
 
 LARGEST_SEED = 2**63 - 1
@@ -133,8 +135,19 @@ def code_version() -> str:
 
 
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
-    """Content hash of what is run: the document without its seed, and the map."""
-    return file.digest(loaded.document, prepared.network.digest)
+    """Content hash of what is run: the document without its seed, the map, and the vehicles with their tyres."""
+    return file.digest(loaded.document, f"{prepared.network.digest} {vehicles_digest(prepared)}")
+
+
+def vehicles_digest(prepared: Setting) -> str:
+    """Digest of the numbers of all vehicle models of a setting, whatever files they come from."""
+    models = {car.model.name: car.model for car in prepared.cars}
+    digest = hashlib.sha256()
+    for name in sorted(models):
+        parameter, gears, tyres = rows_of(models[name])
+        for part in (parameter, gears, np.array(tyres)):
+            digest.update(part.tobytes())
+    return digest.hexdigest()
 
 
 def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> int:

@@ -1,5 +1,7 @@
 """What all tests share: the project's folder, the sample scenario, an open-loop proving ground."""
 
+import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -26,3 +28,17 @@ def sample_setting():
     from studio import job
 
     return job.prepare(job.load(SAMPLE, {"clock.duration": 10}))
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    """What the vehicles were compared with, where that was tested: in short here, every row in a file."""
+    multibody = sys.modules.get("tests.multibody")
+    if multibody is None or not multibody.table.cache_info().currsize:
+        return
+    folder = Path(os.environ.get("STUDIO_TABLES") or config.rootpath / ".pytest_cache")
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "vehicle_reference.txt"
+    file.write_text(multibody.full_table(), encoding="utf-8")
+    terminalreporter.section("multi-body references")
+    for line in [*multibody.short_table(), "", *multibody.halving_table(), "", f"Every row: {file}"]:
+        terminalreporter.write_line(line)

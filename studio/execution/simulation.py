@@ -20,6 +20,7 @@ from studio.world.state import (
     HIT_SPEED,
     HIT_TIME,
     RED_STATION,
+    ROLL,
     STATION,
     V_X,
 )
@@ -28,6 +29,7 @@ from studio.world.world import World
 
 AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits
 STANDING = 0.1  # [m/s]
+ROLLED = 1.0  # [rad] a vehicle that leans farther has rolled over
 
 
 @dataclass
@@ -77,8 +79,9 @@ class Simulation:
         self.recorder.take(world, world.clock.k)
         before = world.vehicles.state.copy(), world.vehicles.wheels.copy()
         part(world)
-        self.report()
         self.check(*before)
+        if not self.is_over:
+            self.report()
         if world.clock.k >= self.ticks and not self.is_over:
             self.end("done")
 
@@ -119,6 +122,7 @@ class Simulation:
         """Turns what the tick found into events."""
         self.report_triggers()
         self.report_hits()
+        self.report_rollovers()
         self.report_arrivals()
         self.report_company()
         self.report_waiting()
@@ -145,6 +149,13 @@ class Simulation:
                 first, second = (names[int(hits[row, i])] for row in (HIT_FIRST, HIT_SECOND))
                 text = f"collision of {first} and {second} at {hits[HIT_SPEED, i]:.1f} m/s"
                 self.happen(float(hits[HIT_TIME, i]), text, first)
+
+    def report_rollovers(self) -> None:
+        """Vehicles that have rolled over: what they do after it is not claimed."""
+        for column in np.flatnonzero(np.abs(self.world.vehicles.state[ROLL]) > ROLLED):
+            name = self.setting.names[column]
+            if self.is_new("rollover", name):
+                self.happen(self.time, "rolled over; what it does after this is not claimed", name)
 
     def report_arrivals(self) -> None:
         """Named vehicles that have reached the end of their route."""

@@ -35,8 +35,8 @@ def full_load(w, T_curve, T_drag, w_limit):
 
 @inlined
 def lowest(w, T_drag, T_regeneration):
-    """Least torque [Nm] on request: drag and regeneration."""
-    return T_drag - T_regeneration * min(max(w * (1.0 / SLOW), -1.0), 1.0)
+    """Least torque [Nm] on request: drag and regeneration; backwards nothing is regenerated."""
+    return T_drag - T_regeneration * min(max(w * (1.0 / SLOW), 0.0), 1.0)
 
 
 @inlined

@@ -9,6 +9,7 @@ from studio.compiled import compiled
 
 TOUCH = 0.01  # [1] pedal position that counts as pressed
 DRAGS = 1.7  # [1] of the idle speed, above which a clutch closes with the pedal lifted
+SLACK = 0.05  # [m/s²] that a higher gear may lose
 WALKING = 1.0  # [m/s] above this nobody shifts between forward and reverse
 OPEN, CLOSED = 0.0, 1.0
 
@@ -30,11 +31,27 @@ def automatic(gear, top, w_in, up, down):
 
 
 @compiled
-def permitted(wanted, gear, top, v, w_wanted, w_limit):
-    """A requested gear, or the present one where it would do harm: over-revving, or reverse while driving."""
+def can_hold(a, a_drive, fall, time, w_out, i_next, R, w_down, pedal):
+    """Whether the next higher gear would be kept: it still holds the speed, and the shift does not lose too much of it.
+
+    a [m/s²] acceleration now, a_drive [m/s²] the part of it that the drive makes, fall [1] ratio of the next gear over this
+    one, time [s] without drive, w_out [rad/s] speed of the driven wheels of radius R [m], i_next the next ratio, w_down
+    [rad/s] its shift down.
+    """
+    if pedal < TOUCH:
+        return True
+    holds = a - a_drive * (1.0 - fall) > -SLACK
+    w_after = i_next * (w_out + min(a - a_drive, 0.0) * time / R)
+    return holds and w_after > w_down
+
+
+@compiled
+def permitted(wanted, gear, top, v, w_wanted, w_present, w_limit):
+    """A wanted gear, or the present one where it would do harm: over-revving by a lower gear, or reverse while driving."""
     wanted = min(max(wanted, -1), top)
     turns_back = (wanted < 0) != (gear < 0) and wanted != 0 and abs(v) > WALKING
-    return gear if turns_back or w_wanted > w_limit else wanted
+    overspeeds = w_wanted > w_limit and w_wanted > w_present
+    return gear if turns_back or overspeeds else wanted
 
 
 @compiled

@@ -232,6 +232,13 @@ def slip_stiffness(t, F_z):
     return F_z * longitudinal_factors(t, 0.0, load_change(t, F_z), 1.0).K
 
 
+@compiled(forceinline=True)
+def longitudinal_peak(t, F_z, mu):
+    """Bound of |F_x0| [N]: D_x and |S_Vx|, camber left aside."""
+    x = longitudinal_factors(t, 0.0, load_change(t, F_z), mu)
+    return F_z * (abs(x.mu) + abs(x.S_V))
+
+
 # --- pure lateral slip -------------------------------------------------------------------------------------------------
 
 

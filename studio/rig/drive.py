@@ -34,6 +34,8 @@ from studio.world.state import *  # noqa: F403 - the names of the rows
 PERIOD = 0.01  # [s] between two rows of the result
 LONGEST = 3600.0  # [s] of inputs
 FASTEST = 70.0  # [m/s] at the start
+OVERSPEED = 1.05  # [1] of the rev limit that a gear at the start may ask for
+ROLLED = 1.0  # [rad] a vehicle that leans farther has rolled over
 INPUTS: table.Ranges = {
     "time_s": (0.0, LONGEST, f"0 to {LONGEST:g} [s]"),
     "road_wheel_angle_rad": (-1.5, 1.5, "-1.5 to 1.5 [rad]"),
@@ -70,6 +72,12 @@ class Drive:
     columns: dict[str, np.ndarray]
 
     @property
+    def rolled_over(self) -> float | None:
+        """Time [s] at which the vehicle rolled over, if it did: nothing after it is claimed."""
+        over = np.flatnonzero(np.abs(self.columns["roll_rad"]) > ROLLED)
+        return float(self.time[over[0]]) if over.size else None
+
+    @property
     def time(self) -> np.ndarray:
         """Times of the rows [s]."""
         return self.columns["time_s"]
@@ -86,7 +94,7 @@ def drive(
     inputs: Path | str | Mapping[str, Any],
     *,
     speed: float = 0.0,
-    tyre: Path | None = None,
+    tyre: Path | str | None = None,
     changes: Mapping[str, Any] | None = None,
     step: float = DEFAULT_STEP,
     period: float = PERIOD,
@@ -94,8 +102,8 @@ def drive(
 ) -> Drive:
     """Drives a vehicle by a table of inputs: a CSV file, or columns by name.
 
-    vehicle is a name of the catalogue, a path of a vehicle file, or a model; speed [m/s] at the start; tyre a .tir file for
-    all wheels; changes by path (`body.mass`, `road.friction`, `road.slope`); step [s] of the integration; period [s] of the
+    vehicle is a name of the catalogue, a path of a vehicle file, or a model; speed [m/s] at the start; tyre a .tir file, or a
+    name of the catalogue, for all wheels; changes by path (`body.mass`, `road.friction`, `road.slope`); step [s] of the integration; period [s] of the
     result. Raises ScenarioError, UnknownError; RunError when a state is not finite any more.
     """
     model, road = prepared(vehicle, tyre, dict(changes or {}))
@@ -108,11 +116,12 @@ def drive(
 # --- what is driven ------------------------------------------------------------------------------------------------------
 
 
-def prepared(vehicle: str | VehicleModel, tyre: Path | None, changes: dict[str, Any]) -> tuple[VehicleModel, dict[str, float]]:
+def prepared(vehicle: str | VehicleModel, tyre: Path | str | None, changes: dict[str, Any]) -> tuple[VehicleModel, dict[str, float]]:
     """The model with its changes, and the road."""
     road = {path: road_value(path, changes.pop(path)) for path in list(changes) if path.startswith("road.")}
     if tyre is not None:
-        changes |= {"tyres.front": str(Path(tyre).resolve()), "tyres.rear": str(Path(tyre).resolve())}
+        path = str(catalogue.tyre_file(str(tyre)).resolve())
+        changes |= {"tyres.front": path, "tyres.rear": path}
     if isinstance(vehicle, VehicleModel):
         return (catalogue.changed(vehicle, changes) if changes else vehicle), road
     return catalogue.find_vehicle(str(vehicle), changes), road
@@ -130,15 +139,15 @@ def road_value(path: str, value: Any) -> float:
 
 def check(model: VehicleModel, speed: float, step: float, period: float) -> None:
     """Speed, step and period within what makes sense."""
-    fleet.check_step(model, step)
     problems = []
     if not 0.0 <= speed <= FASTEST:
         problems.append(Problem("--speed", "is out of range", f"{speed:g}", f"0 to {FASTEST:g} [m/s]"))
     if not 1e-4 <= step <= 0.01:
-        problems.append(Problem("step", "is out of range", f"{step:g}", "0.0001 to 0.01 [s]"))
-    elif period < step * (1 - 1e-9) or abs(period / step - round(period / step)) > 1e-6:
-        problems.append(Problem("period", "is not a whole number of steps", f"{period:g} s", f"n · {step:g} s"))
+        problems.append(Problem("--step", "is out of range", f"{step:g}", "0.0001 to 0.01 [s]"))
+    elif not step * (1 - 1e-9) <= period <= LONGEST or abs(period / step - round(period / step)) > 1e-6:
+        problems.append(Problem("--period", "is not a whole number of steps", f"{period:g} s", f"n · {step:g} s"))
     table.refuse(model.name, problems, "cannot be driven like this")
+    fleet.check_step(model, step, "--step")
 
 
 def made(model: VehicleModel, road: Mapping[str, float], speed: float, given: Mapping[str, np.ndarray]) -> Fleet:
@@ -164,6 +173,10 @@ def put_in_gear(rig: Fleet, gear: int) -> None:
             "The vehicle has no such gear.", [Problem("gear", "does not exist", str(gear), f"{gears[0]} to {gears[-1]}")]
         )
     fleet.engage(rig, 0, gear)
+    if abs(rig.state[OMEGA_E, 0]) > rig.parameter[LIMIT, 0] * OVERSPEED:
+        what = f"over-revs at this speed: {rig.state[OMEGA_E, 0]:.0f} rad/s"
+        problem = Problem("gear", what, str(gear), f"up to {rig.parameter[LIMIT, 0]:.0f} rad/s", "begin in a higher gear")
+        raise ScenarioError("The vehicle cannot start like this.", [problem])
 
 
 # --- inputs --------------------------------------------------------------------------------------------------------------
@@ -219,23 +232,23 @@ def pairs_problems(rows: table.Table) -> list[Problem]:
 def value_at(given: Mapping[str, np.ndarray], name: str, time: float) -> float:
     """An input at a time: linear between the rows, a gear holds."""
     if name == "gear":
-        return float(given[name][np.searchsorted(given["time_s"], time + 1e-9, side="right") - 1])
+        return float(given[name][max(np.searchsorted(given["time_s"], time + 1e-9, side="right") - 1, 0)])
     return float(np.interp(time, given["time_s"], given[name]))
 
 
-def command(rig: Fleet, given: Mapping[str, np.ndarray], k: int, time: float) -> None:
-    """Writes the inputs of a step into its slot of the ring."""
-    slot = rig.commands[:, k % RING]
-    parameter = rig.parameter[:, 0]
+def command(rig: Fleet, given: Mapping[str, np.ndarray], delays: Mapping[str, float], k: int, time: float) -> None:
+    """Writes the inputs that reach the actuators in a step into its slot of the ring."""
+    slot, parameter = rig.commands[:, k % RING], rig.parameter[:, 0]
     for name in given:
+        value = value_at(given, name, time - delays.get(name, 0.0))
         if name == "road_wheel_angle_rad":
-            slot[U_STEER] = rig.state[DELTA, 0] = value_at(given, name, time)
+            slot[U_STEER] = rig.state[DELTA, 0] = value
         elif name == "steering_wheel_angle_rad":
-            slot[U_STEER] = value_at(given, name, time) / parameter[STEER_RATIO]
+            slot[U_STEER] = value / parameter[STEER_RATIO]
         elif name == "brake":
-            slot[U_BRAKE] = value_at(given, name, time) * parameter[BRAKE_MAX]
+            slot[U_BRAKE] = value * parameter[BRAKE_MAX]
         elif name in ROWS:
-            slot[ROWS[name]] = value_at(given, name, time)
+            slot[ROWS[name]] = value
 
 
 ROWS = {
@@ -244,16 +257,23 @@ ROWS = {
 }  # fmt: skip
 
 
+def take_delays(rig: Fleet) -> dict[str, float]:
+    """Dead times [s] of the inputs; the rig looks them up in its table, exactly, so the ring need not hold them."""
+    drive, brake = float(rig.parameter[DELAY_DRIVE, 0]), float(rig.parameter[DELAY_BRAKE, 0])
+    rig.parameter[[DELAY_DRIVE, DELAY_BRAKE]] = 0.0
+    return {"throttle": drive, "engine_torque_request_Nm": drive, "brake": brake}
+
+
 # --- the drive -----------------------------------------------------------------------------------------------------------
 
 
 def recorded(name: str, rig: Fleet, given: Mapping[str, np.ndarray], step: float, period: float, progress) -> Drive:
     """Drives from the first to the last time of the inputs."""
     every, steps = round(period / step), ceil(given["time_s"][-1] / step - 1e-6)
-    rows = [sample(rig, 0.0)]
+    delays, rows = take_delays(rig), [sample(rig, 0.0)]
     before = rig.state.copy(), rig.wheels.copy()
     for k in range(steps):
-        command(rig, given, k, k * step)
+        command(rig, given, delays, k, k * step)
         fleet.advance(rig, k, step, step)
         if broken.columns(rig).size:
             found = broken.first(rig, *before, 0, k=k, tick=step, step=step)

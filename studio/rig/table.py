@@ -3,6 +3,7 @@
 import csv
 import gzip
 import io
+import os
 import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -126,13 +127,25 @@ def cell_problem(table: Table, row: int, column: str, value: float, allowed: str
 
 
 def write(path: Path, rows: list[list[str]]) -> None:
-    """Writes CSV, gzipped when the name ends in .gz."""
+    """Writes CSV, gzipped when the name ends in .gz: beside, and renames, so that no half of it ever stands there."""
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         opened = gzip.open if path.suffix == ".gz" else open
-        with opened(path, "wt", encoding="utf-8", newline="") as file:
+        with opened(beside, "wt", encoding="utf-8", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows(rows)
+        os.replace(beside, path)
     except OSError as error:
+        beside.unlink(missing_ok=True)
         refuse(path.name, [Problem(str(path), f"cannot be written: {error.strerror or error}")], "cannot be written")
+
+
+def check_output(out: Path, *inputs: Path) -> None:
+    """Refuses a result that would overwrite an input, or whose folder does not take it; raises ScenarioError."""
+    for given in inputs:
+        if out.exists() and given.exists() and out.samefile(given):
+            refuse(out.name, [Problem(str(out), "is an input of this command", remedy="name another file")], "cannot be written")
+    if out.is_dir() or not os.access(out.parent, os.W_OK):
+        refuse(out.name, [Problem(str(out), "cannot be written", allowed="a file in a folder that can be written")], "cannot be written")
 
 
 def refuse(name: str, problems: list[Problem], what: str = "cannot be used as a table") -> None:

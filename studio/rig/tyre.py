@@ -48,6 +48,7 @@ POINTS = 401
 
 def bench(file: Path, rows: Path, out: Path) -> int:
     """Writes the table `rows` with the forces of the tyre `file` to `out`; the number of rows. Raises ScenarioError."""
+    table.check_output(out, file, rows)
     t = Tyre(*tir.coefficients(tir.read(file)))
     slips = table.read(rows, needed=INPUTS)
     results = sweep(t, *table.numbers(slips, ALLOWED))
@@ -96,6 +97,9 @@ def plot(file: Path, png: Path) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    if png.suffix != ".png":
+        table.refuse(png.name, [Problem(str(png), "is no name for a picture", png.suffix or "no ending", ".png")], "cannot be written")
+    table.check_output(png, file)
     properties = tir.read(file)
     figure = Figure(figsize=(11.0, 8.5), layout="constrained")
     FigureCanvasAgg(figure)

@@ -1,7 +1,7 @@
 """Which quantity broke first: the tick in which a state stopped being finite, gone through again step by step.
 
-Of one step, the quantities are looked at from cause to effect: what the wheels carry and feel, what drives and steers, what
-the body does.
+Of one step, the quantities are looked at in the order in which it makes them: what the wheels feel, what drives and steers,
+how the wheels turn and travel, what the body does.
 """
 
 from dataclasses import replace
@@ -13,7 +13,8 @@ from studio.world import motion
 from studio.world.fleet import Fleet, integrate
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
-FELT = (TRAVEL, TRAVEL_RATE, KAPPA, ALPHA, F_Z, F_X, F_Y, M_Z)
+FELT = (KAPPA, ALPHA, F_Z, F_Y, M_Z)
+TURNED = (OMEGA, F_X, ROTATION, TRAVEL_RATE, TRAVEL)
 DRIVES = (DELTA, DELTA_RATE, PRESSURE_F, PRESSURE_R, TORQUE_BRAKE, T_ENGINE, OMEGA_E, CLUTCH, TORQUE_DRIVE)
 MOVED = (A_X, A_Y, A_Z, *range(len(VEHICLE)))
 
@@ -49,7 +50,7 @@ def not_finite(state: np.ndarray, wheels: np.ndarray, column: int) -> str:
     candidates = [
         *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in FELT for corner in range(4)),
         *((VEHICLE[row].name, state[row, column]) for row in DRIVES),
-        *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in (OMEGA, ROTATION) for corner in range(4)),
+        *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in TURNED for corner in range(4)),
         *((VEHICLE[row].name, state[row, column]) for row in MOVED),
     ]
     return next((name for name, value in candidates if not np.isfinite(value)), "")

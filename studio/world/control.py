@@ -1,8 +1,8 @@
 """Control: who commands what. Triggers start scripted maneuvers; maneuver, application and driver share the actuators.
 
 Order of precedence on the pedals: a scripted maneuver, then the application, then the driver. A driver whose application
-drives still brakes for a red light and for a car that merges first: an application sees neither. What an application
-does not command stays the driver's.
+drives still brakes for a red light, for a car that merges first, and when a collision is near: an application need see none
+of them. What an application does not command stays the driver's.
 
 An acceleration is turned into torques by inverting the resistances: F = m_eff u + F_air + F_roll + m g sin(slope). The
 engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain does not do.
@@ -14,10 +14,14 @@ from studio.application.contract import ACTUATORS
 from studio.compiled import compiled
 from studio.conventions import GRAVITY
 from studio.model import actuator, aerodynamics
+from studio.model.driver import NO_LIMIT
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
+EMERGENCY = 4.0  # [m/s²] a driver who would have to brake harder than this does not leave it to an application
+EMERGENCY_GAIN = 1.2  # [1] and brakes a little more than is needed
+NEAREST = 0.5  # [m] that are to be left
 HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
@@ -48,15 +52,26 @@ def is_scripted(v, time, state, script):
 
 
 @compiled
-def safe(v, mind):
-    """Acceleration [m/s²] that lights and cars which go first permit."""
-    return min(mind[STOPPING, v], mind[YIELDING, v])
+def emergency(v, state, mind):
+    """Acceleration [m/s²] with which a driver brakes when a collision is near, whatever assists; else nothing is asked.
+
+    The deceleration that still avoids it is v²/(2 gap), v the closing speed [m/s].
+    """
+    closing, gap = state[V_X, v] - mind[AHEAD_SPEED, v], mind[GAP, v]
+    needed = closing * closing / (2.0 * max(gap - NEAREST, 0.1))
+    return -EMERGENCY_GAIN * needed if closing > 0.0 and needed > EMERGENCY else NO_LIMIT
 
 
 @compiled
-def request(v, mind, app_acceleration):
+def safe(v, state, mind):
+    """Acceleration [m/s²] that lights, cars which go first, and a near collision permit."""
+    return min(emergency(v, state, mind), min(mind[STOPPING, v], mind[YIELDING, v]))
+
+
+@compiled
+def request(v, state, mind, app_acceleration):
     """Acceleration [m/s²] that application or driver ask for."""
-    u = mind[WISH, v] if isnan(app_acceleration) else min(app_acceleration, safe(v, mind))
+    u = mind[WISH, v] if isnan(app_acceleration) else min(app_acceleration, safe(v, state, mind))
     return min(max(u, STRONGEST_BRAKE), STRONGEST_DRIVE)
 
 
@@ -120,12 +135,12 @@ def pedals(v, column, u, state, ground, parameter, commands):
 def take_over(v, column, state, parameter, mind, app_command, commands):
     """Drive and brake that an application commands itself, unless the driver has to brake."""
     drives = not (isnan(app_command[APP_ACCELERATOR, v]) and isnan(app_command[APP_DRIVE, v]) and isnan(app_command[APP_ENGINE, v]))
-    if drives and safe(v, mind) >= 0.0:
+    if drives and safe(v, state, mind) >= 0.0:
         commands[U_PEDAL, column] = app_command[APP_ACCELERATOR, v]
         commands[U_DRIVE, column] = app_command[APP_DRIVE, v]
         commands[U_ENGINE, column] = app_command[APP_ENGINE, v]
     if not isnan(app_command[APP_BRAKE, v]):
-        others = commands[U_BRAKE, column] if safe(v, mind) < 0.0 else 0.0
+        others = commands[U_BRAKE, column] if safe(v, state, mind) < 0.0 else 0.0
         commands[U_BRAKE, column] = max(max(app_command[APP_BRAKE, v], 0.0), others)
     if drives or not isnan(app_command[APP_BRAKE, v]):
         T = state[TORQUE_DRIVE, v] - commands[U_BRAKE, column]
@@ -154,7 +169,7 @@ def command(k, time, state, ground, parameter, script, mind, app_command, comman
         elif is_scripted(v, time, state, script):
             pedals(v, column, -script[SCRIPT_BRAKE, v], state, ground, parameter, commands)
         else:
-            pedals(v, column, request(v, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
+            pedals(v, column, request(v, state, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
             take_over(v, column, state, parameter, mind, app_command, commands)
 
 

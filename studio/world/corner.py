@@ -165,4 +165,5 @@ def tyre_step(t, side, w, wheels, ground, contact):
     wheels[F_X, w] = f_x
     wheels[F_Y, w] = side * f_y
     wheels[M_Z, w] = side * m_z
+    contact[PEAK, w] = tyre.longitudinal_peak(t, F, ground[MU, w])
     contact[SPIN_SLOPE, w] = wheel.secant_stiffness(f_x, kappa, tyre.slip_stiffness(t, F)) * contact[SLIP_SPIN, w]

@@ -133,13 +133,13 @@ def computed_rows(name: str, values: str, folder):
     return parameter_rows(vehicle, front, rear), gearbox_rows(vehicle), (front, rear)
 
 
-def check_step(model: VehicleModel, step: float) -> None:
+def check_step(model: VehicleModel, step: float, where: str) -> None:
     """Refuses a step [s] at which the wheels of a vehicle would not move as they do; raises ScenarioError."""
     limit = catalogue.step_limit(model.values)
     if step > limit:
         raise ScenarioError(
             f"{model.name} cannot be integrated with this step.",
-            [Problem("clock.step", f"is too long for the wheels of {model.name}", f"{step:g} s", f"≤ {limit:.4f} s")],
+            [Problem(where, f"is too long for the wheels of {model.name}", f"{step:g} s", f"≤ {limit:.4f} s")],
         )
 
 

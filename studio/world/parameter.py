@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 from studio.conventions import GRAVITY
+from studio.errors import Problem, ScenarioError
 from studio.model import tyre
 from studio.model.tyre import Tyre
 from studio.model.wheel import SIGMA
@@ -12,6 +13,7 @@ from studio.scenario.vehicle import Vehicle
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 SLIDING = 0.95  # part of the peak force at which a contact patch at rest lets go
+MOST_LOAD = 2.0  # [1] static load over nominal load
 REST_RATIO = 0.5  # damping ratio of a standing car on its contact patches
 KINDS = {"rigid": 0.0, "clutch": 1.0, "converter": 2.0}
 NEVER = 1e9  # a bound that is none
@@ -67,8 +69,20 @@ def wheel_rows(p: np.ndarray, vehicle: Vehicle) -> None:
     p[[RADIUS, J_WF, J_WR, C_ROLL]] = w.radius, w.inertia_front, w.inertia_rear, w.rolling_resistance
 
 
+def check_tyre(t: Tyre, F_z: float, axle: str) -> None:
+    """Refuses a tyre whose formula turns round at the static load of an axle; raises ScenarioError."""
+    slips = tyre.slip_stiffness(t, F_z), -tyre.cornering_stiffness(t, 0.0, F_z), tyre.longitudinal_peak(t, F_z, 1.0)
+    if F_z > MOST_LOAD * t.LFZO * t.FNOMIN or min(slips) <= 0.0:
+        what = f"is not made for the load of a {axle} wheel"
+        allowed = f"up to {MOST_LOAD:g} times the nominal load, {MOST_LOAD * t.LFZO * t.FNOMIN:.0f} N, with positive stiffness"
+        problem = Problem(f"tyres.{axle}", what, f"{F_z:.0f} N", allowed, "a lighter vehicle, or a stronger tyre")
+        raise ScenarioError("The tyres do not carry this vehicle.", [problem])
+
+
 def rest_rows(p: np.ndarray, front: Tyre, rear: Tyre) -> None:
     """What a contact patch can store at rest, and how it is damped."""
+    check_tyre(front, p[STATIC_F], "front")
+    check_tyre(rear, p[STATIC_R], "rear")
     p[[REST_KF, REST_AF]] = rest_slips(front, p[STATIC_F])
     p[[REST_KR, REST_AR]] = rest_slips(rear, p[STATIC_R])
     stiffness = tyre.slip_stiffness(front, p[STATIC_F]) / SIGMA

@@ -90,8 +90,10 @@ def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
     pedal = engine.pedal_for(T, T_drag, T_curve)
     slips = parameter[COUPLING, v] == CLUTCHED and state[CLUTCH, v] < 1.0
     w_next = abs(state[NEXT_RATIO, v] * w_out)
-    w_wanted = max(w_next, parameter[IDLE, v] + pedal * (parameter[LAUNCH, v] - parameter[IDLE, v]))
-    T_slips = engine.matched(engine.governed(T, w, w_wanted, T_cap, parameter[J_E, v]), w, w_next, parameter[J_E, v])
+    w_wanted = max(w_next, launch_speed(v, pedal, parameter))
+    T_slips = engine.governed(T, w, w_wanted, T_cap, parameter[J_E, v])
+    is_out = i == 0.0 and w_next > 0.0
+    T_slips = engine.matched(T_slips, w, w_next, parameter[J_E, v]) if is_out else T_slips
     T = T_slips if slips else T
     T = engine.idled(T, w, parameter[IDLE, v], parameter[J_E, v])
     T_low = engine.lowest(w, T_drag, parameter[REGEN, v])
@@ -101,24 +103,29 @@ def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
 
 @inlined
 def converter_torques(v, w_in, state, parameter):
-    """Torques [Nm] of pump and turbine; none in neutral, and none without a converter, whose coefficients are zero."""
-    T_p, T_t = coupling.converter(
+    """Torques of pump and turbine with their slopes; none in neutral, and none without a converter (zero coefficients)."""
+    g = 1.0 if state[RATIO, v] != 0.0 else 0.0
+    T_p, T_t, P_e, P_t, Q_e, Q_t = coupling.converter(
         state[OMEGA_E, v], w_in, parameter[PUMP_1, v], parameter[PUMP_2, v], parameter[PUMP_3, v], parameter[TURBINE_1, v],
         parameter[TURBINE_2, v], parameter[TURBINE_3, v], parameter[FLUID_1, v], parameter[FLUID_2, v], parameter[FLUID_3, v],
         parameter[FLUID_RATIO, v],
     )  # fmt: skip
-    in_gear = state[RATIO, v] != 0.0
-    return T_p if in_gear else 0.0, T_t if in_gear else 0.0
+    return g * T_p, g * T_t, g * P_e, g * P_t, g * Q_e, g * Q_t
+
+
+@inlined
+def launch_speed(v, pedal, parameter):
+    """Engine speed [rad/s] that a slipping clutch wants at a pedal position: between idle and that of a full-load start."""
+    return parameter[IDLE, v] + pedal * (parameter[LAUNCH, v] - parameter[IDLE, v])
 
 
 @inlined
 def clutch_capacity(v, state, parameter):
     """Torque [Nm] that clutch or lock-up can carry now; none in neutral."""
-    T_cap = coupling.capacity(
-        state[CLUTCH, v], parameter[CAPACITY, v], state[OMEGA_E, v],
-        parameter[IDLE, v] if parameter[COUPLING, v] == CLUTCHED else 0.0,
-    )  # fmt: skip
-    return T_cap if state[RATIO, v] != 0.0 else 0.0
+    u_c, T_cap, w_idle = state[CLUTCH, v], parameter[CAPACITY, v], parameter[IDLE, v]
+    automated = coupling.capacity(u_c, T_cap, state[OMEGA_E, v], w_idle, launch_speed(v, state[ACCELERATOR, v], parameter))
+    carried = automated if parameter[COUPLING, v] == CLUTCHED else u_c * T_cap
+    return carried if state[RATIO, v] != 0.0 else 0.0
 
 
 @inlined
@@ -132,27 +139,25 @@ def ratio_step(v, state, dt):
 
 @inlined
 def powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt):
-    """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels.
+    """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels, and whether the clutch sticks.
 
     w_out [rad/s] mean speed of the driven wheels, w_free what it would be without drive, mobility its change per torque
     and time [1/(kg m²)].
     """
-    i, J_g, J_e = ratio_step(v, state, dt), state[J_GEAR, v], parameter[J_E, v]
-    w_in, A, B = i * w_out, i * w_free, i * i * mobility
-    T_p, T_t = converter_torques(v, w_in, state, parameter)
+    i, J_g, J_e, w_e = ratio_step(v, state, dt), state[J_GEAR, v], parameter[J_E, v], state[OMEGA_E, v]
+    w_in, B = i * w_out, i * i * mobility
+    torques = converter_torques(v, w_in, state, parameter)
     T_cap = clutch_capacity(v, state, parameter)
-    engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt)
-    T_e = state[T_ENGINE, v]
-    eta = transmission.efficiency(T_e, parameter[LOSS_SHARE, v])
+    engine_step(v, w_out, torques[0], torques[1], T_cap, state, parameter, command, dt)
+    eta = transmission.efficiency(state[T_ENGINE, v], parameter[LOSS_SHARE, v])
     T_loss = transmission.constant_loss(w_in, parameter[LOSS_TORQUE, v])
-    free = transmission.input_free(A, B, w_in, eta * T_t - T_loss, J_g, dt)
-    T_c = coupling.clutch(T_cap, state[OMEGA_E, v], T_e - T_p, J_e, free, eta * transmission.input_mobility(B, J_g), dt)
-    T = eta * (T_t + T_c) - T_loss
-    w_in_new = transmission.input_free(A, B, w_in, T, J_g, dt)
+    free = transmission.input_free(i * w_free, B, w_in, 0.0, J_g, dt)
+    D_e, D_in, T_in, sticks = coupling.join(
+        w_e, w_in, state[T_ENGINE, v], T_loss, T_cap, eta, J_e, free, transmission.input_mobility(B, J_g), torques, dt
+    )
     state[CLUTCH, v] = min(max(state[CLUTCH, v] + dt * state[CLUTCH_RATE, v], 0.0), 1.0)
-    w_e = state[OMEGA_E, v] + dt * (T_e - T_p - T_c) / J_e
-    state[OMEGA_E, v] = w_e if parameter[COUPLING, v] == RIGID else max(w_e, 0.0)
-    return transmission.output_torque(T, J_g, (w_in_new - w_in) / dt, i)
+    state[OMEGA_E, v] = w_e + D_e if parameter[COUPLING, v] == RIGID else max(w_e + D_e, 0.0)
+    return transmission.output_torque(eta * T_in - T_loss, J_g, D_in / dt, i), sticks
 
 
 # --- wheels --------------------------------------------------------------------------------------------------------------
@@ -168,12 +173,20 @@ def wheel_free(corner, v, T_brake, wheels, contact, parameter, dt):
 
 @inlined
 def wheel_turn(corner, v, T_drive, T_brake, mobility, wheels, contact, parameter, dt):
-    """Spins a wheel on; its tyre force is corrected to the end of the step. Returns the change of its spin [rad/s]."""
+    """Spins a wheel on; its tyre force is corrected to the end of the step. Returns the change of its spin [rad/s].
+
+    Where the correction would carry the force beyond its peak, the tyre slides: the peak is all there is to spin against.
+    """
     w, R, omega = corner * LANES + v, parameter[RADIUS, v], wheels[OMEGA, corner * LANES + v]
-    new = wheel.spin(omega, wheels[F_X, w], T_drive, T_brake + contact[ROLLING, w], R, 1.0 / mobility, dt)
+    T_friction, peak = T_brake + contact[ROLLING, w], contact[PEAK, w]
+    new = wheel.spin(omega, wheels[F_X, w], T_drive, T_friction, R, 1.0 / mobility, dt)
+    F = wheels[F_X, w] + contact[SPIN_SLOPE, w] * (new - omega)
+    F_held = min(max(F, -peak), peak)
+    sliding = wheel.spin(omega, F_held, T_drive, T_friction, R, parameter[at_axle(corner, J_WF, J_WR), v], dt)
+    new = new if F == F_held else sliding
     wheels[OMEGA, w] = new
     wheels[ROTATION, w] += new * dt
-    wheels[F_X, w] += contact[SPIN_SLOPE, w] * (new - omega)
+    wheels[F_X, w] = F_held
     return new - omega
 
 
@@ -185,13 +198,23 @@ def drive_step(v, T_front, T_rear, state, wheels, contact, parameter, command, d
     o_3, m_3 = wheel_free(2, v, T_rear, wheels, contact, parameter, dt)
     o_4, m_4 = wheel_free(3, v, T_rear, wheels, contact, parameter, dt)
     s_f, s_r = 0.5 * parameter[DRIVE_SHARE, v], 0.5 * (1.0 - parameter[DRIVE_SHARE, v])
-    w_out = s_f * (wheels[OMEGA, v] + wheels[OMEGA, LANES + v]) + s_r * (wheels[OMEGA, 2 * LANES + v] + wheels[OMEGA, 3 * LANES + v])
     mobility = s_f * s_f * (m_1 + m_2) + s_r * s_r * (m_3 + m_4)
-    T = powertrain_step(v, w_out, s_f * (o_1 + o_2) + s_r * (o_3 + o_4), mobility, state, parameter, command, dt)
+    w_out = s_f * (wheels[OMEGA, v] + wheels[OMEGA, LANES + v]) + s_r * (wheels[OMEGA, 2 * LANES + v] + wheels[OMEGA, 3 * LANES + v])
+    w_free = s_f * (o_1 + o_2) + s_r * (o_3 + o_4)
+    T, sticks = powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt)
     T += command[U_APPLIED, v]
     state[TORQUE_DRIVE, v] = T
     front = wheel_turn(0, v, s_f * T, T_front, m_1, wheels, contact, parameter, dt)
     front += wheel_turn(1, v, s_f * T, T_front, m_2, wheels, contact, parameter, dt)
     rear = wheel_turn(2, v, s_r * T, T_rear, m_3, wheels, contact, parameter, dt)
     rear += wheel_turn(3, v, s_r * T, T_rear, m_4, wheels, contact, parameter, dt)
+    follow(v, sticks, w_out + s_f * front + s_r * rear, state, parameter)
     return -(parameter[J_WF, v] * front + parameter[J_WR, v] * rear) / dt
+
+
+@inlined
+def follow(v, sticks, w_out, state, parameter):
+    """While the clutch sticks, the engine turns as the wheels really do, whatever the step had expected of the tyres."""
+    w_in = state[RATIO, v] * w_out
+    joined = w_in if parameter[COUPLING, v] == RIGID else max(w_in, 0.0)
+    state[OMEGA_E, v] = joined if sticks else state[OMEGA_E, v]

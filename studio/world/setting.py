@@ -86,7 +86,7 @@ def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, Veh
             except UnknownError as error:
                 problem = Problem(f"{where}: {path}", "names no vehicle of the catalogue", repr(name), remedy=error.message)
                 raise ScenarioError(f"{where} is not a valid scenario.", [problem]) from None
-            check_step(found[name], scenario.clock.step)
+            check_step(found[name], scenario.clock.step, f"{where}: clock.step")
             check_delays(found[name], scenario.clock.tick, f"{where}: {path}")
     return found
 

@@ -34,13 +34,31 @@ def output_speed(v, n, wheels, parameter):
 
 
 @compiled
-def scheduled(v, w_out, state, gears):
-    """The gear of the schedule."""
-    gear, pedal = state[GEAR, v], state[ACCELERATOR, v]
-    w_in = abs(of_gear(G_RATIO, gear, v, gears) * w_out)
+def scheduled(v, w_out, state, parameter, gears):
+    """The gear of the schedule; one up only where it will be kept."""
+    gear, pedal, top = int(state[GEAR, v]), state[ACCELERATOR, v], top_gear(v, gears)
+    w_in = of_gear(G_RATIO, gear, v, gears) * w_out
     up = gearbox.threshold(of_gear(G_UP_LIGHT, gear, v, gears), of_gear(G_UP_FULL, gear, v, gears), pedal)
-    down = gearbox.threshold(of_gear(G_DOWN_LIGHT, gear, v, gears), of_gear(G_DOWN_FULL, gear, v, gears), pedal)
-    return gearbox.automatic(int(gear), top_gear(v, gears), w_in, up, down)
+    found = gearbox.automatic(gear, top, w_in, up, down_speed(v, gear, pedal, gears))
+    return gear if found > gear and not keeps(v, gear + 1, w_out, state, parameter, gears) else found
+
+
+@compiled
+def down_speed(v, gear, pedal, gears):
+    """Speed [rad/s] below which a gear is left for a lower one."""
+    return gearbox.threshold(of_gear(G_DOWN_LIGHT, gear, v, gears), of_gear(G_DOWN_FULL, gear, v, gears), pedal)
+
+
+@compiled
+def keeps(v, gear, w_out, state, parameter, gears):
+    """Whether a vehicle would keep the next higher gear on this slope with this pedal."""
+    R, i = parameter[RADIUS, v], of_gear(G_RATIO, gear, v, gears)
+    a_drive = state[TORQUE_DRIVE, v] / (R * parameter[MASS, v])
+    time = of_gear(G_DISENGAGE, gear - 1, v, gears) + of_gear(G_OPEN, gear, v, gears) + of_gear(G_ENGAGE, gear, v, gears)
+    interrupted = time if parameter[COUPLING, v] == CLUTCHED else 0.0
+    w_down = down_speed(v, gear, state[ACCELERATOR, v], gears)
+    fall = i / of_gear(G_RATIO, gear - 1, v, gears)
+    return gearbox.can_hold(state[A_X, v], a_drive, fall, interrupted, w_out, i, R, w_down, state[ACCELERATOR, v])
 
 
 @compiled
@@ -49,11 +67,13 @@ def wanted(v, w_out, request, state, parameter, gears):
     if request == request:
         gear = int(min(max(request, -1.0), GEARS - 2.0))
     elif state[GEAR, v] >= 1.0:
-        gear = scheduled(v, w_out, state, gears)
+        gear = scheduled(v, w_out, state, parameter, gears)
     else:
         gear = first_gear_for(v, w_out, gears)
-    w_wanted = abs(of_gear(G_RATIO, gear, v, gears) * w_out)
-    return gearbox.permitted(gear, int(state[GEAR, v]), top_gear(v, gears), state[V_X, v], w_wanted, parameter[LIMIT, v])
+    w_wanted, w_present = abs(of_gear(G_RATIO, gear, v, gears) * w_out), abs(state[RATIO, v] * w_out)
+    return gearbox.permitted(
+        gear, int(state[GEAR, v]), top_gear(v, gears), state[V_X, v], w_wanted, w_present, parameter[LIMIT, v]
+    )
 
 
 @compiled
@@ -66,12 +86,17 @@ def begin(v, gear, tick, state, gears):
 
 
 @compiled
-def engage(v, tick, state, parameter, gears):
-    """The new gear is in, the clutch still open. Behind a converter the gears hand over within the time for closing."""
+def engage(v, w_out, tick, state, parameter, gears):
+    """The new gear is in, the clutch still open. Behind a converter the gears hand over within the time for closing.
+
+    A motor without a clutch is brought to the speed of its gear before.
+    """
     gear = state[NEXT_GEAR, v]
     state[GEAR, v] = gear
     state[J_GEAR, v] = of_gear(G_INERTIA, gear, v, gears)
     state[CLUTCH_RATE, v] = 0.0
+    if parameter[COUPLING, v] == RIGID:
+        state[OMEGA_E, v] = state[NEXT_RATIO, v] * w_out
     if parameter[COUPLING, v] == CONVERTER and state[RATIO, v] * state[NEXT_RATIO, v] > 0.0:
         rate = gearbox.rate(of_gear(G_ENGAGE, gear, v, gears), tick)
         state[RATIO_RATE, v] = rate * abs(state[NEXT_RATIO, v] - state[RATIO, v])
@@ -80,7 +105,7 @@ def engage(v, tick, state, parameter, gears):
 
 
 @compiled
-def shift(v, tick, state, parameter, gears):
+def shift(v, w_out, tick, state, parameter, gears):
     """One tick of a shift."""
     if state[CLUTCH, v] > 0.0 and parameter[COUPLING, v] != RIGID:
         return
@@ -88,7 +113,7 @@ def shift(v, tick, state, parameter, gears):
         state[RATIO, v] = 0.0
     state[OPEN_TIME, v] += tick
     if state[OPEN_TIME, v] >= of_gear(G_OPEN, state[NEXT_GEAR, v], v, gears):
-        engage(v, tick, state, parameter, gears)
+        engage(v, w_out, tick, state, parameter, gears)
 
 
 @compiled
@@ -117,9 +142,10 @@ def shifts(k, tick, state, wheels, parameter, gears, commands):
     for v in range(n):
         w_out = output_speed(v, n, wheels, parameter)
         if state[NEXT_GEAR, v] != state[GEAR, v]:
-            shift(v, tick, state, parameter, gears)
+            shift(v, w_out, tick, state, parameter, gears)
             continue
-        gear = wanted(v, w_out, commands[U_GEAR, (k % RING) * n + v], state, parameter, gears)
+        w_road = max(w_out, state[V_X, v] / parameter[RADIUS, v])  # wheels that lock under the brakes ask for no lower gear
+        gear = wanted(v, w_road, commands[U_GEAR, (k % RING) * n + v], state, parameter, gears)
         if gear != int(state[GEAR, v]):
             begin(v, gear, tick, state, gears)
         else:

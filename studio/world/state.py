@@ -120,10 +120,11 @@ CONTACT = (
     Row("slip_per_spin", "s", "change of the slip with the wheel's spin within the step"),
     Row("spin_slope", "N s", "change of the longitudinal force with the wheel's spin"),
     Row("rolling_torque", "Nm", "rolling resistance, a friction"),
+    Row("peak_force", "N", "greatest longitudinal force of the tyre at this load"),
 )
 (
     T_X, T_Y, T_Z, L_X, L_Y, L_Z, N_X, N_Y, N_Z, R_X, R_Y, R_Z, KAPPA_USED, ALPHA_USED, GAMMA, SLIP_SPIN, SPIN_SLOPE,
-    ROLLING,
+    ROLLING, PEAK,
 ) = range(len(CONTACT))  # fmt: skip
 
 # Parameters: what stays fixed during a run.

@@ -11,7 +11,8 @@ from studio.model import body
 patient = settings(deadline=None)  # the first call compiles
 parts = st.floats(-1, 1)
 vectors = st.tuples(*[st.floats(-10, 10)] * 3)
-quaternions = st.tuples(*[parts] * 4).filter(lambda q: sum(x * x for x in q) > 0.01).map(lambda q: np.array(q) / np.linalg.norm(q))
+four = st.tuples(*[parts] * 4).filter(lambda q: np.linalg.norm(q) > 0.1)
+quaternions = four.map(lambda q: np.array(q) / np.linalg.norm(q))
 
 
 def of_scipy(q) -> Rotation:

@@ -28,7 +28,7 @@ def test_a_bar_works_on_the_difference_only():
 
 
 def test_links_carry_what_acts_below_the_roll_centre():
-    """The links of an axle have the moment h_l F_y about the vehicle's axis, against the roll, and lift nothing by themselves."""
+    """The links of an axle have the moment h_l F_y about the vehicle's axis, against the roll, and lift nothing themselves."""
     T, h, F_y = 1.4, 0.12, 2500.0
     left, right = (suspension.link_force(side, F_y, 2.0 * h / T) for side in (1.0, -1.0))
     assert (left - right) * T / 2 == pytest.approx(-h * 2.0 * F_y)  # about x, which a force to the left at the road rolls by +

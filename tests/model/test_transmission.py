@@ -31,8 +31,8 @@ def test_a_step_solves_the_equations_of_wheels_and_gearbox(T, i, J_g, front, ome
 
 def test_mobility_is_the_answer_to_a_torque():
     A, B, J_g = 100.0, 0.8, 0.3
-    answer = (transmission.input_free(A, B, 90.0, 50.0, J_g, DT) - transmission.input_free(A, B, 90.0, 0.0, J_g, DT)) / (50.0 * DT)
-    assert transmission.input_mobility(B, J_g) == pytest.approx(answer)
+    driven, free = (transmission.input_free(A, B, 90.0, T, J_g, DT) for T in (50.0, 0.0))
+    assert transmission.input_mobility(B, J_g) == pytest.approx((driven - free) / (50.0 * DT))
     assert transmission.input_mobility(B, 0.0) == B
 
 

@@ -7,8 +7,8 @@ import pytest
 
 from studio.conventions import GRAVITY
 from studio.world.state import (
-    A_Y, CAMBER_F, CAMBER_R, DELTA, F_Y, F_Z, GAIN_F, GAIN_R, H, L_F, L_R, M_UF, M_UR, M_Z, MASS, PSI, RADIUS, ROLL,
-    SLOPE_Y, STEER_MAX, STEER_RATE, STEER_RATIO, TAU_STEER, TRACK_F, TRACK_R, TRAVEL, TRAIL, UNASSISTED, V_X, V_Y, X, Y, YAW_RATE, Z,
+    A_Y, CAMBER_F, CAMBER_R, DELTA, F_Y, F_Z, GAIN_F, GAIN_R, H, L_F, L_R, M_UF, M_UR, M_Z, MASS, PSI, RADIUS, ROLL, SLOPE_Y,
+    STEER_MAX, STEER_RATE, STEER_RATIO, TAU_STEER, TRACK_F, TRACK_R, TRAIL, TRAVEL, UNASSISTED, V_X, V_Y, X, Y, YAW_RATE, Z,
 )  # fmt: skip
 from tests.closed_form import axles, roll_angle, single_track, slope, understeer_gradient
 from tests.conftest import ROOT

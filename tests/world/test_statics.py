@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from studio.conventions import GRAVITY
-from studio.world.state import BRAKE_MAX, F_X, F_Y, F_Z, H, L_F, L_R, M_UF, M_UR, MASS, MASS_S, PITCH, PSI, RADIUS, TRAVEL, X, Y, Z
+from studio.world.state import (
+    BRAKE_MAX, F_X, F_Y, F_Z, H, L_F, L_R, M_UF, MASS, MASS_S, PITCH, PSI, RADIUS, TRAVEL, X, Y, Z,
+)  # fmt: skip
 from tests.proving_ground import MODELS, Ground
 
 SLOPE = 0.15
