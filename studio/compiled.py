@@ -2,8 +2,9 @@
 
 `compiled` is numba's `njit` with the options of the house:
 
-* only `contract` and `nsz` of fast-math: anything that reassociates sums would let the bits of one vehicle depend
-  on how many others stand beside it in the loop;
+* no fast-math at all: where the compiler may fuse or reorder, the bits of a function depend on what it was compiled into,
+  and a run of freshly compiled code ends with others than one of kept code. Multiply-adds that pay are written out
+  (`fma` in model/elementary.py);
 * division by zero gives infinity, as in numpy, instead of a hidden branch;
 * machine code is cached on disk.
 
@@ -64,7 +65,7 @@ os.utime(CACHE)
 forget_old(CACHE, keep=KEPT_CACHES)
 numba.config.CACHE_DIR = str(CACHE)
 
-compiled = partial(numba.njit, cache=True, error_model="numpy", fastmath={"contract", "nsz"}, nogil=True)
+compiled = partial(numba.njit, cache=True, error_model="numpy", nogil=True)
 inlined = compiled(forceinline=True)
 
 

@@ -32,13 +32,15 @@ def sample_setting():
 
 def pytest_terminal_summary(terminalreporter, config):
     """What the vehicles were compared with, where that was tested: in short here, every row in a file."""
-    multibody = sys.modules.get("tests.multibody")
-    if multibody is None or not multibody.table.cache_info().currsize:
-        return
-    folder = Path(os.environ.get("STUDIO_TABLES") or config.rootpath / ".pytest_cache")
-    folder.mkdir(parents=True, exist_ok=True)
-    file = folder / "vehicle_reference.txt"
-    file.write_text(multibody.full_table(), encoding="utf-8")
-    terminalreporter.section("multi-body references")
-    for line in [*multibody.short_table(), "", *multibody.halving_table(), "", f"Every row: {file}"]:
-        terminalreporter.write_line(line)
+    ground, multibody = sys.modules.get("tests.proving_ground"), sys.modules.get("tests.multibody")
+    if ground and ground.FIGURES:
+        terminalreporter.section("track tests")
+        terminalreporter.write_line("\n".join(ground.FIGURES))
+    if multibody and multibody.table.cache_info().currsize:
+        folder = Path(os.environ.get("STUDIO_TABLES") or config.rootpath / ".pytest_cache")
+        folder.mkdir(parents=True, exist_ok=True)
+        file = folder / "vehicle_reference.txt"
+        file.write_text(multibody.full_table(), encoding="utf-8")
+        terminalreporter.section("multi-body references")
+        lines = [*multibody.short_table(), "", *multibody.halving_table(), "", f"Every row: {file}"]
+        terminalreporter.write_line("\n".join(lines))

@@ -12,6 +12,7 @@ from studio.world.state import (
 
 TICK = 0.02
 MODELS = catalogue.vehicle_names()
+FIGURES: list[str] = []  # what tests measured, for the end of the test run's output
 ROWS = {
     "steering": U_STEER, "steering_torque": U_STEER_TORQUE, "drive": U_DRIVE, "brake": U_BRAKE, "pedal": U_PEDAL,
     "engine": U_ENGINE, "gear": U_GEAR, "applied_drive": U_APPLIED, "applied_brake": U_APPLIED_BRAKE,

@@ -47,6 +47,15 @@ def test_a_fresh_process_gives_the_same_bits(folder, sample):
     assert other["state_hash"] != run["state_hash"] and child["state_hash"] != run["state_hash"]
 
 
+def test_freshly_compiled_code_gives_the_same_bits(folder, sample, tmp_path, monkeypatch):
+    """A machine that compiles everything, map and paths too, ends where one with kept code ends."""
+    cwd, run, _ = folder
+    monkeypatch.setenv("STUDIO_CACHE", str(tmp_path / "cache"))
+    fresh = json.loads(studio("run", sample, *SHORT, "--json", "--db", "fresh.db", cwd=cwd)[1])
+    assert fresh["state_hash"] == run["state_hash"]
+    assert (tmp_path / "cache" / "compiled").is_dir()
+
+
 def test_python_finds_the_same(folder, sample):
     """The example of the package's docstring; its run has the command line's bits."""
     import studio as package
@@ -140,3 +149,71 @@ def test_an_application_that_does_not_load(folder, sample, tmp_path):
     (tmp_path / "mine.py").write_text("import no_such_module")
     code, _, errors = studio("check", sample, "--applications", tmp_path, cwd=cwd)
     assert code == 2 and "mine.py" in errors and "no_such_module" in errors
+
+
+def test_vehicles(tmp_path):
+    """The list has every catalogue vehicle; one vehicle has every value with unit and origin."""
+    code, out, _ = studio("vehicles", cwd=tmp_path)
+    assert code == 0 and all(name in out for name in ("smart_fortwo", "ford_escort", "bmw_320i", "suv", "truck", "electric_compact"))
+    found = json.loads(studio("vehicles", "smart_fortwo", "--json", cwd=tmp_path)[1])
+    mass = next(each for each in found["values"] if each["path"] == "body.mass")
+    assert mass["value"] == 860 and mass["unit"] == "kg" and mass["origin"] == "published" and mass["source"]
+    code, _, err = studio("vehicles", "smart_fortow", cwd=tmp_path)
+    assert code == 2 and "did you mean 'smart_fortwo'" in err and "Traceback" not in err
+
+
+def test_drive(tmp_path):
+    (tmp_path / "in.csv").write_text("time_s,throttle\n0,1\n2,1\n")
+    command = ("drive", "suv", "--inputs", "in.csv", "--out", "out.csv")
+    code, out, err = studio(*command, "--speed", 5, "--set", "road.friction=0.5", cwd=tmp_path)
+    assert code == 0, err
+    assert "201 rows" in out
+    head = (tmp_path / "out.csv").read_text().partition("\n")[0].split(",")
+    assert head[:3] == ["time_s", "x_m", "y_m"] and "Fz_N_4" in head
+    kept = (tmp_path / "out.csv").read_bytes()
+    for wrong, words in (
+        (("--speed", "fast"), "--speed"),
+        (("--set", "body.mass=-1"), "body.mass"),
+        (("--out", "in.csv"), "input"),
+        (("--out", "nowhere/out.csv"), "nowhere"),
+    ):
+        code, _, err = studio(*command, *wrong, cwd=tmp_path)
+        assert code == 2 and words in err and "Traceback" not in err, (wrong, err)
+    assert (tmp_path / "out.csv").read_bytes() == kept
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in.csv", "out.csv"]
+
+
+def test_tyre(tmp_path, root):
+    (tmp_path / "rows.csv").write_text("kappa,alpha_rad,gamma_rad,Fz_N\n0.1,0,0,3000\n0,0.05,0,3000\n")
+    file = root / "studio" / "scenario" / "tyres" / "smart_175_55r15.tir"
+    code, out, err = studio("tyre", file, "--rows", "rows.csv", "--out", "out.csv", "--plot", "plot.png", cwd=tmp_path)
+    assert code == 0, err
+    rows = (tmp_path / "out.csv").read_text().splitlines()
+    assert rows[0] == "kappa,alpha_rad,gamma_rad,Fz_N,Fx_N,Fy_N,Mz_Nm" and len(rows) == 3
+    assert float(rows[1].split(",")[4]) > 1500 and float(rows[2].split(",")[5]) < -500
+    assert (tmp_path / "plot.png").read_bytes().startswith(b"\x89PNG")
+    copied = tmp_path / "mine.tir"
+    copied.write_bytes(file.read_bytes())
+    code, _, err = studio("tyre", copied, "--plot", copied, cwd=tmp_path)
+    assert code == 2 and ".png" in err and copied.read_bytes() == file.read_bytes()
+
+
+def test_a_vehicle_file_is_part_of_the_scenarios_hash(tmp_path, sample, root):
+    """The same scenario with another vehicle behind the same name is another scenario."""
+    import yaml
+
+    from studio import job
+
+    document = yaml.safe_load(sample.read_text())
+    document["map"]["file"] = str(sample.parent / document["map"]["file"])
+    document["vehicles"]["leader"]["model"] = "./mine.yaml"
+    path = tmp_path / "scenario.yaml"
+    path.write_text(yaml.safe_dump(document))
+    hashes = []
+    for mass in (1090.0, 1100.0):
+        vehicle = yaml.safe_load((root / "studio" / "scenario" / "vehicles" / "bmw_320i.yaml").read_text())
+        vehicle["body"]["mass"] |= {"value": mass}
+        (tmp_path / "mine.yaml").write_text(yaml.safe_dump(vehicle, allow_unicode=True))
+        loaded = job.load(path)
+        hashes.append(job.scenario_hash(loaded, job.prepare(loaded)))
+    assert hashes[0] != hashes[1]

@@ -144,8 +144,10 @@ def check_output(out: Path, *inputs: Path) -> None:
     for given in inputs:
         if out.exists() and given.exists() and out.samefile(given):
             refuse(out.name, [Problem(str(out), "is an input of this command", remedy="name another file")], "cannot be written")
-    if out.is_dir() or not os.access(out.parent, os.W_OK):
-        refuse(out.name, [Problem(str(out), "cannot be written", allowed="a file in a folder that can be written")], "cannot be written")
+    why = "it is a folder" if out.is_dir() else "" if out.parent.is_dir() else "there is no such folder"
+    if why or not os.access(out.parent, os.W_OK):
+        what = f"cannot be written: {why or 'no permission in its folder'}"
+        refuse(out.name, [Problem(str(out), what, allowed="a file in a folder that can be written")], "cannot be written")
 
 
 def refuse(name: str, problems: list[Problem], what: str = "cannot be used as a table") -> None:

@@ -237,7 +237,8 @@ def settle(world: World) -> None:
     vehicles, n = world.vehicles, world.size
     for v in range(n):
         T = wheel_torque(v, 0.0, vehicles.state, vehicles.ground, vehicles.parameter)
-        ratio = vehicles.state[RATIO, v]
-        vehicles.state[T_ENGINE, v] = T / ratio if vehicles.state[CLUTCH, v] >= 1.0 else 0.0
+        if vehicles.state[CLUTCH, v] >= 1.0:
+            before_losses = T / vehicles.state[RATIO, v] + vehicles.parameter[LOSS_TORQUE, v]
+            vehicles.state[T_ENGINE, v] = before_losses / (1.0 - vehicles.parameter[LOSS_SHARE, v])
         vehicles.state[TORQUE_DRIVE, v] = T
         vehicles.commands[U_DRIVE, v::n] = T

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.model import coupling
+from studio.model.coupling import FIRM, STALL
 from studio.scenario import catalogue
 
 patient = settings(deadline=None)  # the first call compiles
@@ -14,10 +15,14 @@ DT, J_E, J_IN = 0.005, 0.2, 1.5
 CONVERTERS = [name for name in catalogue.vehicle_names() if catalogue.find_vehicle(name).values.coupling.kind == "converter"]
 
 
+NO_CONVERTER = (0.0,) * 6
+
+
 def engaged(w_e, w_in, T_cap, T_net=0.0):
     """One step of two discs: engine and a gearbox without load; the torque, and both speeds afterwards."""
-    T_c = coupling.clutch(T_cap, w_e, T_net, J_E, w_in, 1.0 / J_IN, DT)
-    return T_c, w_e + DT * (T_net - T_c) / J_E, w_in + DT * T_c / J_IN
+    D_e, D_in, T_c, sticks = coupling.join(w_e, w_in, T_net, 0.0, T_cap, 1.0, J_E, w_in, 1.0 / J_IN, NO_CONVERTER, DT)
+    assert sticks == (abs(w_e + D_e - w_in - D_in) < 1e-6 and abs(T_c) < T_cap)
+    return T_c, w_e + D_e, w_in + D_in
 
 
 @patient
@@ -55,20 +60,22 @@ def test_two_discs_meet_in_closed_form():
 
 
 def test_an_open_clutch_carries_nothing():
-    assert coupling.clutch(0.0, 300.0, 50.0, J_E, 20.0, 1.0 / J_IN, DT) == 0.0
+    T_c, w_e, w_in = engaged(300.0, 20.0, 0.0, T_net=50.0)
+    assert (T_c, w_e, w_in) == (0.0, pytest.approx(300.0 + DT * 50.0 / J_E), 20.0)
 
 
-def test_a_clutch_lets_go_before_the_engine_stalls():
-    idle = 80.0
-    carried = [coupling.capacity(1.0, 200.0, share * idle, idle) for share in (0.4, 0.5, 0.7, 0.9, 2.0)]
-    assert carried == pytest.approx([0.0, 0.0, 100.0, 200.0, 200.0])
-    assert coupling.capacity(0.25, 200.0, 300.0, idle) == pytest.approx(50.0)
-    assert coupling.capacity(1.0, 200.0, 0.0, 0.0) == 200.0  # a lock-up, which does not know the idle speed
+def test_an_automated_clutch_lets_the_engine_rev_and_live():
+    """Nothing below 0.85 of the idle speed, all from the launch speed on, straight between them."""
+    idle, launch = 80.0, 200.0
+    w = [0.8 * idle, STALL * idle, 0.5 * (STALL * idle + launch), launch, 2.0 * launch]
+    assert [coupling.capacity(1.0, 300.0, each, idle, launch) for each in w] == pytest.approx([0.0, 0.0, 150.0, 300.0, 300.0])
+    assert coupling.capacity(0.25, 300.0, 2.0 * launch, idle, launch) == pytest.approx(75.0)
+    assert coupling.capacity(1.0, 300.0, FIRM * idle, idle, idle) == pytest.approx(300.0)  # pedal lifted
 
 
 def torques(name, ratio, w_e=250.0):
     c = catalogue.find_vehicle(name).values.coupling
-    return np.array(coupling.converter(w_e, ratio * w_e, *c.pump, *c.turbine, *c.fluid, c.coupling_ratio)) / w_e**2
+    return np.array(coupling.converter(w_e, ratio * w_e, *c.pump, *c.turbine, *c.fluid, c.coupling_ratio)[:2]) / w_e**2
 
 
 @pytest.mark.parametrize("name", CONVERTERS)
@@ -91,3 +98,52 @@ def test_a_converter_gives_no_more_power_than_it_takes(name, ratio):
 
 def test_a_converter_grows_with_the_square_of_the_speed():
     assert torques("bmw_320i", 0.4, 100.0) == pytest.approx(torques("bmw_320i", 0.4, 300.0))
+
+
+def at(name, w_e, w_t):
+    """All six of a converter."""
+    c = catalogue.find_vehicle(name).values.coupling
+    return coupling.converter(w_e, w_t, *c.pump, *c.turbine, *c.fluid, c.coupling_ratio)
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3, 0.7, 0.95, 1.2])
+def test_slopes_are_those_of_the_torques(ratio):
+    """By finite differences; what would feed the step with energy is left out: P_e >= 0, Q_t <= 0."""
+    w_e, w_t, h = 300.0, ratio * 300.0, 1e-3
+    by_e = (np.array(at("suv", w_e + h, w_t)[:2]) - at("suv", w_e - h, w_t)[:2]) / (2 * h)
+    by_t = (np.array(at("suv", w_e, w_t + h)[:2]) - at("suv", w_e, max(w_t - h, 0.0))[:2]) / (2 * h if ratio else h)
+    _, _, P_e, P_t, Q_e, Q_t = at("suv", w_e, w_t)
+    assert (P_e, Q_e) == pytest.approx((max(by_e[0], 0.0), by_e[1]), rel=1e-4, abs=1e-4)
+    if ratio:
+        assert (P_t, Q_t) == pytest.approx((by_t[0], min(by_t[1], 0.0)), rel=1e-4, abs=1e-4)
+
+
+def test_a_turbine_turned_backwards_is_taken_as_standing():
+    assert at("bmw_320i", 200.0, -50.0)[:2] == at("bmw_320i", 200.0, 0.0)[:2]
+
+
+@patient
+@given(st.floats(60, 600), st.floats(0, 700), st.floats(-50, 300), st.floats(0, 400), st.floats(0.01, 20))
+def test_a_step_solves_converter_and_clutch_together(w_e, w_t, T_e, T_cap, M):
+    """The two linear equations of the docstring hold with the torque that the clutch carries, and so does Coulomb's law."""
+    eta, T_loss, A = 0.95, 2.0, w_t - 0.3
+    T_p, T_t, P_e, P_t, Q_e, Q_t = torques = at("ford_escort", w_e, w_t)
+    D_e, D_t, T_in, sticks = coupling.join(w_e, w_t, T_e, T_loss, T_cap, eta, J_E, A, M, torques, DT)
+    T_c = T_in - (T_t + Q_e * D_e + Q_t * D_t)
+    assert (J_E / DT + P_e) * D_e + P_t * D_t == pytest.approx(T_e - T_p - T_c, rel=1e-6, abs=1e-6)
+    assert D_t == pytest.approx(A - w_t + M * DT * (eta * T_in - T_loss), rel=1e-6, abs=1e-6)
+    assert abs(T_c) <= T_cap * (1 + 1e-9) + 1e-6
+    if sticks:
+        assert w_e + D_e == pytest.approx(w_t + D_t, abs=1e-6)
+
+
+@pytest.mark.parametrize("M", [0.05, 1.0, 40.0])
+def test_a_converter_is_stable_however_light_its_load(M):
+    """Wheels that spin on ice are light (M [1/(kg m²)]): both speeds meet the coupling point and stay, from either side."""
+    for w_t in (0.0, 600.0):
+        w_e = 150.0
+        for _ in range(20_000):
+            D_e, D_t, _, _ = coupling.join(w_e, w_t, 0.0, 0.0, 0.0, 1.0, J_E, w_t, M, at("suv", w_e, w_t), DT)
+            w_e, w_t = w_e + D_e, w_t + D_t
+            assert 0.0 <= w_e < 700.0 and 0.0 <= w_t < 700.0
+        assert w_t / w_e == pytest.approx(1.0, abs=0.02)

@@ -28,22 +28,43 @@ def test_between_the_curves_the_gear_is_kept(w_in, gear):
     assert gearbox.automatic(gear, TOP, w_in, UP, DOWN) == gear
 
 
+def permitted(wanted, gear, v=0.0, *, w_wanted=100.0, w_present=100.0):
+    return gearbox.permitted(wanted, gear, TOP, v, w_wanted, w_present, LIMIT)
+
+
 def test_a_request_is_bounded_by_the_gears_there_are():
-    assert gearbox.permitted(9, 4, TOP, 20.0, 100.0, LIMIT) == TOP
-    assert gearbox.permitted(-3, 0, TOP, 0.0, 0.0, LIMIT) == -1
+    assert permitted(9, 4, 20.0) == TOP
+    assert permitted(-3, 0) == -1
 
 
 def test_no_request_over_revs_the_engine():
-    assert gearbox.permitted(1, 4, TOP, 30.0, LIMIT + 1, LIMIT) == 4
-    assert gearbox.permitted(1, 4, TOP, 30.0, LIMIT - 1, LIMIT) == 1
+    assert permitted(1, 4, 30.0, w_wanted=LIMIT + 1) == 4
+    assert permitted(1, 4, 30.0, w_wanted=LIMIT - 1) == 1
+    assert permitted(5, 4, 60.0, w_wanted=LIMIT + 1, w_present=LIMIT + 200) == 5  # up is always better then
 
 
 @pytest.mark.parametrize("speed", [2.0 * WALKING, -2.0 * WALKING])
 def test_nobody_shifts_between_forward_and_reverse_while_driving(speed):
-    assert gearbox.permitted(-1, 2, TOP, speed, 50.0, LIMIT) == 2
-    assert gearbox.permitted(1, -1, TOP, speed, 50.0, LIMIT) == -1
-    assert gearbox.permitted(0, 2, TOP, speed, 0.0, LIMIT) == 0  # neutral always
-    assert gearbox.permitted(-1, 1, TOP, 0.5 * WALKING, 50.0, LIMIT) == -1
+    assert permitted(-1, 2, speed) == 2
+    assert permitted(1, -1, speed) == -1
+    assert permitted(0, 2, speed) == 0  # neutral always
+    assert permitted(-1, 1, 0.5 * WALKING) == -1
+
+
+def can_hold(a, a_drive, *, time=0.8, w_out=50.0, pedal=0.5):
+    """A shift to a gear of 0.7 of the ratio; with wheels of 0.3 m it is left below 150 rad/s."""
+    return gearbox.can_hold(a, a_drive, 0.7, time, w_out, 4.0, 0.3, 150.0, pedal)
+
+
+def test_a_higher_gear_must_hold_what_the_lower_one_does():
+    """On the level 0.7 of the drive still holds; on a hill that takes all of it the next gear would lose speed."""
+    assert can_hold(1.5, 1.6) and not can_hold(0.2, 1.5)
+    assert can_hold(0.0, 1.5, pedal=0.0)  # nobody asks for power
+
+
+def test_a_shift_that_takes_too_long_is_not_begun():
+    """Without drive a heavy car on a hill would fall below the shift down: 4 (50 - 2.6 t/0.3) < 150 from t = 1.44 s on."""
+    assert can_hold(2.0, 4.6, time=1.4) and not can_hold(2.0, 4.6, time=1.5)
 
 
 def test_an_automated_clutch_closes_when_somebody_wants_to_go_or_the_car_drags_the_engine():

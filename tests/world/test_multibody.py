@@ -6,6 +6,8 @@ The tables stand in the output of the test run (tests/conftest.py); the toleranc
 import numpy as np
 import pytest
 
+from studio.rig.drive import drive
+from studio.scenario import catalogue
 from studio.world.state import J_Z, L_F, L_R, MASS
 from tests import multibody
 from tests.closed_form import axles, single_track, slope
@@ -51,6 +53,20 @@ def test_the_consistent_reference_is_the_reference_where_nothing_is_fast():
             made = multibody.consistent(run)
             assert abs(multibody.response(made, "r")) == pytest.approx(abs(multibody.response(run, "r")), rel=0.01)
             assert multibody.lag(made, "r") == pytest.approx(multibody.lag(run, "r"), abs=0.01)
+
+
+@pytest.mark.parametrize("title", ["long_v20_a-4.0", "long_v10_a2.0"])
+def test_the_rig_drives_the_same(title):
+    """studio.rig.drive with a run's inputs as columns does what this comparison's feeding does."""
+    run = next(run for run in multibody.runs() if run.title == title and run.car == "ford_escort")
+    times = 0.005 * np.arange(round(run.end / 0.005) + 1)
+    model = catalogue.find_vehicle(run.car, {"air.drag_coefficient": 0.0, "wheels.rolling_resistance": 0.0})
+    torque = model.values.body.mass * model.values.wheels.radius * np.array([multibody.asked(run, t, 0.0) for t in times])
+    columns = {"time_s": times, "road_wheel_angle_rad": 0.0 * times, "drive_torque_Nm": np.maximum(torque, 0.0)}
+    answer = drive(model, {**columns, "brake_torque_Nm": np.maximum(-torque, 0.0)}, speed=run.speed)
+    ours = multibody.driven(0.005)[run.name].columns
+    assert answer["ax_mps2"][-1] == pytest.approx(np.interp(run.end, ours["t"], ours["a_x"]), rel=1e-9)
+    assert answer["x_m"][-1] == pytest.approx(np.interp(run.end, ours["t"], ours["x"]), rel=1e-9)
 
 
 @pytest.mark.parametrize("speed", [10.0, 20.0])

@@ -11,10 +11,10 @@ from studio.model import coupling
 from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
 from studio.world.state import (
     ACCELERATOR, AREA, C_D, C_ROLL, CAPACITY, CLUTCH, COUPLING, CURVE, CURVE_0, DRIVE_SHARE, F_X, F_Z, G_RATIO, GEAR, GEARS,
-    IDLE, J_E, J_GEAR, J_WF, J_WR, KNOT, LIMIT, LOSS_SHARE, LOSS_TORQUE, MASS, MU, OMEGA, OMEGA_E, PUMP_1, RADIUS, RATIO, REGEN,
+    IDLE, J_E, J_GEAR, J_WF, J_WR, KNOT, LAUNCH, LIMIT, LOSS_SHARE, LOSS_TORQUE, MASS, MU, OMEGA, OMEGA_E, PUMP_1, RADIUS, RATIO, REGEN,
     RING, T_ENGINE, TORQUE_DRIVE, TURBINE_1, U_BRAKE, V_X, X,
 )  # fmt: skip
-from tests.proving_ground import MODELS, Ground, heavier
+from tests.proving_ground import FIGURES, MODELS, Ground, heavier
 
 DT = 0.005
 MPH = 0.44704  # [m/s]
@@ -219,13 +219,14 @@ def test_a_slipping_clutch_carries_its_capacity(model):
     ground = one(model, speed=0.0).command(pedal=0.6)
     slipped = stuck = 0
     for _ in range(round(4.0 / DT)):
-        before, transmissibility = ground[OMEGA_E], ground[CLUTCH]
+        before, transmissibility, pedal, p = ground[OMEGA_E], ground[CLUTCH], ground[ACCELERATOR], ground.p
         ground.run(DT)
         if ground[RATIO] == 0.0 or ground[GEAR] != 1.0:
             continue
         slip = ground[OMEGA_E] - ground[RATIO] * output(ground)
         T_c = ground[T_ENGINE] - ground.p[J_E] * (ground[OMEGA_E] - before) / DT
-        carried = coupling.capacity(transmissibility, ground.p[CAPACITY], before, ground.p[IDLE])
+        launch = p[IDLE] + pedal * (p[LAUNCH] - p[IDLE])
+        carried = coupling.capacity(transmissibility, p[CAPACITY], before, p[IDLE], launch)
         assert abs(T_c) <= carried * (1 + 1e-9) + 1e-6
         if abs(slip) > 1e-6:
             assert T_c == pytest.approx(np.sign(slip) * carried, rel=1e-6, abs=1e-6)
@@ -367,7 +368,7 @@ def test_the_smart_accelerates_as_on_the_track():
     ground = Ground("smart_fortwo", speed=0.0, powertrain=True).command(pedal=1.0)
     while ground[V_X] < 60.0 * MPH and ground.time < 30.0:
         ground.run(0.02)
-    print(f"\nsmart_fortwo: 0-60 mph in {ground.time:.2f} s; track test {SMART_0_60_MPH} s")
+    FIGURES.append(f"smart_fortwo, 0 to 60 mph: {ground.time:.2f} s; track test {SMART_0_60_MPH} s")
     assert ground.time == pytest.approx(SMART_0_60_MPH, rel=0.15)
     assert ground.p[COUPLING] == CLUTCHED and ground[ACCELERATOR] == pytest.approx(1.0)
 
@@ -381,6 +382,6 @@ def test_the_smart_brakes_as_on_the_track():
         each.fleet.commands[U_BRAKE, each.k % RING] = 1e6
 
     ground.run(8.0, press)
-    print(f"\nsmart_fortwo: 60-0 mph in {ground[X]:.1f} m; track test {SMART_60_0_MPH} m")
+    FIGURES.append(f"smart_fortwo, 60 to 0 mph: {ground[X]:.1f} m; track test {SMART_60_0_MPH} m")
     assert abs(ground[V_X]) < 1e-3
     assert ground[X] == pytest.approx(SMART_60_0_MPH, rel=0.15)
