@@ -17,15 +17,19 @@ from studio.road.report import (
     Report,
     SignalCount,
     Spot,
+    TurnCount,
 )
 from studio.road.scenery import USUAL_HEIGHT, has_height, is_told_by_parts, shape_form
+from studio.road.surface import junction_form
 
+INSIDE = 1.0  # [m] beyond a junction's edge a signal still stands inside
 NEAR = 15.0  # [m] a stop line is that near to its mapped signal
 
 
 def report(
-    network: Network, found: Survey, ways: list[Way], box: Box, origins: dict[str, tuple[int, ...]], *, side: DriveSide, country: str
-) -> Report:
+    network: Network, found: Survey, ways: list[Way], box: Box, origins: dict[str, tuple[int, ...]], *, turns: TurnCount,
+    side: DriveSide, country: str,
+) -> Report:  # fmt: skip
     """The report of an import: counts, and the guesses and gaps noted on the way."""
     notes = found.notes
     note_lanes(network, ways, origins, notes)
@@ -37,6 +41,7 @@ def report(
         lane_km=sum(lane.length for lane in network.lanes if not lane.internal) / 1000.0,
         junctions=len(network.junctions),
         signals=signals,
+        turn_lanes=turns,
         speed_limits=count_limits(network, ways, notes),
         buildings=buildings,
         parking=count_parking(found, box),
@@ -62,22 +67,17 @@ def note_lanes(network: Network, ways: list[Way], origins: dict[str, tuple[int, 
 # -- signals ---------------------------------------------------------------------------------------
 
 
-def mapped_signals(found: Survey, ways: list[Way], box: Box) -> dict[int, np.ndarray]:
-    """Positions of the signals on car roads in the part that is kept [m]."""
-    nodes = {node: point for way in ways for node, point in zip(way.nodes, way.points, strict=True)}
-    signals = {n: p for n, p in nodes.items() if found.nodes.get(n, {}).get("highway") == "traffic_signals"}
-    return {n: box.local(latitude, longitude) for n, (longitude, latitude) in signals.items()}
-
-
 def count_signals(network: Network, found: Survey, ways: list[Way], box: Box, notes: Notes) -> SignalCount:
     """How many mapped signals have a stop line near; the others are noted with the reason."""
-    mapped, links, placed = mapped_signals(found, ways, box), network.signals, 0
+    mapped, links, placed = osm.mapped_signals(found, ways, box), network.signals, 0
+    junctions = junction_form(network)
     for node, (x, y) in mapped.items():
         away = np.hypot(links.link_x - x, links.link_y - y).min(initial=np.inf)
         placed += away <= NEAR
         if away > NEAR:
             longitude, latitude = box.degrees(np.array([[x], [y]]))[0]
-            reason = f"the nearest stop line is {away:.0f} m away" if np.isfinite(away) else "no lane ends at a signal"
+            inside = junctions.distance(shapely.Point(x, y)) < INSIDE
+            reason = f"stands inside a junction; the nearest stop line is {away:.0f} m away" if inside else "no lane leads to it"
             notes.skip("signal", "traffic signal", Spot(f"node {node}", latitude, longitude), reason)
     return SignalCount(len(mapped), int(placed), len(set(links.programme.tolist())))
 

@@ -444,6 +444,13 @@ def between(way: Way, i: int, fraction: float) -> tuple[float, float]:
     return lon_a + fraction * (lon_b - lon_a), lat_a + fraction * (lat_b - lat_a)
 
 
+def mapped_signals(found: Survey, ways: list[Way], box: Box) -> dict[int, np.ndarray]:
+    """Positions of the signals on car roads in the part that is kept [m]."""
+    nodes = {node: point for way in ways for node, point in zip(way.nodes, way.points, strict=True)}
+    signals = {n: p for n, p in nodes.items() if found.nodes.get(n, {}).get("highway") == "traffic_signals"}
+    return {n: box.local(latitude, longitude) for n, (longitude, latitude) in signals.items()}
+
+
 # -- the clean file for netconvert -----------------------------------------------------------------
 
 

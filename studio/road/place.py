@@ -11,11 +11,11 @@ from pathlib import Path
 from studio.errors import MapError
 from studio.road import folder, kept, osm
 from studio.road.network import ATTRIBUTION, Connection, Network
-from studio.road.signals import Signals, signals
+from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
     *("audit.py", "bend.py", "country.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
-    *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py"),
+    *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
 
@@ -75,7 +75,7 @@ def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
 
 def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road import audit, bend, limit, netconvert
+    from studio.road import audit, bend, limit, netconvert, turn
     from studio.road.country import country_at
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
@@ -99,8 +99,12 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     progress("building lanes and junctions")
     clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
     net = netconvert.convert(clean, box.projection, source=path, left_hand=side.side == "left")
+    forks = turn.forks(net, ways, box, found.notes, left_hand=side.side == "left")
+    net = turn.mended(net, forks, left_hand=side.side == "left")
     progress("placing signals and scenery")
-    lights = signals(net.lanes, net.roads, net.connections, net.signalled)
+    mapped = list(osm.mapped_signals(found, ways, box).values())
+    signalled = net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped)
+    lights = signals(net.lanes, net.roads, net.connections, signalled)
     network = Network(
         name=name_of(path),
         attribution=ATTRIBUTION,
@@ -114,7 +118,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
         signals=lights,
         scenery=scenery(found, box),
     )
-    report = audit.report(network, found, ways, box, net.origins, side=side, country=country.name)
+    report = audit.report(network, found, ways, box, net.origins, turns=turn.count(net, forks), side=side, country=country.name)
     return replace(network, report=replace(report, seconds=time.perf_counter() - began))
 
 

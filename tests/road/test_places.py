@@ -10,6 +10,8 @@ import pytest
 import shapely
 
 from studio.road import load, osm, surface
+from studio.road.report import TurnCount
+from studio.road.signals import GREEN
 
 MAPS = Path(__file__).parents[1] / "reference" / "maps"
 SCENARIOS = Path(__file__).parents[2] / "scenarios" / "maps"
@@ -116,6 +118,53 @@ def test_lane_kilometres_are_near_netconverts_own(here, name):
     if name in NETCONVERT_KM:
         assert here.report.lane_km == pytest.approx(NETCONVERT_KM[name], rel=0.055)
     assert here.report.lane_km == pytest.approx(sum(here.report.speed_limits.lane_km.values()), abs=0.01)
+
+
+def test_lanes_lead_where_their_arrows_say(here, name):
+    turns = here.report.turn_lanes
+    assert turns.matching >= 0.9 * turns.tagged_lanes or turns == TurnCount(9, 8)  # Seattle's motorway: netconvert built a ramp lane more
+    assert turns.tagged_lanes > 0 or name == "perth_peanut_roundabout_lht"
+
+
+def test_mapped_signals_have_a_stop_line(places):
+    """Of all nine in ten, and of each place but the triangle: the one in the middle of its five arms is 17 m from the nearest line."""
+    counts = {name: place.report.signals for name, place in places.items()}
+    assert sum(count.in_map for count in counts.values()) >= 70
+    assert sum(count.placed for count in counts.values()) >= 0.9 * sum(count.in_map for count in counts.values())
+    short = {name for name, count in counts.items() if count.placed < 0.9 * count.in_map}
+    assert short <= {"seattle_triangle_small"}
+
+
+def test_every_signal_without_a_stop_line_is_told(here):
+    signals = here.report.signals
+    told = [each for each in here.report.skipped if each.kind == "signal"]
+    assert len(told) == signals.in_map - signals.placed and all(each.reason for each in told)
+
+
+STEP = 0.5  # [s]
+
+
+def test_what_crosses_is_never_green_together(here):
+    """Independently of the programmes' own list: ways through a junction that cross and start at different roads' stop lines."""
+    signals, lanes = here.signals, here.lanes
+    times = np.arange(0.0, 2.0 * max(signals.cycle, default=1.0), STEP)
+    shown = np.array([[signals.state(link, t) for t in times] for link in range(len(signals))])
+    ways = [(c, shapely.LineString(lanes[via].centre.T)) for c in here.connections if c.link >= 0 for via in c.via]
+    crossed = 0
+    for a, b in shapely.STRtree([line for _, line in ways]).query([line for _, line in ways], predicate="crosses").T:
+        (one, _), (other, _) = ways[a], ways[b]
+        if lanes[one.from_lane].road != lanes[other.from_lane].road:
+            crossed += 1
+            assert not ((shown[one.link] == GREEN) & (shown[other.link] == GREEN)).any(), (one, other)
+    assert crossed or len(signals) < 60
+
+
+def test_one_junction_has_one_programme(here):
+    """All stop lines of a junction change together, unless one just follows the next stop line ahead."""
+    by_junction = {}
+    for link, lane in enumerate(here.signals.link_lane):
+        by_junction.setdefault(here.roads[here.lanes[lane].road].to_junction, set()).add(int(here.signals.programme[link]))
+    assert np.mean([len(found) == 1 for found in by_junction.values()]) >= 0.9
 
 
 def test_limits_in_miles_per_hour(places):
