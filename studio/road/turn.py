@@ -33,6 +33,7 @@ ANGLE = {
 UNLIKE = 75.0  # [deg] an arrow and a turn that differ more do not belong together
 SHARED = 40.0  # [deg] what it costs that two arrows lead to one road
 AT_END = 30.0  # [m] a road that ends that near to its way's end has the way's arrows
+DETAIL = 1.0  # [m] between the points of a way through a junction
 AHEAD = 15.0  # [m] behind a fork, where a road's direction is taken
 
 Arrows = tuple[frozenset[str], ...]  # of every lane, the kerb lane first; empty: no arrow
@@ -303,5 +304,5 @@ class Draft:
 def through(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """A smooth line from the end of one lane to the start of another."""
     a, b = before[:, -1], after[:, 0]
-    inner = hermite(a, b, unit(a - before[:, -2]), unit(after[:, 1] - b))
+    inner = hermite(a, b, unit(a - before[:, -2]), unit(after[:, 1] - b), spacing=DETAIL)
     return np.column_stack([a, inner, b])
