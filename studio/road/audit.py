@@ -33,6 +33,7 @@ def report(
     """The report of an import: counts, and the guesses and gaps noted on the way."""
     notes = found.notes
     note_lanes(network, ways, origins, notes)
+    note_closed(network, ways, origins, notes)
     signals = count_signals(network, found, ways, box, notes)
     buildings = count_buildings(network, found, box, notes)
     return Report(
@@ -62,6 +63,16 @@ def note_lanes(network: Network, ways: list[Way], origins: dict[str, tuple[int, 
             what = f"{there} lanes" if not back else f"{there} lanes one way, {back} the other"
             if there or back:
                 notes.guess("lanes", what, spot_of(way), source=f"highway={way.tags['highway']}", sure="medium")
+
+
+def note_closed(network: Network, ways: list[Way], origins: dict[str, tuple[int, ...]], notes: Notes) -> None:
+    """Notes every road with lanes that cars keep out of."""
+    by_id = {way.id: way for way in ways}
+    for road, names in origins.items():
+        lanes = network.lanes_of(road) if road in network.roads and not network.roads[road].internal else ()
+        closed, mapped = sum(not lane.open for lane in lanes), [by_id[name] for name in names if name in by_id]
+        if closed and mapped:
+            notes.skip("closed lane", f"{closed} of {len(lanes)} lanes", spot_of(mapped[0]), "kept for buses or bicycles")
 
 
 # -- signals ---------------------------------------------------------------------------------------

@@ -138,7 +138,15 @@ def read_lane(element: ElementTree.Element, number: int, road: str, *, internal:
         centre=centre,
         internal=internal,
         length=curve.length(centre),
+        open=is_open(element),
     )
+
+
+def is_open(lane: ElementTree.Element) -> bool:
+    """Whether cars may use a lane; `allow` and `disallow` name classes of vehicles."""
+    if lane.get("allow") is not None:
+        return bool({"passenger", "all"} & set(lane.get("allow").split()))
+    return not {"passenger", "all"} & set(lane.get("disallow", "").split())
 
 
 def shape(text: str) -> np.ndarray:

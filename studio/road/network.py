@@ -29,6 +29,7 @@ class Lane:
     centre: np.ndarray
     internal: bool
     length: float  # [m]
+    open: bool = True  # to cars; a bus lane is not
 
 
 @dataclass(frozen=True)

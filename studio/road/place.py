@@ -14,7 +14,7 @@ from studio.road.network import ATTRIBUTION, Connection, Network
 from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
-    *("audit.py", "bend.py", "country.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
+    *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
     *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
@@ -75,7 +75,7 @@ def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
 
 def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road import audit, bend, limit, netconvert, turn
+    from studio.road import audit, bend, cross_section, limit, netconvert, turn
     from studio.road.country import country_at
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
@@ -96,6 +96,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     country = country_at(*box.centre)
     side = drive_side(ways, country)
     ways = [limit.limited(way, country.name, found.notes) for way in ways]
+    ways = [cross_section.mended(way, found.notes, left_hand=side.side == "left") for way in ways]
     progress("building lanes and junctions")
     clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
     net = netconvert.convert(clean, box.projection, source=path, left_hand=side.side == "left")

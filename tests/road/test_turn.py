@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studio.road import bend, load, netconvert, osm, turn
+from studio.road import bend, cross_section, load, netconvert, osm, route, turn
 from studio.road.report import Notes
 
 
@@ -117,3 +117,47 @@ def test_numbers_of_lanes_that_differ_are_told(draft, tmp_path, own_cache):
     built = load(draft.write(tmp_path / "differ.osm"))
     assert (built.report.turn_lanes.tagged_lanes, built.report.turn_lanes.matching) == (4, 0)
     assert any(each.kind == "turn lanes" and "4 lanes, 2" in each.what for each in built.report.skipped)
+
+
+# -- widths and bus lanes --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("tags", "width"),
+    [
+        ({"lanes": "2", "width": "6.5"}, "6.50"),
+        ({"lanes": "1", "oneway": "yes", "width": "8,4 m"}, "4.50"),  # with the parked cars
+        ({"width": "3.2"}, "5.00"),  # two directions on 3.2 m
+        ({"width": "wide"}, None),
+        ({}, None),
+    ],
+)
+def test_lanes_are_as_wide_as_lanes_can_be(tags, width):
+    notes = Notes()
+    mended = cross_section.mended(way(**tags), notes, left_hand=False)
+    assert mended.tags.get("width") == width
+    assert len(notes.guesses) + len(notes.skipped) == (0 if width in (None, "6.50") and tags.get("width") != "wide" else 1)
+
+
+def test_bus_lanes_lie_at_the_kerb():
+    tags = {"oneway": "yes", "lanes": "3", "lanes__psv": "1"}
+    assert cross_section.mended(way(**tags), Notes(), left_hand=False).tags["bus:lanes"] == "yes|yes|designated"
+    assert cross_section.mended(way(**tags), Notes(), left_hand=True).tags["bus:lanes"] == "designated|yes|yes"
+    for other in ({"lanes__psv__conditional": "1 @ (Mo-Fr)"}, {"bus__lanes": "designated|yes|yes"}, {"lanes": "1"}):
+        same = way(**{**tags, **other})
+        assert cross_section.mended(same, Notes(), left_hand=False) == same
+
+
+def test_cars_keep_out_of_bus_lanes_unless_nothing_else_leads_on(draft, tmp_path, own_cache):
+    """Along a street with a bus lane at the kerb; then the only way on begins at its kerb lane."""
+    nodes = [draft.node(52.5, 13.4 + 0.003 * i) for i in range(3)]
+    draft.way(1, nodes[:2], highway="primary", oneway="yes", lanes=2, lanes__psv=1)
+    draft.way(2, nodes[1:], highway="primary", oneway="yes", lanes=2, lanes__psv=1, maxspeed=30)
+    built = load(draft.write(tmp_path / "bus.osm"))
+    roads = [road.id for road in built.roads.values() if not road.internal]
+    assert [[lane.open for lane in built.lanes_of(road)] for road in roads] == [[False, True]] * len(roads)
+    used = [built.lanes[lane] for lane in route.connect(built, sorted(roads)).lanes]
+    assert used and all(lane.open for lane in used)
+    begun = [built.lanes[lane] for lane in route.connect(built, sorted(roads), start_lane=0).lanes]
+    assert not begun[0].open and sum(not lane.open for lane in begun if not lane.internal) == 1
+    assert any(each.kind == "closed lane" for each in built.report.skipped)
