@@ -27,7 +27,7 @@ def as_xml(path: Path, data: bytes) -> bytes:
             if each["type"] != "node":
                 root.append(way_element(each) if each["type"] == "way" else relation_element(each))
         return ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
-    except (KeyError, TypeError, AttributeError, ValueError) as error:
+    except (KeyError, TypeError, AttributeError, ValueError, OverflowError) as error:
         raise MapError(f"{path}: an element of the Overpass answer is not as it should be ({error!r})") from None
 
 

@@ -190,7 +190,7 @@ def turn_to(net: Net, road: str, following: str) -> float:
 
 def matched(names: set[str], turns: dict[str, float]) -> dict[str, str]:
     """The road that each arrow means: in order from left to right, with the least difference of angles."""
-    names = sorted(names, key=lambda name: -ANGLE[name])
+    names = sorted(names, key=lambda name: (-ANGLE[name], name))
     roads = sorted(turns, key=lambda road: -turns[road])
     options = itertools.combinations_with_replacement(range(len(roads)), len(names))
     best = min(options, key=lambda option: unlikeness(names, [roads[i] for i in option], turns), default=())

@@ -2,7 +2,7 @@
 
 import pytest
 
-from studio.road import limit, osm
+from studio.road import limit, load, osm
 from studio.road.country import Country, country_at
 from studio.road.report import Notes
 from studio.road.side import drive_side
@@ -117,3 +117,41 @@ def test_a_limit_that_names_no_speed_is_told_and_guessed():
     notes = Notes()
     assert limit.limited(way(RING, maxspeed="signals"), "Germany", notes).tags["maxspeed"] == "50.000"
     assert notes.skipped[0].what == "maxspeed=signals" and len(notes.guesses) == 1
+
+
+def test_each_direction_has_its_limit_and_its_side(draft, tmp_path, own_cache):
+    """A street in Dover: 30 mph one way, 20 mph back; who drives east has the oncoming lane on the right, that is south."""
+    a, b = draft.node(51.13, 1.310), draft.node(51.13, 1.314)
+    draft.way(1, [a, b], highway="tertiary", maxspeed__forward="30 mph", maxspeed__backward="20 mph")
+    street = load(draft.write(tmp_path / "dover.osm"))
+    east, west = street.lanes_of("1")[0], street.lanes_of("-1")[0]
+    assert (east.speed * 3.6, west.speed * 3.6) == pytest.approx((48.28, 32.19), abs=0.1)
+    assert east.centre[0, -1] > east.centre[0, 0] and east.centre[1].mean() > west.centre[1].mean() + 2.0
+    assert street.drive_side == "left" and not [each for each in street.report.guesses if each.kind == "speed limit"]
+
+
+def test_a_way_against_its_nodes(draft, tmp_path, own_cache):
+    a, b = draft.node(52.5, 13.400), draft.node(52.5, 13.404)
+    draft.way(1, [a, b], highway="tertiary", oneway="-1", maxspeed="DE:urban")
+    street = load(draft.write(tmp_path / "against.osm"))
+    (only,) = [lane for lane in street.lanes if not lane.internal]
+    assert only.centre[0, -1] < only.centre[0, 0] and only.speed * 3.6 == pytest.approx(50.0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("tags", "is_built"),
+    [
+        ({"access": "no"}, False),
+        ({"access": "no", "motor_vehicle": "yes"}, True),
+        ({"access": "yes", "motorcar": "no"}, False),
+        ({"vehicle": "private"}, False),
+        ({"access": "destination"}, True),
+    ],
+)
+def test_the_more_exact_access_counts(draft, tmp_path, own_cache, tags, is_built):
+    nodes = [draft.node(52.5, 13.40 + 0.004 * i) for i in range(3)]
+    draft.way(1, nodes[:2], highway="residential", maxspeed="30")
+    draft.way(2, nodes[1:], highway="residential", maxspeed="50", **tags)
+    built = load(draft.write(tmp_path / "access.osm"))
+    assert ("50" in built.report.speed_limits.lane_km) == is_built
+    assert any(each.kind == "closed way" and each.where == "way 2" for each in built.report.skipped) != is_built

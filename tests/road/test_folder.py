@@ -98,12 +98,15 @@ BOMB = b'<!DOCTYPE osm [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><osm version="0.
         ("empty.json", b"", "empty"),
         ("cut.osm.gz", PERTH.read_bytes()[:5000], "damaged"),
         ("bomb.osm", BOMB, "entities"),
+        ("wide.osm", BOMB.decode().encode("utf-16-le"), "cannot be read"),
         ("no.osm.pbf", b"this is no PBF at all", "cannot be read"),
         ("roads.osm", b'<osm version="0.6"><node id="1" version="1" lat="1" lon="1"/></osm>', "no roads"),
         ("cut.json", b'{"elements": [{"type": "node", "id": 1', "cut off"),
         ("other.json", b"[1, 2]", "no Overpass answer"),
         ("busy.json", b'{"elements": [], "remark": "runtime error: Query timed out"}', "did not finish"),
         ("odd.json", b'{"elements": [{"type": "way"}]}', "not as it should be"),
+        ("vast.json", b'{"elements": [{"type": "node", "id": 1e999, "lat": 1, "lon": 1}]}', "not as it should be"),
+        ("deep.json", b"[" * 100_000, "not JSON"),
         ("map.kml", b"<kml/>", "not a kind of map"),
     ],
 )
@@ -185,3 +188,15 @@ def test_nodes_outside_the_world_are_left_out(tmp_path):
     )
     with pytest.raises(MapError, match="no roads for cars"):
         load(target)
+
+
+def test_a_map_of_half_a_country_is_refused_and_a_box_of_it_is_not(draft, tmp_path):
+    for i in range(40):
+        a, b = draft.node(52.5 + 0.02 * i, 13.4), draft.node(52.501 + 0.02 * i, 13.404)
+        draft.way(i + 1, [a, b], highway="residential")
+    country = draft.write(tmp_path / "country.osm")
+    with pytest.raises(MapError, match="limit of 25 km a side") as error:
+        load(country)
+    assert "country.osm" in str(error.value)
+    part = load(country, bbox="13.39,52.49,13.41,52.53")
+    assert part.report.lane_km == pytest.approx(2 * 2 * 0.293, rel=0.02)
