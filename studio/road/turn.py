@@ -32,6 +32,7 @@ ANGLE = {
 }
 UNLIKE = 75.0  # [deg] an arrow and a turn that differ more do not belong together
 SHARED = 40.0  # [deg] what it costs that two arrows lead to one road
+RAMPED = {"motorway", "motorway_link", "trunk", "trunk_link"}  # here netconvert adds lanes beside ramps
 AT_END = 30.0  # [m] a road that ends that near to its way's end has the way's arrows
 DETAIL = 1.0  # [m] between the points of a way through a junction
 AHEAD = 15.0  # [m] behind a fork, where a road's direction is taken
@@ -150,6 +151,9 @@ def forks(net: Net, ways: list[Way], box: Box, notes: Notes, *, left_hand: bool)
     for road, (way, tags) in arrows_of(net, ways, box, left_hand=left_hand).items():
         if len(after[road]) < 2:
             continue
+        if len(tags) + 1 == len(net.roads[road].lanes) and way.tags["highway"] in RAMPED:
+            notes.guess("ramp lane", "one more lane at the kerb", spot_of(way), source="a ramp leaves the motorway", sure="low")
+            tags = (frozenset(), *tags)
         if len(tags) != len(net.roads[road].lanes):
             what = f"arrows for {len(tags)} lanes, {len(net.roads[road].lanes)} are built"
             notes.skip("turn lanes", what, spot_of(way), "the numbers of lanes differ")

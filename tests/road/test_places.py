@@ -3,6 +3,9 @@
 Expected counts stand in the table of the maps' README or were counted in the file itself, never taken from the importer.
 """
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +13,6 @@ import pytest
 import shapely
 
 from studio.road import load, osm, surface
-from studio.road.report import TurnCount
 from studio.road.signals import GREEN
 
 MAPS = Path(__file__).parents[1] / "reference" / "maps"
@@ -122,7 +124,7 @@ def test_lane_kilometres_are_near_netconverts_own(here, name):
 
 def test_lanes_lead_where_their_arrows_say(here, name):
     turns = here.report.turn_lanes
-    assert turns.matching >= 0.9 * turns.tagged_lanes or turns == TurnCount(9, 8)  # Seattle's motorway: netconvert built a ramp lane more
+    assert turns.matching >= 0.9 * turns.tagged_lanes
     assert turns.tagged_lanes > 0 or name == "perth_peanut_roundabout_lht"
 
 
@@ -190,3 +192,26 @@ def test_buildings_are_counted_as_they_are_mapped(places):
 
 def test_imports_are_quick(here):
     assert here.report.seconds < 15.0
+
+
+FINGERPRINT = """
+import hashlib, sys
+from studio.road import load
+network = load(sys.argv[1])
+digest = hashlib.sha256(repr(network.connections).encode())
+for lane in network.lanes:
+    digest.update(repr((lane.road, lane.index, lane.width, lane.speed, lane.open)).encode() + lane.centre.tobytes())
+for array in vars(network.signals).values():
+    digest.update(array.tobytes())
+print(digest.hexdigest())
+"""
+
+
+def test_an_import_is_the_same_in_every_process(tmp_path):
+    """Names are hashed differently in each process; no order may come from that."""
+    prints = set()
+    for seed in ("1", "2"):
+        folders = {**os.environ, "PYTHONHASHSEED": seed, "STUDIO_CACHE": str(tmp_path / seed)}
+        command = [sys.executable, "-c", FINGERPRINT, FILES["singapore_bayfront_lht"]]
+        prints.add(subprocess.run(command, env=folders, capture_output=True, text=True, check=True).stdout)
+    assert len(prints) == 1
