@@ -136,6 +136,27 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}")
 
 
+@app.command("import")
+def import_(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A map: .osm, .osm.gz, .osm.pbf, or .json from an Overpass server.")],
+    out: Annotated[Path, typer.Option("--out", help="The folder to make; an earlier import there is replaced.")],
+    bbox: Annotated[str | None, typer.Option("--bbox", metavar="W,S,E,N", help="The part to keep [deg]; default: the mapped place.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Imports a map into a folder that a scenario can name, and reports what was found, guessed and skipped."""
+    from studio.road import folder, load
+    from studio.road.report import rows
+
+    folder.refuse_foreign(out)
+    network = load(file, bbox=bbox, progress=lambda text: print(text, file=sys.stderr))
+    folder.write(network, file, out, bbox=bbox)
+    if as_json:
+        print_json(folder.report_json(network, file, bbox))
+        return
+    print_table(["what", "how many", "remark"], rows(network.report))
+    print(f"{out}: {network.name}. {network.attribution}")
+
+
 @app.command()
 def vehicles(
     name: Annotated[str | None, typer.Argument(help="A vehicle of the catalogue, or a vehicle file (YAML); none: the list.")] = None,

@@ -123,12 +123,12 @@ def unit(direction: Point) -> Point:
     return direction / max(1e-9, float(np.hypot(*direction)))
 
 
-def hermite(a: Point, b: Point, start: Point, end: Point) -> np.ndarray:
-    """Points of the cubic curve from a to b between its ends, float64[2, n]; none where it is straight."""
+def hermite(a: Point, b: Point, start: Point, end: Point, *, spacing: float = SPACING) -> np.ndarray:
+    """Points of the cubic curve from a to b between its ends, about `spacing` [m] apart, float64[2, n]; none where it is straight."""
     chord = b - a
     far = np.hypot(*chord)
     straight = max(angle(chord, start), angle(chord, end)) < STRAIGHT
-    count = 0 if straight else int(far / SPACING)
+    count = 0 if straight else int(far / spacing)
     u = np.linspace(0.0, 1.0, count + 2)[1:-1]
     p, q, s, t = (vector[:, None] for vector in (a, b, start * far, end * far))
     return (

@@ -9,6 +9,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.sax.saxutils import unescape
 
 import numpy as np
 import sumo
@@ -26,7 +27,7 @@ OPTIONS = (
     # the speed through a junction follows from the path's curvature, not from netconvert's guess
     *("--junctions.limit-turn-speed", "-1", "--no-turnarounds.except-deadend", "true"),
     *("--osm.turn-lanes", "true", "--osm.lane-access", "true", "--keep-edges.by-vclass", "passenger"),
-    *("--output.street-names", "true", "--tls.default-type", "static"),
+    *("--output.street-names", "true", "--output.original-names", "true", "--tls.default-type", "static"),
     *("--offset.disable-normalization", "true", "--xml-validation", "never", "--precision", "3"),
 )
 DIRECTIONS = {
@@ -37,13 +38,17 @@ DIRECTIONS = {
 
 @dataclass(frozen=True)
 class Net:
-    """What netconvert made: all but signals and scenery. `signalled` are the lanes that end at a mapped signal."""
+    """What netconvert made: all but signals and scenery.
+
+    `signalled` are the lanes that end at a mapped signal, `origins` the ids of the ways that a road is made of.
+    """
 
     lanes: tuple[Lane, ...]
     roads: dict[str, Road]
     connections: tuple[Connection, ...]
     junctions: tuple[np.ndarray, ...]
     signalled: frozenset[int]
+    origins: dict[str, tuple[int, ...]]
 
 
 def convert(xml: str, projection: str, *, source: Path, left_hand: bool = False) -> Net:
@@ -88,7 +93,16 @@ def parse(root: ElementTree.Element) -> Net:
     steps = [Step.read(element, named, roads) for element in root.iter("connection")]
     signalled = frozenset(step.start for step in steps if step.signalled)
     junctions = tuple(shape(element.get("shape")) for element in root.iter("junction") if is_surface(element))
-    return Net(tuple(lanes), roads, connections(steps, lanes), junctions, signalled)
+    return Net(tuple(lanes), roads, connections(steps, lanes), junctions, signalled, origins(root))
+
+
+def origins(root: ElementTree.Element) -> dict[str, tuple[int, ...]]:
+    """The ids of the ways that each road is made of, in their order along it."""
+    found = {}
+    for edge in root.iter("edge"):
+        names = [param.get("value", "") for param in edge.iter("param") if param.get("key") == "origId"]
+        found[edge.get("id")] = tuple(dict.fromkeys(int(name) for text in names for name in text.split()))
+    return found
 
 
 def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Road]) -> None:
@@ -102,7 +116,7 @@ def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Roa
     own = lanes[first:]
     roads[name] = Road(
         id=name,
-        name=edge.get("name", ""),
+        name=unescape(edge.get("name", ""), {"&quot;": '"', "&apos;": "'"}),  # netconvert escapes names twice
         lanes=tuple(lane.id for lane in own),
         from_junction=edge.get("from", ""),
         to_junction=edge.get("to", ""),
@@ -124,7 +138,15 @@ def read_lane(element: ElementTree.Element, number: int, road: str, *, internal:
         centre=centre,
         internal=internal,
         length=curve.length(centre),
+        open=is_open(element),
     )
+
+
+def is_open(lane: ElementTree.Element) -> bool:
+    """Whether cars may use a lane; `allow` and `disallow` name classes of vehicles."""
+    if lane.get("allow") is not None:
+        return bool({"passenger", "all"} & set(lane.get("allow").split()))
+    return not {"passenger", "all"} & set(lane.get("disallow", "").split())
 
 
 def shape(text: str) -> np.ndarray:

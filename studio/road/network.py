@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from studio.road.report import Report
 from studio.road.signals import Signals
 
 ATTRIBUTION = "© OpenStreetMap contributors"
@@ -28,6 +29,7 @@ class Lane:
     centre: np.ndarray
     internal: bool
     length: float  # [m]
+    open: bool = True  # to cars; a bus lane is not
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ class Scenery:
 class Network:
     """A place: `origin` is the latitude and longitude [deg] of (0, 0), `bounds` x0, y0, x1, y1 [m].
 
-    `digest` tells which file, which options and which importer made it.
+    `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out.
     """
 
     name: str
@@ -102,6 +104,17 @@ class Network:
     junctions: tuple[np.ndarray, ...]
     signals: Signals
     scenery: Scenery
+    report: Report = Report()
+
+    @property
+    def drive_side(self) -> str:
+        """The side that is driven on: "left" or "right"."""
+        return self.report.drive_side.side
+
+    @property
+    def middle(self) -> float:
+        """Where the middle of the road lies, seen along a lane: 1 on the left, -1 on the right."""
+        return 1.0 if self.drive_side == "right" else -1.0
 
     def lanes_of(self, road: str) -> tuple[Lane, ...]:
         """The lanes of a road, the kerb lane first."""

@@ -6,9 +6,11 @@ the box that was asked for, so everything is cut at the box around the mapped co
 
 import gzip
 import math
+import tempfile
 import zlib
+from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -17,9 +19,14 @@ import osmium
 import pyproj
 
 from studio.errors import MapError
+from studio.road import overpass
+from studio.road.report import Notes, Spot
 
-FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf"}
-LARGEST = 512 * 2**20  # [B] more than any city district; a bomb ends here
+FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf", ".json": "osm"}
+LARGEST_FILE = 100 * 2**20  # [B] on disk
+LARGEST = 512 * 2**20  # [B] unpacked, more than any city district; a bomb ends here
+WIDEST = 25_000.0  # [m] side of the part that is kept: a large city
+EARTH_RADIUS = 6_371_000.0  # [m]
 REACH = 600.0  # [m] how far arms are kept beyond the mapped core
 MOST_LANES = 16  # of one way; more is a slip of the mapper
 CAR_WAYS = {
@@ -35,13 +42,8 @@ CAR_WAYS = {
     ),
     *("tertiary", "tertiary_link", "unclassified", "residential", "living_street"),
 }
-# [km/h] where no limit is mapped, the usual one in town for the kind of road; motorways keep netconvert's
-USUAL_LIMIT = {
-    **dict.fromkeys(("trunk", "primary", "secondary", "tertiary"), 50),
-    **dict.fromkeys(("trunk_link", "primary_link", "secondary_link", "tertiary_link", "unclassified"), 50),
-    "residential": 30,
-    "living_street": 10,
-}
+ACCESS = ("motorcar", "motor_vehicle", "vehicle", "access")  # the more exact first
+SMALL_WAYS = {"service", "track", "road", "busway"}  # cars can drive there, but they are not built
 GREEN = {
     "landuse": {"grass", "meadow", "forest", "village_green", "recreation_ground", "cemetery", "flowerbed"},
     "leisure": {"park", "garden", "common", "pitch"},
@@ -85,7 +87,7 @@ class Box:
 
     def grown(self, metres: float) -> "Box":
         """The box with a margin on every side [m]."""
-        north = math.degrees(metres / 6_371_000.0)
+        north = math.degrees(metres / EARTH_RADIUS)
         east = north / math.cos(math.radians(self.centre[0]))
         return Box(self.south - north, self.west - east, self.north + north, self.east + east)
 
@@ -103,6 +105,18 @@ class Way:
     nodes: list[int]
     points: list[tuple[float, float]]
     tags: dict[str, str]
+    gaps: frozenset[int] = frozenset()  # after these nodes the file lacks some
+
+    def with_tags(self, text: dict[str, str]) -> "Way":
+        """The same way with other tags."""
+        return replace(self, tags=text)
+
+
+def spot_of(way: Way) -> Spot:
+    """A way as something that one can point at, in its middle."""
+    longitude, latitude = way.points[len(way.points) // 2]
+    name = way.tags.get("name", "")
+    return Spot(f"way {way.id}" + (f" ({name})" if name else ""), latitude, longitude)
 
 
 @dataclass(frozen=True)
@@ -123,6 +137,9 @@ class Survey:
     shapes: list[Shape] = field(default_factory=list)
     trees: list[tuple[float, float]] = field(default_factory=list)
     places: list[tuple[float, float]] = field(default_factory=list)
+    parking: list[tuple[str, tuple[float, float]]] = field(default_factory=list)
+    small: Counter = field(default_factory=Counter)
+    notes: Notes = field(default_factory=Notes)
     mapped: Box | None = None
 
 
@@ -152,13 +169,19 @@ def read(path: Path) -> bytes:
         raise MapError(f"{path}: the compressed file is damaged ({error}); fetch it again") from None
     except OSError as error:
         raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
+    if path.name.lower().endswith(".json"):
+        return overpass.as_xml(path, data)
     if form == "osm":
         check_xml(path, data)
+    elif not data:
+        raise MapError(f"{path}: the map file is empty")
     return data
 
 
 def unpack(path: Path) -> bytes:
     """The content of the file, no more of it than `LARGEST`."""
+    if path.stat().st_size > LARGEST_FILE:
+        raise MapError(f"{path}: the file is larger than {LARGEST_FILE // 2**20} MiB; cut out a smaller place")
     opener = gzip.open if path.name.lower().endswith(".gz") else open
     with opener(path, "rb") as file:
         data = file.read(LARGEST + 1)
@@ -184,18 +207,41 @@ def check_xml(path: Path, data: bytes) -> None:
 
 def survey(path: Path, data: bytes) -> Survey:
     """Goes once through the map and notes what is used of it."""
-    found = Survey()
     try:
-        file = osmium.FileProcessor(osmium.io.FileBuffer(data, file_format(path)))
-        found.mapped = mapped_box(file.header.box())
-        tagged = osmium.filter.EmptyTagFilter()
-        for thing in file.with_locations().with_areas().with_filter(tagged):
-            note(found, thing)
+        found = surveyed(data, file_format(path))
+        if not found.ways:
+            found = surveyed(sorted_xml(data, file_format(path)), "osm")
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
     if not found.ways:
-        raise MapError(f"{path}: there are no roads for cars in this map")
+        lacking = f"; of {len(found.notes.skipped)} the nodes are not in the file" if found.notes.skipped else ""
+        raise MapError(f"{path}: there are no roads for cars in this map{lacking}")
+    for kind, count in sorted(found.small.items()):
+        spot = Spot("the whole map", *found.places[0][::-1])
+        found.notes.skip("small way", f"{count} ways with highway={kind}", spot, "only public roads are built")
     return found
+
+
+def surveyed(data: bytes, form: str) -> Survey:
+    """What is used of a map whose nodes come before its ways."""
+    found = Survey()
+    file = osmium.FileProcessor(osmium.io.FileBuffer(data, form))
+    found.mapped = mapped_box(file.header.box())
+    tagged = osmium.filter.EmptyTagFilter()
+    for thing in file.with_locations().with_areas().with_filter(tagged):
+        note(found, thing)
+    return found
+
+
+def sorted_xml(data: bytes, form: str) -> bytes:
+    """The map with nodes before ways before relations; some tools write ways first."""
+    reader = osmium.MergeInputReader()
+    reader.add_buffer(data, form)
+    with tempfile.TemporaryDirectory(prefix="studio-map-") as folder:
+        target = Path(folder, "sorted.osm")
+        with osmium.SimpleWriter(str(target)) as writer:
+            reader.apply(writer)
+        return target.read_bytes()
 
 
 def mapped_box(box) -> Box | None:
@@ -219,37 +265,65 @@ def note(found: Survey, thing) -> None:
 
 
 def note_node(found: Survey, node) -> None:
-    """Notes a tagged node: signals and trees."""
+    """Notes a tagged node: signals, trees and parking."""
+    if not node.location.valid():
+        found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0), "lies outside the world")
+        return
     place = (node.lon, node.lat)
     found.places.append(place)
+    note_parking(found, node.tags, place)
     found.nodes[node.id] = dict(node.tags)
     if node.tags.get("natural") == "tree":
         found.trees.append(place)
 
 
 def note_way(found: Survey, way) -> None:
-    """Notes a way for cars; nodes that the file lacks are left out."""
-    known = [node for node in way.nodes if node.location.valid()]
-    if not known:
+    """Notes a way for cars; where the file lacks nodes it is interrupted."""
+    nodes = list(way.nodes)
+    known = [i for i, node in enumerate(nodes) if node.location.valid()]
+    place = (nodes[known[0]].lon, nodes[known[0]].lat) if known else (0.0, 0.0)
+    if known:
+        found.places.append(place)
+    if way.tags.get("highway") in SMALL_WAYS:
+        found.small[way.tags["highway"]] += 1
+    if way.tags.get("highway") not in CAR_WAYS:
         return
-    found.places.append((known[0].lon, known[0].lat))
-    if is_car_way(way.tags) and len(known) > 1:
-        points = [(node.lon, node.lat) for node in known]
-        found.ways.append(Way(way.id, [node.ref for node in known], points, dict(way.tags)))
+    spot = Spot(f"way {way.id}", *place[::-1])
+    if reason := closed_to_cars(way.tags):
+        found.notes.skip("closed way", f"highway={way.tags['highway']}", spot, reason)
+        return
+    if len(known) < len(nodes):
+        lacking = f"{len(nodes) - len(known)} of {len(nodes)} nodes"
+        found.notes.skip("missing nodes", lacking, spot, "they are not in the file, or lie outside the world")
+    if len(known) > 1:
+        points = [(nodes[i].lon, nodes[i].lat) for i in known]
+        gaps = frozenset(k for k, (i, j) in enumerate(zip(known, known[1:], strict=False)) if j > i + 1)
+        found.ways.append(Way(way.id, [nodes[i].ref for i in known], points, dict(way.tags), gaps))
 
 
-def is_car_way(tags) -> bool:
-    """Whether everyone may drive a car there."""
-    return (
-        tags.get("highway") in CAR_WAYS
-        and tags.get("area") != "yes"
-        and tags.get("access") not in ("no", "private")
-        and tags.get("motor_vehicle") not in ("no", "private")
-    )
+def closed_to_cars(tags) -> str:
+    """Why not everyone may drive a car there, or nothing; a more exact tag wins over a wider one."""
+    if tags.get("area") == "yes":
+        return "area=yes is no way"
+    for key in ACCESS:
+        value = tags.get(key)
+        if value is not None:
+            return f"{key}={value}" if value in ("no", "private", "agricultural", "forestry") else ""
+    return ""
+
+
+def note_parking(found: Survey, tags, place: tuple[float, float]) -> None:
+    """Notes a parking area or a single space."""
+    if tags.get("amenity") in ("parking", "parking_space"):
+        found.parking.append((tags["amenity"], place))
 
 
 def note_area(found: Survey, area) -> None:
-    """Notes a building, green or water."""
+    """Notes a building, green, water or parking."""
+    if "amenity" in area.tags:
+        first = next((node for ring in area.outer_rings() for node in ring), None)
+        if first is not None:
+            note_parking(found, area.tags, (first.lon, first.lat))
     if area_kind(area.tags):
         for ring in area.outer_rings():
             rings = [ring, *area.inner_rings(ring)]
@@ -270,13 +344,50 @@ def area_kind(tags) -> str:
 # -- the part to keep ------------------------------------------------------------------------------
 
 
-def clip_box(found: Survey, *, radius: float | None) -> Box:
-    """The box to keep: the mapped core and `REACH`, or `radius` [m] about its centre.
+def clip_box(found: Survey, *, radius: float | None, bbox: Box | None = None) -> Box:
+    """The box to keep: `bbox`, else the mapped core and `REACH`, or `radius` [m] about its centre.
 
     Without `<bounds>` the core is where 96 % of everything that has a tag lies: a few long ways do not move it.
+
+    Raises:
+        MapError: the box is larger than can be built.
     """
+    if bbox is not None:
+        return bbox
     core = found.mapped or core_box(found.places)
-    return core.grown(REACH) if radius is None else core.around(radius)
+    return checked(core.grown(REACH) if radius is None else core.around(radius), "the mapped place")
+
+
+def checked(box: Box, name: str) -> Box:
+    """The box if it is not too large; `name` is what a message calls it.
+
+    Raises:
+        MapError: the box is larger than can be built.
+    """
+    height = math.radians(box.north - box.south) * EARTH_RADIUS
+    width = math.radians(box.east - box.west) * EARTH_RADIUS * math.cos(math.radians(box.centre[0]))
+    if max(width, height) > WIDEST:
+        size = f"{width / 1000:.0f} km by {height / 1000:.0f} km"
+        limit = f"{WIDEST / 1000:.0f} km a side"
+        raise MapError(f"{name} is {size}, larger than the limit of {limit}; choose a smaller box")
+    return box
+
+
+def bounding_box(text: str) -> Box:
+    """The box of "west,south,east,north" [deg].
+
+    Raises:
+        MapError: the text is no box, or one without area, outside the world or too large.
+    """
+    try:
+        west, south, east, north = (float(part) for part in text.split(","))
+    except ValueError:
+        raise MapError(f"bbox {text!r}: must be west,south,east,north in degrees, such as 13.39,52.51,13.41,52.53") from None
+    if not (-180.0 <= west <= 180.0 and -180.0 <= east <= 180.0 and -85.0 <= south <= 85.0 and -85.0 <= north <= 85.0):
+        raise MapError(f"bbox {text!r}: outside the world; longitudes are -180 to 180, latitudes -85 to 85")
+    if not (west < east and south < north):
+        raise MapError(f"bbox {text!r}: has no area; west must be less than east, and south less than north")
+    return checked(Box(south, west, north, east), f"bbox {text!r}")
 
 
 def core_box(places: list[tuple[float, float]]) -> Box:
@@ -289,8 +400,11 @@ def cut(way: Way, box: Box, new_id: Iterable[int]) -> list[Way]:
     """The pieces of a way inside the box; where it crosses the border, a new node ends it."""
     pieces, nodes, points = [], [], []
     for i in range(len(way.nodes) - 1):
-        inside = visible(way.points[i], way.points[i + 1], box)
+        inside = None if i in way.gaps else visible(way.points[i], way.points[i + 1], box)
         if inside is None:
+            if nodes:
+                pieces.append((nodes, points))
+                nodes, points = [], []
             continue
         first, last = inside
         if not nodes:
@@ -328,6 +442,13 @@ def between(way: Way, i: int, fraction: float) -> tuple[float, float]:
         return way.points[i + int(fraction)]
     (lon_a, lat_a), (lon_b, lat_b) = way.points[i], way.points[i + 1]
     return lon_a + fraction * (lon_b - lon_a), lat_a + fraction * (lat_b - lat_a)
+
+
+def mapped_signals(found: Survey, ways: list[Way], box: Box) -> dict[int, np.ndarray]:
+    """Positions of the signals on car roads in the part that is kept [m]."""
+    nodes = {node: point for way in ways for node, point in zip(way.nodes, way.points, strict=True)}
+    signals = {n: p for n, p in nodes.items() if found.nodes.get(n, {}).get("highway") == "traffic_signals"}
+    return {n: box.local(latitude, longitude) for n, (longitude, latitude) in signals.items()}
 
 
 # -- the clean file for netconvert -----------------------------------------------------------------
@@ -368,12 +489,9 @@ def member(of: tuple[str, int, str]) -> str:
 
 
 def way_tags(way: Way) -> dict[str, str]:
-    """The tags of a way as netconvert shall read them: with a usual limit if none is mapped, without absurd lanes."""
-    usual = USUAL_LIMIT.get(way.tags["highway"])
-    kept = {
-        key: value for key, value in way.tags.items() if not (key.startswith("lanes") and is_absurd(value))
-    }
-    return kept if usual is None or "maxspeed" in kept else {**kept, "maxspeed": str(usual)}
+    """The tags of a way as netconvert shall read them: without absurd lanes, and without access, which is decided."""
+    kept = {key: value for key, value in way.tags.items() if key not in ACCESS}
+    return {key: value for key, value in kept.items() if not (key.startswith("lanes") and is_absurd(value))}
 
 
 def is_absurd(lanes: str) -> bool:

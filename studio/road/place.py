@@ -2,25 +2,20 @@
 
 import itertools
 import os
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
 from studio.errors import MapError
-from studio.road import kept, osm
+from studio.road import folder, kept, osm
 from studio.road.network import ATTRIBUTION, Connection, Network
-from studio.road.signals import Signals, signals
+from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
-    "bend.py",
-    "curve.py",
-    "netconvert.py",
-    "network.py",
-    "osm.py",
-    "place.py",
-    "scenery.py",
-    "signals.py",
+    *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
+    *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
 
@@ -29,12 +24,14 @@ def load(
     path: str | os.PathLike,
     *,
     radius: float | None = None,
+    bbox: str | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
-    """The roads and the scenery of a map file (.osm, .osm.gz, .osm.pbf).
+    """The roads and the scenery of a map file (.osm, .osm.gz, .osm.pbf, or .json from an Overpass server).
 
     Args:
-        path: the map file.
+        path: the map file, or the folder that `studio import` made of one.
+        bbox: the part to keep, "west,south,east,north" [deg].
         radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms.
         progress: is told what is being done.
 
@@ -42,13 +39,20 @@ def load(
         MapError: the file is missing, damaged, of an unknown kind, or holds no roads.
     """
     path = Path(path)
+    if path.is_dir():
+        source, kept_part = folder.opened(path)
+        network = load(source, radius=radius, bbox=bbox or (None if radius else kept_part), progress=progress)
+        return replace(network, name=path.name)
     if radius is not None and not radius >= SHORTEST_RADIUS:
         raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
+    box = None if bbox is None else osm.bounding_box(bbox)
+    if box is not None and radius is not None:
+        raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
     data = osm.read(path)
-    digest = digest_of(data, radius)
+    digest = digest_of(data, radius, box)
     network = recall(digest)
     if network is None:
-        network = imported(path, data, digest, radius=radius, progress=progress)
+        network = imported(path, data, digest, radius=radius, bbox=box, progress=progress)
         kept.keep("maps", digest, network)
     return replace(network, name=name_of(path))
 
@@ -61,33 +65,48 @@ def recall(digest: str) -> Network | None:
 
 def name_of(path: Path) -> str:
     """The map's name: its file without endings."""
-    return path.name.split(".osm")[0]
+    return path.name.split(".osm")[0].removesuffix(".json")
 
 
-def digest_of(data: bytes, radius: float | None) -> str:
+def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
     """Digest of the map's content, the options and everything that turns them into a Network."""
-    return kept.digest_of(radius, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
+    return kept.digest_of(radius, bbox, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
 
 
-def imported(path: Path, data: bytes, digest: str, *, radius: float | None, progress) -> Network:
+def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road import bend, netconvert
+    from studio.road import audit, bend, cross_section, limit, netconvert, turn
+    from studio.road.country import country_at
     from studio.road.scenery import scenery
+    from studio.road.side import drive_side
 
+    began = time.perf_counter()
     progress(f"reading {path.name}")
     found = osm.survey(path, data)
-    box = osm.clip_box(found, radius=radius)
+    try:
+        box = osm.clip_box(found, radius=radius, bbox=bbox)
+    except MapError as error:
+        raise MapError(f"{path}: {error.message}") from None
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
     if not ways:
         raise MapError(
-            f"{path}: there are no roads for cars within the part that is kept; try a larger radius"
+            f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox"
         )
+    country = country_at(*box.centre)
+    side = drive_side(ways, country)
+    ways = [limit.limited(way, country.name, found.notes) for way in ways]
+    ways = [cross_section.mended(way, found.notes, left_hand=side.side == "left") for way in ways]
     progress("building lanes and junctions")
-    net = netconvert.convert(osm.clean_xml(found, bend.rounded(ways, box, ids)), box.projection, source=path)
+    clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
+    net = netconvert.convert(clean, box.projection, source=path, left_hand=side.side == "left")
+    forks = turn.forks(net, ways, box, found.notes, left_hand=side.side == "left")
+    net = turn.mended(net, forks, left_hand=side.side == "left")
     progress("placing signals and scenery")
-    lights = signals(net.lanes, net.roads, net.connections, net.signalled)
-    return Network(
+    mapped = list(osm.mapped_signals(found, ways, box).values())
+    signalled = net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped)
+    lights = signals(net.lanes, net.roads, net.connections, signalled)
+    network = Network(
         name=name_of(path),
         attribution=ATTRIBUTION,
         origin=box.centre,
@@ -100,6 +119,8 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, prog
         signals=lights,
         scenery=scenery(found, box),
     )
+    report = audit.report(network, found, ways, box, net.origins, turns=turn.count(net, forks), side=side, country=country.name)
+    return replace(network, report=replace(report, seconds=time.perf_counter() - began))
 
 
 def linked(connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:

@@ -13,6 +13,7 @@ from studio.road.network import Connection, Lane, Network
 
 CHANGE_COST = 25.0  # [m] a lane change is taken only if it saves a detour of this length
 CHANGE_ROOM = 12.0  # [m] of road that one lane change needs at the very least
+CLOSED_COST = 1000.0  # [m] a lane that cars keep out of is used only where nothing else leads on
 CHANGE_EASE = 50.0  # [m] of road on which a lane change is comfortable
 
 
@@ -87,6 +88,8 @@ def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = 
     exits = onward(network)
     lanes = network.roads[roads[0]].lanes
     starts = lanes if start_lane is None else (lanes[start_lane],)
+    if start_lane is None and any(network.lanes[lane].open for lane in lanes):
+        starts = tuple(lane for lane in lanes if network.lanes[lane].open)
     return LanePath(search(network, exits, tuple(roads), starts))
 
 
@@ -142,7 +145,8 @@ def search(network: Network, exits, roads: tuple[str, ...], starts: Sequence[int
                 through = sum(network.lanes[via].length for via in connection.via)
                 further = reached + (network.lanes[connection.to_lane].road == roads[reached])
                 path = (*lanes, *changed[1:], *connection.via, connection.to_lane)
-                heapq.heappush(waiting, (cost + price + through, connection.to_lane, further, path))
+                onto = closed_cost(network.lanes[connection.to_lane])
+                heapq.heappush(waiting, (cost + price + through + onto, connection.to_lane, further, path))
     raise no_way(network, roads, farthest)
 
 
@@ -154,9 +158,15 @@ def changes(network: Network, lane: Lane) -> list[tuple[float, tuple[int, ...]]]
         used, index = (lane.id,), lane.index + side
         while 0 <= index < len(lanes) and len(used) * CHANGE_ROOM <= lane.length:
             hurry = 1.0 + (len(used) * CHANGE_EASE / lane.length) ** 2
-            ways.append((lane.length + CHANGE_COST * len(used) * hurry, used := (*used, lanes[index])))
+            closed = closed_cost(network.lanes[lanes[index]])
+            ways.append((lane.length + CHANGE_COST * len(used) * hurry + closed, used := (*used, lanes[index])))
             index += side
     return ways
+
+
+def closed_cost(lane: Lane) -> float:
+    """What it costs to drive onto a lane, besides its length [m]."""
+    return 0.0 if lane.open else CLOSED_COST
 
 
 def no_way(network: Network, roads: tuple[str, ...], reached: int) -> RouteError:

@@ -23,7 +23,7 @@ COLOURS = {
 def scenery(found: Survey, box: Box) -> Scenery:
     """Buildings, ground areas and trees within the box."""
     bounds = shapely.box(*box.bounds())
-    shapes = [(shape, polygon(shape, box)) for shape in found.shapes]
+    shapes = [(shape, shape_form(shape, box)) for shape in found.shapes]
     shapes = [(shape, form) for shape, form in shapes if not form.is_empty and form.intersects(bounds)]
     return Scenery(
         buildings=tuple(buildings(shapes, bounds)),
@@ -32,7 +32,7 @@ def scenery(found: Survey, box: Box) -> Scenery:
     )
 
 
-def polygon(shape: Shape, box: Box) -> shapely.Geometry:
+def shape_form(shape: Shape, box: Box) -> shapely.Geometry:
     """A mapped shape in local metres, mended if its ring crosses itself."""
     rings = [box.local(*np.array(ring).T[::-1]).T for ring in shape.rings]
     form = (
@@ -95,6 +95,11 @@ def extent(tags: dict[str, str]) -> tuple[float, float]:
     height = metres(tags.get("height", "")) or levels(tags.get("building:levels", "")) or USUAL_HEIGHT
     base = metres(tags.get("min_height", "")) or levels(tags.get("building:min_level", ""))
     return (height, base) if base < height <= LARGEST_HEIGHT else (USUAL_HEIGHT, 0.0)
+
+
+def has_height(tags: dict[str, str]) -> bool:
+    """Whether a height or a number of floors is mapped that can be read."""
+    return bool(metres(tags.get("height", "")) or levels(tags.get("building:levels", "")))
 
 
 def metres(text: str) -> float:

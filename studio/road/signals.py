@@ -5,7 +5,7 @@
     conflict    two approaches whose traffic crosses or merges within `SIGHT` behind the stop lines
     programme   approaches that conflict, directly or by way of others; each gets a phase, phases follow one another
 
-A stop line without conflict guards a pedestrian crossing. Programmes share one cycle; their offsets let the traffic that
+A stop line without conflict guards a pedestrian crossing; it shows what the others of its junction show. Programmes share one cycle; their offsets let the traffic that
 starts at one stop line reach the next one at green.
 """
 
@@ -25,6 +25,7 @@ AMBER_TIME = 3.0  # [s] RiLSA, at 50 km/h
 ALL_RED_TIME = 2.0  # [s] until the last car has left the crossing
 CROSSING_RED_TIME = 12.0  # [s] for those who walk
 SHORTEST_SLOT = 15.0  # [s] of a phase with its changes
+DEAD_END = 8.0  # [m] between a mapped signal and the end of a road that nothing follows
 SIGHT = 60.0  # [m] behind a stop line, where conflicts are looked for
 STORAGE = 40.0  # [m] a stop line closer than this to the next one shows the same
 WAVE = 300.0  # [m] stop lines farther apart are not coordinated
@@ -77,11 +78,17 @@ def signal_state(t, cycle, offset, first, count, phase_end, phase_state):
 
 @dataclass(frozen=True)
 class Approach:
-    """The signalled lanes of one road, and where their traffic goes: lanes reached, next approaches with distance."""
+    """The signalled lanes of one road, and where their traffic goes.
+
+    `crossing` are the ways through the junction with the lanes behind it, `reached` all lanes within `SIGHT`, `next` the
+    approaches met with their distance [m].
+    """
 
     road: str
     name: str
+    junction: str
     lanes: tuple[int, ...]
+    crossing: frozenset[int]
     reached: frozenset[int]
     next: tuple[tuple[str, float], ...]
 
@@ -93,6 +100,21 @@ class Phase:
     programme: int
     start: float
     duration: float
+
+
+def dead_ends(lanes, roads, connections, places: list[np.ndarray]) -> frozenset[int]:
+    """Lanes that nothing follows, because the map is cut there, and that end at one of these mapped signals [m].
+
+    netconvert signals connections, so it loses a stop line at the border of the map.
+    """
+    feeding = {connection.from_lane for connection in connections if connection.direction != "turn"}
+    ended = [road for road in roads.values() if not road.internal and not feeding & set(road.lanes)]
+    found = set()
+    for road in ended:
+        end = np.mean([lanes[lane].centre[:, -1] for lane in road.lanes], axis=0)
+        if any(np.hypot(*(place - end)) < DEAD_END for place in places):
+            found |= set(road.lanes)
+    return frozenset(found)
 
 
 def signals(lanes, roads, connections, signalled: frozenset[int]) -> Signals:
@@ -114,9 +136,10 @@ def approaches_of(lanes, roads, connections, signalled: frozenset[int]) -> dict[
     found = {}
     for road in sorted({lanes[lane].road for lane in signalled}):
         own = tuple(lane for lane in roads[road].lanes if lane in signalled)
+        crossing = frozenset(x for lane in own for c in onward[lane] for x in (*c.via, c.to_lane))
         reached, _ = downstream(own, onward, lanes, signalled, SIGHT)
         _, following = downstream(own, onward, lanes, signalled, WAVE)
-        found[road] = Approach(road, roads[road].name, own, reached, following)
+        found[road] = Approach(road, roads[road].name, roads[road].to_junction, own, crossing, reached, following)
     return found
 
 
@@ -140,14 +163,18 @@ def downstream(start, onward, lanes, signalled, limit: float):
 
 
 def conflicts(approaches: dict[str, Approach], lanes) -> dict[str, set[str]]:
-    """For each approach those that it must not be green with."""
+    """For each approach those that it must not be green with.
+
+    Where one approach leads to the other, what they share farther on is no conflict, but what crosses in the junction is.
+    """
     crossed = crossings(lanes)
     against = {road: set() for road in approaches}
     for a in approaches.values():
         over = a.reached.union(*(crossed[lane] for lane in a.reached))
+        here = a.crossing.union(*(crossed[lane] for lane in a.crossing))
         for b in approaches.values():
             serial = any(road == b.road for road, _ in a.next) or any(road == a.road for road, _ in b.next)
-            if a.road < b.road and not serial and over & b.reached:
+            if a.road < b.road and (here & b.crossing or not serial and over & b.reached):
                 against[a.road].add(b.road)
                 against[b.road].add(a.road)
     return against
@@ -181,7 +208,8 @@ def plan(approaches: dict[str, Approach], against: dict[str, set[str]]) -> tuple
     for road in approaches:
         if road not in phases:
             alone = Phase(programmes(phases), 0.0, cycle - CROSSING_RED_TIME)
-            phases[road] = follow(approaches[road], phases) or alone
+            own = follow(approaches[road], phases) or neighbour(approaches[road], approaches, phases)
+            phases[road] = own or alone
     return phases, cycle
 
 
@@ -194,6 +222,12 @@ def follow(approach: Approach, phases: dict[str, Phase]) -> Phase | None:
     """A crossing close before a stop line shows what that one shows, so that nobody is caught between them."""
     near = [road for road, distance in approach.next if distance < STORAGE and road in phases]
     return phases[near[0]] if near else None
+
+
+def neighbour(approach: Approach, approaches: dict[str, Approach], phases: dict[str, Phase]) -> Phase | None:
+    """What another stop line of the same junction shows: both directions stop for the same people on foot."""
+    same = [road for road in phases if approach.junction and approaches[road].junction == approach.junction]
+    return phases[min(same)] if same else None
 
 
 def components(against: dict[str, set[str]]) -> list[list[str]]:

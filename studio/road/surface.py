@@ -137,7 +137,7 @@ def beside(lane: Lane, offset: float) -> shapely.LineString:
 def road_lines(network: Network, road: str) -> Iterator[shapely.Geometry]:
     """The dashes between the lanes of a road."""
     for lane in network.lanes_of(road)[:-1]:
-        yield from dashes(beside(lane, lane.width / 2.0))
+        yield from dashes(beside(lane, network.middle * lane.width / 2.0))
 
 
 def dashes(line: shapely.LineString) -> Iterator[shapely.Geometry]:
@@ -153,9 +153,10 @@ def dashes(line: shapely.LineString) -> Iterator[shapely.Geometry]:
 
 
 def middle_line(network: Network, road: str) -> shapely.Geometry:
-    """The line to the left of a road; it is drawn where asphalt, the other direction's, lies beyond it."""
-    left = network.lanes_of(road)[-1]
-    return beside(left, left.width / 2.0).buffer(LINE_WIDTH / 2.0, cap_style="flat", join_style="mitre")
+    """The line beside a road towards its middle; it is drawn where asphalt, the other direction's, lies beyond it."""
+    inner = network.lanes_of(road)[-1]
+    line = beside(inner, network.middle * inner.width / 2.0)
+    return line.buffer(LINE_WIDTH / 2.0, cap_style="flat", join_style="mitre")
 
 
 def edge_lines(network: Network, form: shapely.Geometry) -> shapely.Geometry:

@@ -52,12 +52,13 @@ def _mast(network: Network, links: list[int]) -> Surface:
     signals = network.signals
     x, y = (axis[links] for axis in head_places(network))
     heading = float(signals.link_heading[links[0]])
-    # distance to the right of the first lane, in the frame of the approach
-    across = (x - x[0]) * np.sin(heading) - (y - y[0]) * np.cos(heading)
-    right = float(across.max()) + float(signals.link_width[links].mean()) / 2.0 + KERB
-    reach = right - float(across.min())
-    pole = cylinder(0.09, MAST_HEIGHT, STEEL).moved(y=-right)
-    arm = box((0.11, reach + 0.3, 0.11), STEEL).moved(y=-right + reach / 2.0 + 0.15, z=ARM_HEIGHT + 0.12)
+    # distance of the lanes from the first one towards the kerb, in the frame of the approach
+    across = network.middle * ((x - x[0]) * np.sin(heading) - (y - y[0]) * np.cos(heading))
+    kerb = float(across.max()) + float(signals.link_width[links].mean()) / 2.0 + KERB
+    reach = kerb - float(across.min())
+    pole = cylinder(0.09, MAST_HEIGHT, STEEL).moved(y=-network.middle * kerb)
+    arm = box((0.11, reach + 0.3, 0.11), STEEL)
+    arm = arm.moved(y=network.middle * (reach / 2.0 + 0.15 - kerb), z=ARM_HEIGHT + 0.12)
     return joined([pole, arm]).turned(heading).moved(x=float(x[0]), y=float(y[0]))
 
 

@@ -119,7 +119,7 @@ def patch_paths(scenario: Scenario, network: Network, where: str) -> tuple[road_
 def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
     """The map of a scenario."""
     file = folder / scenario.map.file
-    if not os.path.isfile(file):
+    if not os.path.exists(file):
         others = [path.name for path in file.parent.glob("*.osm*")] if file.parent.is_dir() else []
         raise MapError(
             f"The map of {where} is missing.",

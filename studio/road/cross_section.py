@@ -1,0 +1,55 @@
+"""What lies across a way: lane widths that a car fits into, and lanes that are kept for buses.
+
+A mapped width is often that of the whole carriageway with its parked cars, or of what is left between them.
+"""
+
+import re
+
+from studio.road.bend import is_one_way
+from studio.road.osm import Way, spot_of
+from studio.road.report import Notes
+
+NARROWEST, WIDEST_LANE = 2.5, 4.5  # [m] of a lane (RASt 06: 2.75 to 3.50 m; a lone one up to 4.5 m)
+BUS_COUNTS = ("lanes:psv", "lanes:bus")
+PER_LANE = ("bus:lanes", "psv:lanes", "access:lanes", "vehicle:lanes", "motor_vehicle:lanes")
+
+
+def mended(way: Way, notes: Notes, *, left_hand: bool) -> Way:
+    """The way with a width that its lanes can have, and with its bus lanes at the kerb."""
+    return with_bus_lanes(with_width(way, notes), notes, left_hand=left_hand)
+
+
+def with_width(way: Way, notes: Notes) -> Way:
+    """The way with a width [m] that makes lanes of `NARROWEST` to `WIDEST_LANE`; without one that cannot be read."""
+    if "width" not in way.tags:
+        return way
+    text = way.tags["width"]
+    others = {key: value for key, value in way.tags.items() if key != "width"}
+    found = re.fullmatch(r"(\d+(?:[.,]\d+)?)\s*m?", text.strip())
+    if not found:
+        notes.skip("width", f"width={text}", spot_of(way), "no width in metres")
+        return way.with_tags(others)
+    lanes = lane_count(way)
+    width = float(found[1].replace(",", ".")) / lanes
+    taken = min(WIDEST_LANE, max(NARROWEST, width))
+    if taken != width:
+        notes.guess("lane width", f"{taken:g} m", spot_of(way), source=f"width={text} for {lanes} lanes", sure="medium")
+    return way.with_tags({**others, "width": f"{taken * lanes:.2f}"})
+
+
+def lane_count(way: Way) -> int:
+    """Lanes of a way in both directions together, as mapped or one each way."""
+    text = way.tags.get("lanes", "")
+    return int(text) if text.isdigit() and int(text) > 0 else 1 if is_one_way(way) else 2
+
+
+def with_bus_lanes(way: Way, notes: Notes, *, left_hand: bool) -> Way:
+    """A one-way way that has bus lanes by number only gets them at its kerb; those for some hours stay open."""
+    lanes = lane_count(way)
+    count = next((int(way.tags[key]) for key in BUS_COUNTS if way.tags.get(key, "").isdigit()), 0)
+    at_times = any(f"{key}:conditional" in way.tags for key in BUS_COUNTS)
+    if not 0 < count < lanes or at_times or not is_one_way(way) or any(key in way.tags for key in PER_LANE):
+        return way
+    notes.guess("bus lane", f"{count} at the kerb", spot_of(way), source="lanes:bus or lanes:psv", sure="high")
+    marks = [*("yes",) * (lanes - count), *("designated",) * count]
+    return way.with_tags({**way.tags, "bus:lanes": "|".join(reversed(marks) if left_hand else marks)})

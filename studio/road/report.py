@@ -1,0 +1,167 @@
+"""What an import found, placed, guessed and left out.
+
+    guess      what the map does not say and a road needs all the same: what was taken, where, from what, how sure it is
+    skipped    what the map says and the network does not have, with the reason
+"""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Guess:
+    """Something taken without being mapped; `kind` groups guesses, `sure` is "high", "medium" or "low"."""
+
+    kind: str
+    what: str
+    where: str
+    latitude: float  # [deg]
+    longitude: float  # [deg]
+    source: str
+    sure: str
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """Something mapped that is not in the network, and why."""
+
+    kind: str
+    what: str
+    where: str
+    latitude: float  # [deg]
+    longitude: float  # [deg]
+    reason: str
+
+
+@dataclass(frozen=True)
+class DriveSide:
+    """The side of the road that is driven on: "left" or "right", and what tells so."""
+
+    side: str
+    why: str
+
+
+RIGHT = DriveSide("right", "nothing was asked")
+
+
+@dataclass(frozen=True)
+class SignalCount:
+    """Signals on car roads: mapped in the part kept, of these with a stop line near, programmes."""
+
+    in_map: int = 0
+    placed: int = 0
+    groups: int = 0
+
+
+@dataclass(frozen=True)
+class TurnCount:
+    """Lanes whose turn:lanes are mapped where ways part, and how many lead just where the tag says."""
+
+    tagged_lanes: int = 0
+    matching: int = 0
+
+
+@dataclass(frozen=True)
+class LimitCount:
+    """Car ways with and without a limit that can be read, and lane kilometres by limit [km/h]."""
+
+    mapped_ways: int = 0
+    guessed_ways: int = 0
+    lane_km: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class BuildingCount:
+    """Buildings and parts in the part kept; of the mapped ones those whose height is mapped and guessed."""
+
+    placed: int = 0
+    height_mapped: int = 0
+    height_guessed: int = 0
+
+
+@dataclass(frozen=True)
+class ParkingCount:
+    """Parking areas and single spaces in the part kept."""
+
+    areas: int = 0
+    spaces: int = 0
+
+
+@dataclass(frozen=True)
+class Report:
+    """What became of a map; counts are of the part that was kept."""
+
+    drive_side: DriveSide = RIGHT
+    country: str = ""
+    lane_km: float = 0.0
+    junctions: int = 0
+    signals: SignalCount = SignalCount()
+    turn_lanes: TurnCount = TurnCount()
+    speed_limits: LimitCount = LimitCount()
+    buildings: BuildingCount = BuildingCount()
+    parking: ParkingCount = ParkingCount()
+    guesses: tuple[Guess, ...] = ()
+    skipped: tuple[Skipped, ...] = ()
+    seconds: float = 0.0
+
+    def as_json(self) -> dict[str, Any]:
+        """The report as plain values."""
+        return {**asdict(self), "drive_side": self.drive_side.side, "drive_side_why": self.drive_side.why}
+
+
+@dataclass
+class Notes:
+    """What is noted while a map is read and built, in the order in which it comes up."""
+
+    guesses: list[Guess] = field(default_factory=list)
+    skipped: list[Skipped] = field(default_factory=list)
+
+    def guess(self, kind: str, what: str, at: "Spot", *, source: str, sure: str) -> None:
+        """Notes a guess."""
+        self.guesses.append(Guess(kind, what, at.name, at.latitude, at.longitude, source, sure))
+
+    def skip(self, kind: str, what: str, at: "Spot", reason: str) -> None:
+        """Notes something that is left out."""
+        self.skipped.append(Skipped(kind, what, at.name, at.latitude, at.longitude, reason))
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A thing of the map with a position that one can point at [deg]."""
+
+    name: str
+    latitude: float
+    longitude: float
+
+
+def rows(report: Report) -> list[list[str]]:
+    """The report for people: what, how many, remarks."""
+    signals, turns, limits = report.signals, report.turn_lanes, report.speed_limits
+    return [
+        ["drive side", report.drive_side.side, report.drive_side.why],
+        ["lanes", f"{report.lane_km:.3f} km", ""],
+        ["junctions", str(report.junctions), ""],
+        ["signals", f"{signals.placed} of {signals.in_map}", f"have a stop line; {signals.groups} programmes"],
+        ["turn lanes", f"{turns.matching} of {turns.tagged_lanes}", "lanes lead where their tag says"],
+        ["speed limits", f"{limits.mapped_ways} ways", f"{limits.guessed_ways} more guessed; {by_limit(limits)}"],
+        ["buildings", str(report.buildings.placed), f"{report.buildings.height_guessed} heights guessed"],
+        ["parking", f"{report.parking.areas} areas", f"{report.parking.spaces} single spaces"],
+        *counted("guessed", report.guesses, lambda guess: f"from {guess.source}"),
+        *counted("skipped", report.skipped, lambda skipped: skipped.reason),
+        ["time", f"{report.seconds:.1f} s", ""],
+    ]
+
+
+def by_limit(limits: LimitCount) -> str:
+    """Lane kilometres by limit in one line."""
+    return ", ".join(f"{limit} km/h: {length:.1f} km" for limit, length in limits.lane_km.items())
+
+
+def counted(word: str, things: tuple, remark: Callable[[Any], str]) -> list[list[str]]:
+    """A row for every kind: how many, and the remark of the first."""
+    kinds = {thing.kind: thing for thing in reversed(things)}
+    return [
+        [f"{word}: {kind}", str(sum(thing.kind == kind for thing in things)), f"e.g. {first.where}: {first.what}; {remark(first)}"]
+        for kind, first in sorted(kinds.items())
+    ]
