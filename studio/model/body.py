@@ -10,6 +10,9 @@ Source: W. Schiehlen, P. Eberhard, Technische Dynamik, 5th edition 2017, chapter
 from math import sqrt
 
 from studio.compiled import inlined
+from studio.conventions import GRAVITY
+
+SCRAPING = 0.5  # [1] friction of a body that lies on the road
 
 
 @inlined
@@ -50,6 +53,12 @@ def turned(q_w, q_x, q_y, q_z, p, q, r, dt):
     z = q_z + h * (q_w * r + q_x * q - q_y * p)
     scale = 1.0 / sqrt(w * w + x * x + y * y + z * z)
     return w * scale, x * scale, y * scale, z * scale
+
+
+@inlined
+def sliding_share(v_x, v_y, dt):
+    """Share [1] of a velocity [m/s] that is left after dt of sliding on sheet metal."""
+    return max(1.0 - dt * SCRAPING * GRAVITY / sqrt(v_x * v_x + v_y * v_y + 1e-12), 0.0)
 
 
 @inlined

@@ -48,7 +48,7 @@ def capacity(u_c, T_cap, w_e, w_idle, w_firm):
 
 @inlined
 def join(w_e, w_t, T_e, T_loss, T_cap, eta, J_e, A, M, torques, dt):
-    """D_e, D_t [rad/s], the torque [Nm] at the gearbox's input before its losses, and whether the clutch sticks.
+    """D_e, D_t [rad/s], and the torque [Nm] at the gearbox's input before its losses.
 
     A [rad/s] speed of the input after dt without torque, M [1/(kg m²)] its mobility, torques as `converter` gives them.
     """
@@ -62,4 +62,4 @@ def join(w_e, w_t, T_e, T_loss, T_cap, eta, J_e, A, M, torques, dt):
     stick = (w_t + D_t - w_e - D_e) / (S_e - S_t)
     T_c = min(max(stick, -T_cap), T_cap)
     D_e, D_t = D_e + T_c * S_e, D_t + T_c * S_t
-    return D_e, D_t, T_t + Q_e * D_e + Q_t * D_t + T_c, abs(stick) < T_cap
+    return D_e, D_t, T_t + Q_e * D_e + Q_t * D_t + T_c

@@ -27,8 +27,8 @@ def link_force(side, F_y, ratio):
 
 @inlined
 def tyre_load(F_z0, k_t, d_t, R, distance, distance_rate):
-    """F_z [N] of a tyre whose wheel centre is `distance` [m] from the road."""
-    return max(F_z0 + k_t * (R - distance) - d_t * distance_rate, 0.0)
+    """F_z [N] of a tyre whose wheel centre is `distance` [m] from the road; it cannot be compressed beyond its radius."""
+    return max(F_z0 + k_t * min(R - distance, R) - d_t * distance_rate, 0.0)
 
 
 @inlined

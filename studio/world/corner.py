@@ -10,6 +10,7 @@ from studio.model import body, steering, suspension, tyre, wheel
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.tile import LANES
 
+UPRIGHT = 1e-12  # keeps the axes of a wheel finite that points at the road
 OVERLOAD = 3.0  # [1] of the nominal load: beyond it no tyre is measured, and its forces stay what they are there
 
 
@@ -60,7 +61,7 @@ def road_distance(w, v, x, y, z, state, ground, R, scale):
 def wheel_axes(c, s, n_x, n_y, n_z):
     """Heading of the wheel and left of it, in the road's plane, for the steer angle's cosine and sine."""
     l_x, l_y, l_z = -n_z * s, n_z * c, n_x * s - n_y * c
-    scale = 1.0 / sqrt(l_x * l_x + l_y * l_y + l_z * l_z)
+    scale = 1.0 / sqrt(l_x * l_x + l_y * l_y + l_z * l_z + UPRIGHT)
     l_x, l_y, l_z = l_x * scale, l_y * scale, l_z * scale
     return body.cross(l_x, l_y, l_z, n_x, n_y, n_z), (l_x, l_y, l_z)
 
@@ -131,6 +132,7 @@ def corner_step(corner, v, R, v_b, state, wheels, ground, contact, parameter, dt
     v_y = u_x * l_x + u_y * l_y + u_z * l_z
     F = load_step(corner, v, w, radius, u_x * n_x + u_y * n_y + u_z * n_z, wheels, parameter)
     slip_step(corner, v, w, v_x, v_y, wheels, contact, parameter, dt)
+    F = F if n_z > 0.0 else 0.0  # on its roof a vehicle has no wheel on the road
     wheels[F_Z, w] = F
     contact[GAMMA, w] = sine
     contact[ROLLING, w] = wheel.rolling_torque(parameter[C_ROLL, v], F, parameter[RADIUS, v], v_x)

@@ -7,6 +7,8 @@ from studio.world.corner import at_axle, attitude, place, side_of
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.tile import LANES
 
+LYING = 0.3  # cosine of the tilt beyond which a vehicle lies on its side: it slides to a stop, and nothing more is claimed
+
 
 @inlined
 def sprung_load(corner, v, parameter):
@@ -55,6 +57,7 @@ def travel_step(corner, v, force, a_z, dp, dq, g_z, wheels, parameter, dt):
     m_u = parameter[at_axle(corner, M_UF, M_UR), v]
     damping = parameter[at_axle(corner, D_F, D_R), v] + parameter[D_T, v]
     rate = suspension.travel_rate(wheels[TRAVEL_RATE, w], force + m_u * g_z, a_z + dp * y - dq * x, m_u, damping, dt)
+    rate = 0.0 if -g_z < LYING * GRAVITY else rate
     wheels[TRAVEL_RATE, w] = rate
     wheels[TRAVEL, w] += dt * rate
 
@@ -63,16 +66,19 @@ def travel_step(corner, v, force, a_z, dp, dq, g_z, wheels, parameter, dt):
 def move_step(v, R, a_x, a_y, a_z, dp, dq, dr, state, dt):
     """Velocities first, then position and orientation with the new ones."""
     e, n, u = body.to_world(R, a_x, a_y, a_z)
-    state[A_X, v], state[A_Y, v], state[A_Z, v] = a_x, a_y, a_z
-    state[V_EAST, v] += dt * e
-    state[V_NORTH, v] += dt * n
-    state[V_UP, v] += dt * u
+    lies = R[8] < LYING
+    kept = body.sliding_share(state[V_EAST, v], state[V_NORTH, v], dt)
+    turns = 0.0 if lies else 1.0
+    state[A_X, v], state[A_Y, v], state[A_Z, v] = turns * a_x, turns * a_y, turns * a_z
+    state[V_EAST, v] = kept * state[V_EAST, v] if lies else state[V_EAST, v] + dt * e
+    state[V_NORTH, v] = kept * state[V_NORTH, v] if lies else state[V_NORTH, v] + dt * n
+    state[V_UP, v] = 0.0 if lies else state[V_UP, v] + dt * u
     state[X, v] += dt * state[V_EAST, v]
     state[Y, v] += dt * state[V_NORTH, v]
     state[Z, v] += dt * state[V_UP, v]
-    state[ROLL_RATE, v] += dt * dp
-    state[PITCH_RATE, v] += dt * dq
-    state[YAW_RATE, v] += dt * dr
+    state[ROLL_RATE, v] = turns * (state[ROLL_RATE, v] + dt * dp)
+    state[PITCH_RATE, v] = turns * (state[PITCH_RATE, v] + dt * dq)
+    state[YAW_RATE, v] = turns * (state[YAW_RATE, v] + dt * dr)
     state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v] = body.turned(
         state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v], state[ROLL_RATE, v], state[PITCH_RATE, v],
         state[YAW_RATE, v], dt,
@@ -80,21 +86,27 @@ def move_step(v, R, a_x, a_y, a_z, dp, dq, dr, state, dt):
 
 
 @inlined
+def wheel_weights(v, g_y, parameter):
+    """Moment [Nm] about z of the wheels' own weight on a leaning body, which their loads answer at both axles."""
+    return 2.0 * g_y * (parameter[M_UF, v] * parameter[L_F, v] - parameter[M_UR, v] * parameter[L_R, v])
+
+
+@inlined
 def forces_step(v, resistance, state, wheels, contact, parameter, dt):
     """Sums of forces and moments, accelerations, new state of body and wheels."""
     R = attitude(v, state)
+    g_x, g_y, g_z = -GRAVITY * R[6], -GRAVITY * R[7], -GRAVITY * R[8]
     f_1, m_1, rest_1 = corner_force(0, v, wheels, contact, parameter)
     f_2, m_2, rest_2 = corner_force(1, v, wheels, contact, parameter)
     f_3, m_3, rest_3 = corner_force(2, v, wheels, contact, parameter)
     f_4, m_4, rest_4 = corner_force(3, v, wheels, contact, parameter)
     v_x = R[0] * state[V_EAST, v] + R[3] * state[V_NORTH, v] + R[6] * state[V_UP, v]
     air = aerodynamics.air_drag(parameter[C_D, v], parameter[AREA, v], v_x)
-    g_x, g_y, g_z = -GRAVITY * R[6], -GRAVITY * R[7], -GRAVITY * R[8]
     a_x = (f_1[0] + f_2[0] + f_3[0] + f_4[0] - air) / parameter[MASS, v] + g_x
     a_y = (f_1[1] + f_2[1] + f_3[1] + f_4[1]) / parameter[MASS, v] + g_y
     a_z = (f_1[2] + f_2[2] + f_3[2] + f_4[2]) / parameter[MASS_S, v] + g_z
     dp, dq, dr = body.angular_acceleration(
-        m_1[0] + m_2[0] + m_3[0] + m_4[0], m_1[1] + m_2[1] + m_3[1] + m_4[1] + resistance, m_1[2] + m_2[2] + m_3[2] + m_4[2],
+        m_1[0] + m_2[0] + m_3[0] + m_4[0], m_1[1] + m_2[1] + m_3[1] + m_4[1] + resistance, m_1[2] + m_2[2] + m_3[2] + m_4[2] + wheel_weights(v, g_y, parameter),
         state[ROLL_RATE, v], state[PITCH_RATE, v], state[YAW_RATE, v], parameter[J_X, v], parameter[J_Y, v], parameter[J_Z, v],
     )  # fmt: skip
     move_step(v, R, a_x, a_y, a_z, dp, dq, dr, state, dt)

@@ -139,7 +139,7 @@ def ratio_step(v, state, dt):
 
 @inlined
 def powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt):
-    """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels, and whether the clutch sticks.
+    """Engine, coupling and gearbox; returns the drive torque [Nm], sum of the wheels.
 
     w_out [rad/s] mean speed of the driven wheels, w_free what it would be without drive, mobility its change per torque
     and time [1/(kg m²)].
@@ -152,37 +152,44 @@ def powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt):
     eta = transmission.efficiency(state[T_ENGINE, v], parameter[LOSS_SHARE, v])
     T_loss = transmission.constant_loss(w_in, parameter[LOSS_TORQUE, v])
     free = transmission.input_free(i * w_free, B, w_in, 0.0, J_g, dt)
-    D_e, D_in, T_in, sticks = coupling.join(
+    D_e, D_in, T_in = coupling.join(
         w_e, w_in, state[T_ENGINE, v], T_loss, T_cap, eta, J_e, free, transmission.input_mobility(B, J_g), torques, dt
     )
     state[CLUTCH, v] = min(max(state[CLUTCH, v] + dt * state[CLUTCH_RATE, v], 0.0), 1.0)
     state[OMEGA_E, v] = w_e + D_e if parameter[COUPLING, v] == RIGID else max(w_e + D_e, 0.0)
-    return transmission.output_torque(eta * T_in - T_loss, J_g, D_in / dt, i), sticks
+    T_out = transmission.efficiency(T_in, parameter[LOSS_SHARE, v]) * T_in - T_loss
+    return transmission.output_torque(T_out, J_g, D_in / dt, i)
 
 
 # --- wheels --------------------------------------------------------------------------------------------------------------
 
 
 @inlined
-def wheel_free(corner, v, T_brake, wheels, contact, parameter, dt):
-    """Spin [rad/s] of a wheel after dt without drive, and 1/inertia [1/(kg m²)] that it shows meanwhile."""
+def wheel_free(corner, v, T_drive, T_brake, wheels, contact, parameter, dt):
+    """Spin [rad/s] of a wheel after dt without drive, and 1/inertia [1/(kg m²)] that it shows to a drive meanwhile.
+
+    A wheel that stands, and is held by its brake against the drive torque T_drive [Nm] of the step before, shows none.
+    """
     w, R = corner * LANES + v, parameter[RADIUS, v]
     I = wheel.implicit_inertia(parameter[at_axle(corner, J_WF, J_WR), v], R, contact[SPIN_SLOPE, w], dt)  # noqa: E741
-    return wheel.spin(wheels[OMEGA, w], wheels[F_X, w], 0.0, T_brake + contact[ROLLING, w], R, I, dt), 1.0 / I
+    T_friction = T_brake + contact[ROLLING, w]
+    stands = wheels[OMEGA, w] == 0.0 and abs(T_drive - R * wheels[F_X, w]) < T_friction
+    return wheel.spin(wheels[OMEGA, w], wheels[F_X, w], 0.0, T_friction, R, I, dt), 0.0 if stands else 1.0 / I
 
 
 @inlined
-def wheel_turn(corner, v, T_drive, T_brake, mobility, wheels, contact, parameter, dt):
+def wheel_turn(corner, v, T_drive, T_brake, wheels, contact, parameter, dt):
     """Spins a wheel on; its tyre force is corrected to the end of the step. Returns the change of its spin [rad/s].
 
     Where the correction would carry the force beyond its peak, the tyre slides: the peak is all there is to spin against.
     """
     w, R, omega = corner * LANES + v, parameter[RADIUS, v], wheels[OMEGA, corner * LANES + v]
-    T_friction, peak = T_brake + contact[ROLLING, w], contact[PEAK, w]
-    new = wheel.spin(omega, wheels[F_X, w], T_drive, T_friction, R, 1.0 / mobility, dt)
+    J, T_friction, peak = parameter[at_axle(corner, J_WF, J_WR), v], T_brake + contact[ROLLING, w], contact[PEAK, w]
+    I = wheel.implicit_inertia(J, R, contact[SPIN_SLOPE, w], dt)  # noqa: E741
+    new = wheel.spin(omega, wheels[F_X, w], T_drive, T_friction, R, I, dt)
     F = wheels[F_X, w] + contact[SPIN_SLOPE, w] * (new - omega)
     F_held = min(max(F, -peak), peak)
-    sliding = wheel.spin(omega, F_held, T_drive, T_friction, R, parameter[at_axle(corner, J_WF, J_WR), v], dt)
+    sliding = wheel.spin(omega, F_held, T_drive, T_friction, R, J, dt)
     new = new if F == F_held else sliding
     wheels[OMEGA, w] = new
     wheels[ROTATION, w] += new * dt
@@ -193,28 +200,19 @@ def wheel_turn(corner, v, T_drive, T_brake, mobility, wheels, contact, parameter
 @inlined
 def drive_step(v, T_front, T_rear, state, wheels, contact, parameter, command, dt):
     """Powertrain and wheel spins; returns the moment [Nm] about the body's y axis with which the wheels resist."""
-    o_1, m_1 = wheel_free(0, v, T_front, wheels, contact, parameter, dt)
-    o_2, m_2 = wheel_free(1, v, T_front, wheels, contact, parameter, dt)
-    o_3, m_3 = wheel_free(2, v, T_rear, wheels, contact, parameter, dt)
-    o_4, m_4 = wheel_free(3, v, T_rear, wheels, contact, parameter, dt)
-    s_f, s_r = 0.5 * parameter[DRIVE_SHARE, v], 0.5 * (1.0 - parameter[DRIVE_SHARE, v])
+    s_f, s_r, T = 0.5 * parameter[DRIVE_SHARE, v], 0.5 * (1.0 - parameter[DRIVE_SHARE, v]), state[TORQUE_DRIVE, v]
+    o_1, m_1 = wheel_free(0, v, s_f * T, T_front, wheels, contact, parameter, dt)
+    o_2, m_2 = wheel_free(1, v, s_f * T, T_front, wheels, contact, parameter, dt)
+    o_3, m_3 = wheel_free(2, v, s_r * T, T_rear, wheels, contact, parameter, dt)
+    o_4, m_4 = wheel_free(3, v, s_r * T, T_rear, wheels, contact, parameter, dt)
     mobility = s_f * s_f * (m_1 + m_2) + s_r * s_r * (m_3 + m_4)
     w_out = s_f * (wheels[OMEGA, v] + wheels[OMEGA, LANES + v]) + s_r * (wheels[OMEGA, 2 * LANES + v] + wheels[OMEGA, 3 * LANES + v])
     w_free = s_f * (o_1 + o_2) + s_r * (o_3 + o_4)
-    T, sticks = powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt)
+    T = powertrain_step(v, w_out, w_free, mobility, state, parameter, command, dt)
     T += command[U_APPLIED, v]
     state[TORQUE_DRIVE, v] = T
-    front = wheel_turn(0, v, s_f * T, T_front, m_1, wheels, contact, parameter, dt)
-    front += wheel_turn(1, v, s_f * T, T_front, m_2, wheels, contact, parameter, dt)
-    rear = wheel_turn(2, v, s_r * T, T_rear, m_3, wheels, contact, parameter, dt)
-    rear += wheel_turn(3, v, s_r * T, T_rear, m_4, wheels, contact, parameter, dt)
-    follow(v, sticks, w_out + s_f * front + s_r * rear, state, parameter)
+    front = wheel_turn(0, v, s_f * T, T_front, wheels, contact, parameter, dt)
+    front += wheel_turn(1, v, s_f * T, T_front, wheels, contact, parameter, dt)
+    rear = wheel_turn(2, v, s_r * T, T_rear, wheels, contact, parameter, dt)
+    rear += wheel_turn(3, v, s_r * T, T_rear, wheels, contact, parameter, dt)
     return -(parameter[J_WF, v] * front + parameter[J_WR, v] * rear) / dt
-
-
-@inlined
-def follow(v, sticks, w_out, state, parameter):
-    """While the clutch sticks, the engine turns as the wheels really do, whatever the step had expected of the tyres."""
-    w_in = state[RATIO, v] * w_out
-    joined = w_in if parameter[COUPLING, v] == RIGID else max(w_in, 0.0)
-    state[OMEGA_E, v] = joined if sticks else state[OMEGA_E, v]

@@ -20,8 +20,7 @@ NO_CONVERTER = (0.0,) * 6
 
 def engaged(w_e, w_in, T_cap, T_net=0.0):
     """One step of two discs: engine and a gearbox without load; the torque, and both speeds afterwards."""
-    D_e, D_in, T_c, sticks = coupling.join(w_e, w_in, T_net, 0.0, T_cap, 1.0, J_E, w_in, 1.0 / J_IN, NO_CONVERTER, DT)
-    assert sticks == (abs(w_e + D_e - w_in - D_in) < 1e-6 and abs(T_c) < T_cap)
+    D_e, D_in, T_c = coupling.join(w_e, w_in, T_net, 0.0, T_cap, 1.0, J_E, w_in, 1.0 / J_IN, NO_CONVERTER, DT)
     return T_c, w_e + D_e, w_in + D_in
 
 
@@ -128,12 +127,12 @@ def test_a_step_solves_converter_and_clutch_together(w_e, w_t, T_e, T_cap, M):
     """The two linear equations of the docstring hold with the torque that the clutch carries, and so does Coulomb's law."""
     eta, T_loss, A = 0.95, 2.0, w_t - 0.3
     T_p, T_t, P_e, P_t, Q_e, Q_t = torques = at("ford_escort", w_e, w_t)
-    D_e, D_t, T_in, sticks = coupling.join(w_e, w_t, T_e, T_loss, T_cap, eta, J_E, A, M, torques, DT)
+    D_e, D_t, T_in = coupling.join(w_e, w_t, T_e, T_loss, T_cap, eta, J_E, A, M, torques, DT)
     T_c = T_in - (T_t + Q_e * D_e + Q_t * D_t)
     assert (J_E / DT + P_e) * D_e + P_t * D_t == pytest.approx(T_e - T_p - T_c, rel=1e-6, abs=1e-6)
     assert D_t == pytest.approx(A - w_t + M * DT * (eta * T_in - T_loss), rel=1e-6, abs=1e-6)
     assert abs(T_c) <= T_cap * (1 + 1e-9) + 1e-6
-    if sticks:
+    if abs(T_c) < T_cap - 1e-6:
         assert w_e + D_e == pytest.approx(w_t + D_t, abs=1e-6)
 
 
@@ -143,7 +142,7 @@ def test_a_converter_is_stable_however_light_its_load(M):
     for w_t in (0.0, 600.0):
         w_e = 150.0
         for _ in range(20_000):
-            D_e, D_t, _, _ = coupling.join(w_e, w_t, 0.0, 0.0, 0.0, 1.0, J_E, w_t, M, at("suv", w_e, w_t), DT)
+            D_e, D_t, _ = coupling.join(w_e, w_t, 0.0, 0.0, 0.0, 1.0, J_E, w_t, M, at("suv", w_e, w_t), DT)
             w_e, w_t = w_e + D_e, w_t + D_t
             assert 0.0 <= w_e < 700.0 and 0.0 <= w_t < 700.0
         assert w_t / w_e == pytest.approx(1.0, abs=0.02)
