@@ -13,6 +13,7 @@ from studio.model.tyre import Tyre
 from studio.world import cuda, fleet
 from studio.world.state import MU, V_X
 from studio.world.tile import LANES
+from tests.conftest import ROOT
 from tests.proving_ground import MODELS, Ground
 
 
@@ -88,9 +89,12 @@ def pretended(monkeypatch):
     return place
 
 
-def busy(n=1) -> Ground:
-    """Vehicles of all models: they steer, drive, brake; one on ice."""
-    ground = Ground(MODELS, n=n, speed=np.linspace(0.0, 30.0, n * len(MODELS)), powertrain=True)
+ASYMMETRIC = str(ROOT / "tests" / "reference" / "MagicFormula52_Parameters.tir")  # left and right tyres differ
+
+
+def busy(n=1, models=tuple(MODELS), changes=None) -> Ground:
+    """Vehicles of several models: they steer, drive, brake; one on ice."""
+    ground = Ground(models, n=n, speed=np.linspace(0.0, 30.0, n * len(models)), powertrain=True, changes=changes)
     ground.command(steering=np.linspace(-0.05, 0.05, ground.n), pedal=np.linspace(0.0, 1.0, ground.n))
     ground.command(brake=np.linspace(2000.0, 0.0, ground.n)).run(0.5)
     ground.fleet.ground[MU, :: ground.n] = 0.1
@@ -109,8 +113,21 @@ def assert_same(one: Ground, other: Ground):
 def test_the_device_does_what_the_cpu_does(pretended, ticks):
     """A fleet of different models on different tyres: tiled, integrated by the kernel, fetched, as motion.integrate has it."""
     on_cpu, on_gpu = busy(), busy()
+    assert on_gpu.fleet.blocks.shape[1] > 3
+    check(on_cpu, on_gpu, ticks)
+
+
+def test_the_device_mirrors_tyres(pretended):
+    """Tyres that pull to one side, other ones at the rear: each wheel gets the coefficients and the side that it has."""
+    for axle in ("front", "rear"):
+        pair = [busy(models=("suv", "smart_fortwo"), changes={f"tyres.{axle}": ASYMMETRIC}) for _ in range(2)]
+        check(*pair, 1)
+
+
+def check(on_cpu, on_gpu, ticks):
+    """Integrates one on the CPU and one on the device."""
     device = cuda.Device(on_gpu.fleet)
-    assert device.count == on_gpu.fleet.blocks.shape[1] > 3
+    assert device.count == on_gpu.fleet.blocks.shape[1]
     device.integrate(on_gpu.k, 0.02, 0.005, ticks=ticks)
     device.synchronize()
     device.fetch(on_gpu.fleet)

@@ -163,17 +163,24 @@ def test_a_slow_circle_is_kinematic(steer):
     assert ground.state[V_X] / ground.state[YAW_RATE] == pytest.approx(L / np.tan(steer), rel=0.01)
 
 
-def swerve(sign, v=15.0):
+ASYMMETRIC = str(ROOT / "tests" / "reference" / "MagicFormula52_Parameters.tir")  # conicity, ply-steer: S_Hy, S_Vy are not 0
+
+
+def swerve(sign, models, changes):
     """Steer, brake and drive on a road that falls to one side."""
-    ground = Ground(MODELS, speed=v, powertrain=True)
+    ground = Ground(models, speed=15.0, powertrain=True, changes=changes)
     ground.fleet.ground[SLOPE_Y] = 0.03 * sign
     ground.command(steering=0.04 * sign, pedal=0.3).run(2.0)
     return ground.command(steering=-0.06 * sign, pedal=0.0, brake=1500.0).run(2.0)
 
 
-def test_left_and_right_mirror():
-    """Mirrored commands on a mirrored road, all vehicles: mirrored ways, to the last few bits."""
-    left, right = swerve(1), swerve(-1)
+@pytest.mark.parametrize("tyre", [None, ASYMMETRIC], ids=["own tyres", "tyres with conicity"])
+def test_left_and_right_mirror(tyre):
+    """Mirrored commands on a mirrored road, all vehicles: mirrored ways, to the last few bits. Tyres that pull to one side are
+    mirrored from one side of the car to the other."""
+    models = [model for model in MODELS if tyre is None or model != "truck"]  # which is too heavy for them
+    changes = {"tyres.front": tyre, "tyres.rear": tyre} if tyre else {}
+    left, right = swerve(1, models, changes), swerve(-1, models, changes)
     even, odd = [X, Z, V_X], [Y, PSI, ROLL, V_Y, YAW_RATE]
     assert left.state[even] == pytest.approx(right.state[even], rel=1e-9)
     assert left.state[odd] == pytest.approx(-right.state[odd], rel=1e-6, abs=1e-9)

@@ -109,7 +109,7 @@ SPEEDS = (0.0, 0.2, 1.0, 3.0, 10.0, 25.0, 45.0, 70.0)
 FRICTIONS = (1.0, 0.1)
 MANEUVERS = ("locked", "steering", "throttle", "kerb")
 VIOLENCE, SAMPLE = 10.0, 0.1  # [s] of the maneuver; between two looks
-OVERTURNED = 0.5 * np.pi  # [rad] roll or pitch beyond which a car lies on its roof: nothing but finite numbers is claimed
+OVERTURNED = 0.4 * np.pi  # [rad] roll or pitch of a car that lies on its side: it slides to a stop, nothing more is claimed
 ROCKING = 0.3  # [m/s] that springs and contact patches may give back to a car that stops
 CASES = [(model, speed, friction) for model in MODELS for speed in SPEEDS for friction in FRICTIONS]
 
@@ -161,19 +161,18 @@ def violence(maneuver) -> Violence:
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_stable_at_every_speed(model, speed, friction, maneuver):
-    """Finite; never faster than it was, but for what rocks back; and in the end it stands, without shaking."""
+    """Finite; in the end it stands, without shaking; and never faster than it was, but for what rocks back."""
     seen, v = violence(maneuver), CASES.index((model, speed, friction))
     assert np.isfinite(seen.ground.state[:, v]).all()
     assert np.isfinite(seen.ground.wheels.reshape(-1, 4, len(CASES))[:, :, v]).all()
-    if max(tilt[v] for tilt in seen.tilts) > OVERTURNED:
-        return
     speeds = np.array([each[v] for each in seen.speeds])
+    assert speeds[-1] < 1e-5
+    assert np.abs(seen.ground.state[[X, Y, Z, PSI], v] - seen.before[:, v]).max() < 1e-5
     if maneuver == "throttle":
         assert speeds.max() < 75.0
         speeds = speeds[round(VIOLENCE / SAMPLE) + 10 :]
-    assert (speeds - np.minimum.accumulate(speeds)).max() < ROCKING
-    assert speeds[-1] < 1e-5
-    assert np.abs(seen.ground.state[[X, Y, Z, PSI], v] - seen.before[:, v]).max() < 1e-5
+    if max(tilt[v] for tilt in seen.tilts) < OVERTURNED:
+        assert (speeds - np.minimum.accumulate(speeds)).max() < ROCKING
 
 
 @pytest.mark.parametrize("maneuver", MANEUVERS)

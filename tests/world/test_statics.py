@@ -5,7 +5,8 @@ import pytest
 
 from studio.conventions import GRAVITY
 from studio.world.state import (
-    BRAKE_MAX, F_X, F_Y, F_Z, H, L_F, L_R, M_UF, MASS, MASS_S, PITCH, PSI, RADIUS, TRAVEL, X, Y, Z,
+    ARB_F, ARB_R, BRAKE_MAX, F_X, F_Y, F_Z, H, IDLE, K_BRAKE, L_F, L_R, LINK_F, LINK_R, M_UF, MASS, MASS_S, PITCH, PSI, RADIUS,
+    TRAVEL, UNASSISTED, X, Y, Z,
 )  # fmt: skip
 from tests.proving_ground import MODELS, Ground
 
@@ -66,6 +67,26 @@ def test_loads_on_a_slope(braked_on_a_slope, v):
     front = (p[MASS_S] * p[L_R] / L + 2.0 * p[M_UF]) * GRAVITY * cosine
     moved = (-p[MASS] * GRAVITY * sine * p[H] + GRAVITY * theta * (p[MASS] * p[H] - p[MASS_S] * p[RADIUS])) / L
     assert F_z[:2].sum() - front == pytest.approx(moved, rel=0.02)
+
+
+@pytest.mark.parametrize("v", range(len(MODELS)), ids=MODELS)
+def test_parameters_say_what_the_file_says(standing, v):
+    """What is not a plain copy: bars per travel, levers of the links, brake, steering, idle."""
+    p, values = standing.parameter[:, v], standing.models[v].values
+    s, b = values.suspension, values.body
+    # a body that rolls by phi at a track T moves its wheels by phi T: bar [Nm/rad] = force per difference · T · T
+    assert p[[ARB_F, ARB_R]] * [b.front_track**2, b.rear_track**2] == pytest.approx([s.anti_roll_front, s.anti_roll_rear])
+    m_s = b.mass - b.unsprung_mass_front - b.unsprung_mass_rear
+    share = 1.0 - b.front_distance / b.wheelbase
+    for link, part, m_u, height, track in (
+        (p[LINK_F], share, b.unsprung_mass_front, s.roll_centre_front, b.front_track),
+        (p[LINK_R], 1.0 - share, b.unsprung_mass_rear, s.roll_centre_rear, b.rear_track),
+    ):
+        lever = (part * m_s * height + m_u * values.wheels.radius) / (part * m_s + m_u)
+        assert link == pytest.approx(2.0 * lever / track)
+    assert p[K_BRAKE] * values.brakes.pressure_max == pytest.approx(values.brakes.torque_max)
+    assert p[UNASSISTED] == pytest.approx(1.0 - values.steering.assistance)
+    assert p[IDLE] == (0.0 if values.engine.kind == "electric" else values.engine.idle_speed)
 
 
 def test_left_and_right_carry_the_same(standing):

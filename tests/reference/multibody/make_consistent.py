@@ -11,6 +11,7 @@ none. Without both changes this program reproduces the original files, which it 
 import csv
 import gzip
 import math
+import re
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
@@ -24,10 +25,8 @@ from vehiclemodels.parameters_vehicle2 import parameters_vehicle2
 HERE = Path(__file__).parent
 CARS = {"ford_escort": parameters_vehicle1, "bmw_320i": parameters_vehicle2}
 SHIFTS = [f"{force}_{kind}{k}" for force in ("p", "r") for kind in ("hx", "vx", "hy", "vy") for k in (1, 3)]
-SLIPS = {
-    "x[10] + p.a*x[5] - x[14]*(p.R_w - x[16])": "x[15] - x[14]*(p.R_w - x[16])",
-    "x[10] - p.b*x[5] - x[19]*(p.R_w - x[21])": "x[20] - x[19]*(p.R_w - x[21])",
-}
+# Where a slip angle takes the body's lateral velocity, and the state that holds the wheels' own.
+BODYS_VELOCITY = {r"x\[10\] \+ p\.a\*x\[5\](?= - x\[14\])": "x[15]", r"x\[10\] - p\.b\*x\[5\](?= - x\[19\])": "x[20]"}
 STIFFER, DT, EVERY = 100.0, 0.001, 10
 HEAD = ["t_s", "x_m", "y_m", "yaw_rate_rps", "ay_mps2", "roll_rad"]
 
@@ -35,9 +34,9 @@ HEAD = ["t_s", "x_m", "y_m", "yaw_rate_rps", "ay_mps2", "roll_rad"]
 def dynamics(consistent):
     """The right-hand side, as it is or with the wheels' own velocities."""
     source = Path(vehicle_dynamics_mb.__file__).read_text()
-    for theirs, right in SLIPS.items() if consistent else ():
-        assert source.count(theirs) == 2
-        source = source.replace(theirs, right)
+    for bodys, wheels in BODYS_VELOCITY.items() if consistent else ():
+        source, found = re.subn(bodys, wheels, source)
+        assert found == 2
     module = ModuleType("dynamics")
     exec(compile(source, "dynamics", "exec"), module.__dict__)
     return module.vehicle_dynamics_mb
