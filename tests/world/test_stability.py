@@ -136,7 +136,7 @@ class Violence:
             ground.command(pedal=0.0, brake=p[BRAKE_MAX])
         while np.nanmax(self.speeds[-1]) > 0.01 and ground.time < 400.0:
             self.look(1.0)
-        self.look(15.0)
+        self.look(30.0)
         self.before = ground.state[[X, Y, Z, PSI]].copy()
         self.look(1.0)
 
