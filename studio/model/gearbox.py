@@ -11,7 +11,6 @@ TOUCH = 0.01  # [1] pedal position that counts as pressed
 DRAGS = 1.7  # [1] of the idle speed, above which a clutch closes with the pedal lifted
 SLACK = 0.05  # [m/s²] that a higher gear may lose
 WALKING = 1.0  # [m/s] above this nobody shifts between forward and reverse
-OPEN, CLOSED = 0.0, 1.0
 
 
 @compiled

@@ -75,7 +75,7 @@ def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
 
 def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road import audit, bend, cross_section, limit, netconvert, turn
+    from studio.road import audit, turn
     from studio.road.country import country_at
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
@@ -83,29 +83,17 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     began = time.perf_counter()
     progress(f"reading {path.name}")
     found = osm.survey(path, data)
-    try:
-        box = osm.clip_box(found, radius=radius, bbox=bbox)
-    except MapError as error:
-        raise MapError(f"{path}: {error.message}") from None
+    box = clipped(path, found, radius, bbox)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
-    ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
-    if not ways:
-        raise MapError(
-            f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox"
-        )
+    cut = cut_ways(path, found, box, ids)
     country = country_at(*box.centre)
-    side = drive_side(ways, country)
-    ways = [limit.limited(way, country.name, found.notes) for way in ways]
-    ways = [cross_section.mended(way, found.notes, left_hand=side.side == "left") for way in ways]
+    side = drive_side(cut, country)
+    left_hand = side.side == "left"
+    ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
-    clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
-    net = netconvert.convert(clean, box.projection, source=path, left_hand=side.side == "left")
-    forks = turn.forks(net, ways, box, found.notes, left_hand=side.side == "left")
-    net = turn.mended(net, forks, left_hand=side.side == "left")
+    net, forks = lanes_of(path, found, ways, box, ids, left_hand)
     progress("placing signals and scenery")
-    mapped = list(osm.mapped_signals(found, ways, box).values())
-    signalled = net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped)
-    lights = signals(net.lanes, net.roads, net.connections, signalled)
+    lights = lights_of(found, ways, box, net)
     network = Network(
         name=name_of(path),
         attribution=ATTRIBUTION,
@@ -121,6 +109,48 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     )
     report = audit.report(network, found, ways, box, net.origins, turns=turn.count(net, forks), side=side, country=country.name)
     return replace(network, report=replace(report, seconds=time.perf_counter() - began))
+
+
+def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
+    """The part of the map that is kept; raises MapError that names the file."""
+    try:
+        return osm.clip_box(found, radius=radius, bbox=bbox)
+    except MapError as error:
+        raise MapError(f"{path}: {error.message}") from None
+
+
+def cut_ways(path: Path, found, box, ids) -> list:
+    """The ways within that part; raises MapError when there is none."""
+    ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
+    if not ways:
+        raise MapError(
+            f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox"
+        )
+    return ways
+
+
+def tagged(ways: list, found, country: str, left_hand: bool) -> list:
+    """The ways with limits, lane counts and widths that netconvert reads; what was guessed is noted in `found`."""
+    from studio.road import cross_section, limit
+
+    limited = [limit.limited(way, country, found.notes) for way in ways]
+    return [cross_section.mended(way, found.notes, left_hand=left_hand) for way in limited]
+
+
+def lanes_of(path: Path, found, ways: list, box, ids, left_hand: bool):
+    """Lanes and junctions, their arrows mended, and the forks that have arrows."""
+    from studio.road import bend, netconvert, turn
+
+    clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
+    net = netconvert.convert(clean, box.projection, source=path, left_hand=left_hand)
+    forks = turn.forks(net, ways, box, found.notes, left_hand=left_hand)
+    return turn.mended(net, forks, left_hand=left_hand), forks
+
+
+def lights_of(found, ways: list, box, net) -> Signals:
+    """The signals of the network, those at the map's edge too."""
+    mapped = list(osm.mapped_signals(found, ways, box).values())
+    return signals(net.lanes, net.roads, net.connections, net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped))
 
 
 def linked(connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:

@@ -21,7 +21,6 @@ from studio.conventions import GRAVITY
 RPM = 0.10471975511965977  # [rad/s] one revolution per minute
 MOST_GEARS = 8
 MOST_POINTS = 100  # of a full-load curve as a file gives it
-CURVE_POINTS = 12  # knots of the torque curve inside the model
 
 
 def number(*, unit: str, title: str, **bounds):

@@ -10,12 +10,13 @@ from studio.model import tyre
 from studio.model.tyre import Tyre
 from studio.model.wheel import SIGMA
 from studio.scenario.vehicle import Vehicle
+from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 SLIDING = 0.95  # part of the peak force at which a contact patch at rest lets go
 MOST_LOAD = 2.0  # [1] static load over nominal load
 REST_RATIO = 0.5  # damping ratio of a standing car on its contact patches
-KINDS = {"rigid": 0.0, "clutch": 1.0, "converter": 2.0}
+KINDS = {"rigid": RIGID, "clutch": CLUTCHED, "converter": CONVERTER}
 NEVER = 1e9  # a bound that is none
 
 

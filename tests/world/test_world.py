@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from studio import job
-from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.road.signals import GREEN
 from studio.world.build import build
