@@ -311,14 +311,6 @@ def braking_side_per_load(t, kappa, alpha, gamma, df_z, mu_y):
     return D * sin(t.RVY5 * atan(t.RVY6 * kappa)) * t.LVYKA
 
 
-@compiled(forceinline=True)
-def braking_side_force(t, kappa, alpha, gamma, F_z, mu):
-    """S_Vy,kappa [N] (4.E66, 4.E67): side force that longitudinal slip itself makes."""
-    df_z = load_change(t, F_z)
-    mu_y = lateral_factors(t, gamma, df_z, mu).mu
-    return F_z * braking_side_per_load(t, kappa, alpha, gamma, df_z, mu_y)
-
-
 # --- aligning moment ---------------------------------------------------------------------------------------------------
 
 

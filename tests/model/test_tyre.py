@@ -46,6 +46,13 @@ EVEN = MEASURED._replace(
 )
 
 
+def braking_side_force(t, kappa, alpha, gamma, F_z, mu):
+    """S_Vy,kappa [N] (4.E66, 4.E67): side force that longitudinal slip itself makes."""
+    df_z = tyre.load_change(t, F_z)
+    mu_y = tyre.lateral_factors(t, gamma, df_z, mu).mu
+    return F_z * tyre.braking_side_per_load(t, kappa, alpha, gamma, df_z, mu_y)
+
+
 @pytest.fixture(scope="module", params=PAIRS, ids=PAIRS)
 def reference(request):
     """A tyre with LFZO = 1, and 495 rows of forces that another program computed for it."""
@@ -208,8 +215,8 @@ def test_camber_that_no_factor_scales():
     """RVY3 and SSZ3 belong to the camber itself (4.E67, 4.E76)."""
     level = MEASURED._replace(PDY3=0.0)
     scaled = level._replace(LGAY=0.5, LGAZ=0.5)
-    given_force = tyre.braking_side_force(level, 0.1, 0.05, 0.05, 5000.0, 1.0)
-    assert tyre.braking_side_force(scaled, 0.1, 0.05, 0.05, 5000.0, 1.0) == given_force
+    given_force = braking_side_force(level, 0.1, 0.05, 0.05, 5000.0, 1.0)
+    assert braking_side_force(scaled, 0.1, 0.05, 0.05, 5000.0, 1.0) == given_force
     assert tyre.moment_arm(scaled, 0.05, 0.1, 1000.0) == tyre.moment_arm(level, 0.05, 0.1, 1000.0)
 
 
@@ -414,7 +421,7 @@ def test_aligning_moment(kappa, alpha, gamma, F_z, mu):
     softening = t.LKY / (t.LMUY * mu)
     F_x, F_y, M_z = tyre.forces(t, kappa, alpha, gamma, F_z, mu)
     residual = F_z * tyre.residual_per_load(t, y, alpha, gamma, df_z, mu, softening, 1.0 / y.K, slip)
-    F_y_weighted = F_y - tyre.braking_side_force(t, kappa, alpha, gamma, F_z, mu)
+    F_y_weighted = F_y - braking_side_force(t, kappa, alpha, gamma, F_z, mu)
     turning = residual - tyre.trail(t, alpha, gamma, df_z, softening, slip) * F_y_weighted
     expected = turning * cos(atan(alpha)) + tyre.moment_arm(t, gamma, df_z, F_y) * F_x
     assert M_z == pytest.approx(expected, rel=1e-6, abs=1e-6)
@@ -441,4 +448,4 @@ def test_braking_side_force():
     mu_y = (t.PDY1 + t.PDY2 * df_z) * (1.0 - t.PDY3 * gamma**2)
     D = mu_y * F_z * (t.RVY1 + t.RVY2 * df_z + t.RVY3 * gamma) * cos(atan(t.RVY4 * alpha))
     expected = D * sin(t.RVY5 * atan(t.RVY6 * kappa))
-    assert tyre.braking_side_force(t, kappa, alpha, gamma, F_z, 1.0) == pytest.approx(expected, rel=1e-9)
+    assert braking_side_force(t, kappa, alpha, gamma, F_z, 1.0) == pytest.approx(expected, rel=1e-9)
