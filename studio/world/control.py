@@ -21,7 +21,7 @@ STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request i
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
 EMERGENCY = 4.0  # [m/s²] a driver who would have to brake harder than this does not leave it to an application
 EMERGENCY_GAIN = 1.2  # [1] and brakes a little more than is needed
-NEAREST = 0.5  # [m] that are to be left
+NEAREST = 1.0  # [m] that are to be left
 HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
@@ -55,11 +55,12 @@ def is_scripted(v, time, state, script):
 def emergency(v, state, mind):
     """Acceleration [m/s²] with which a driver brakes when a collision is near, whatever assists; else nothing is asked.
 
-    The deceleration that still avoids it is v²/(2 gap), v the closing speed [m/s].
+    The deceleration that still avoids it is v²/(2 gap), v the closing speed [m/s]; the last of the gap is never driven into.
     """
-    closing, gap = state[V_X, v] - mind[AHEAD_SPEED, v], mind[GAP, v]
-    needed = closing * closing / (2.0 * max(gap - NEAREST, 0.1))
-    return -EMERGENCY_GAIN * needed if closing > 0.0 and needed > EMERGENCY else NO_LIMIT
+    closing, gap = state[V_X, v] - mind[AHEAD_SPEED, v], mind[GAP, v] - NEAREST
+    needed = closing * closing / (2.0 * max(gap, 0.01))
+    asked = -EMERGENCY_GAIN * max(needed, EMERGENCY)
+    return asked if closing >= 0.0 and (needed > EMERGENCY or gap < 0.0) else NO_LIMIT
 
 
 @compiled

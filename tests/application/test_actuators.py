@@ -150,3 +150,18 @@ def test_a_file_may_return_actuators(sample, tmp_path, compiled):
         tick(world)
     assert (world.vehicles.state[GEAR, 1:5] == 3.0).all()
     assert (world.hosted[0].memory == 100.0).all()
+
+
+def test_a_driver_brakes_before_a_collision(sample):
+    """Four cars whose application only ever accelerates come up to a leader that does not: their drivers keep them apart."""
+    world = build([job.prepare(job.load(sample, {"traffic.count": 0}))])
+    (hosted,) = world.hosted
+
+    def faster(columns, parameters, memory, observed, commands):
+        commands[:, columns] = np.nan
+        commands[0, columns] = 1.0
+
+    hosted.run = faster
+    for _ in range(950):
+        tick(world)
+    assert world.events.hits_found == 0
