@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 
 from studio.road import osm
+from studio.road.netconvert import Net
 from studio.road.network import Network
 from studio.road.osm import Box, Survey, Way, spot_of
 from studio.road.report import (
@@ -27,23 +28,25 @@ NEAR = 15.0  # [m] a stop line is that near to its mapped signal
 
 
 def report(
-    network: Network, found: Survey, ways: list[Way], box: Box, origins: dict[str, tuple[int, ...]], *, turns: TurnCount,
-    side: DriveSide, country: str,
+    network: Network, found: Survey, ways: list[Way], box: Box, raw: Net, *, turns: TurnCount, side: DriveSide, country: str,
 ) -> Report:  # fmt: skip
-    """The report of an import: counts, and the guesses and gaps noted on the way."""
+    """The report of an import: counts, and the guesses and gaps noted on the way.
+
+    Lane kilometres are counted in `raw`, from junction to junction as they are mapped, before turns have got their room.
+    """
     notes = found.notes
-    note_lanes(network, ways, origins, notes)
-    note_closed(network, ways, origins, notes)
+    note_lanes(network, ways, raw.origins, notes)
+    note_closed(network, ways, raw.origins, notes)
     signals = count_signals(network, found, ways, box, notes)
     buildings = count_buildings(network, found, box, notes)
     return Report(
         drive_side=side,
         country=country,
-        lane_km=sum(lane.length for lane in network.lanes if not lane.internal) / 1000.0,
+        lane_km=sum(lane.length for lane in raw.lanes if not lane.internal) / 1000.0,
         junctions=len(network.junctions),
         signals=signals,
         turn_lanes=turns,
-        speed_limits=count_limits(network, ways, notes),
+        speed_limits=count_limits(raw, ways, notes),
         buildings=buildings,
         parking=count_parking(found, box),
         guesses=tuple(notes.guesses),
@@ -96,11 +99,11 @@ def count_signals(network: Network, found: Survey, ways: list[Way], box: Box, no
 # -- limits, buildings, parking --------------------------------------------------------------------
 
 
-def count_limits(network: Network, ways: list[Way], notes: Notes) -> LimitCount:
+def count_limits(raw: Net, ways: list[Way], notes: Notes) -> LimitCount:
     """Ways by whether their limit is mapped, and lane kilometres by limit."""
     guessed = sum(guess.kind == "speed limit" for guess in notes.guesses)
     length = defaultdict(float)
-    for lane in network.lanes:
+    for lane in raw.lanes:
         if not lane.internal:
             length[round(lane.speed * 3.6)] += lane.length / 1000.0
     return LimitCount(len(ways) - guessed, guessed, {str(limit): round(length[limit], 3) for limit in sorted(length)})

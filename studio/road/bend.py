@@ -100,7 +100,19 @@ def turn(a: Point, b: Point, c: Point) -> float:
 def tangents_of(line: list[Point], before: Point | None, after: Point | None) -> list[tuple[Point, Point]]:
     """At every point the directions of the curve that arrives and of the one that leaves; they differ at corners."""
     extended = [before, *line, after]
-    return [tangent(*extended[i : i + 3]) for i in range(len(line))]
+    found = [tangent(*extended[i : i + 3]) for i in range(len(line))]
+    lone = [is_straight(line, i - 1) and is_straight(line, i + 1) for i in range(len(line))]
+    return [edge(line, i) if alone and 0 < i < len(line) - 1 else both for i, (both, alone) in enumerate(zip(found, lone, strict=True))]
+
+
+def is_straight(line: list[Point], i: int) -> bool:
+    """Whether a line does not turn at a point; at its ends it does, as far as it knows."""
+    return 0 < i < len(line) - 1 and turn(*line[i - 1 : i + 2]) < STRAIGHT
+
+
+def edge(line: list[Point], i: int) -> tuple[Point, Point]:
+    """The directions at a turn between two straights: no node says how it is rounded, and a curve through it would bulge."""
+    return unit(line[i] - line[i - 1]), unit(line[i + 1] - line[i])
 
 
 def tangent(a: Point | None, b: Point, c: Point | None) -> tuple[Point, Point]:

@@ -53,6 +53,14 @@ def doubles_back(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> bool:
     return t_x * d_x + t_y * d_y < 0.0 and abs(t_x * d_y - t_y * d_x) < BESIDE * np.hypot(t_x, t_y)
 
 
+def curvature(points: np.ndarray) -> np.ndarray:
+    """How sharply a curve bends at every point, without sign [1/m]; also of many, float64[..., 2, n]."""
+    first = np.gradient(points, axis=-1)
+    second = np.gradient(first, axis=-1)
+    (x, y), (a, b) = np.moveaxis(first, -2, 0), np.moveaxis(second, -2, 0)
+    return np.abs(x * b - y * a) / np.maximum(1e-9, np.hypot(x, y) ** 3)
+
+
 def smoothed(points: np.ndarray, *, spacing: float, wavelength: float, corridor: np.ndarray) -> np.ndarray:
     """The curve with least change of curvature near evenly spaced points (Whittaker 1923, third differences).
 

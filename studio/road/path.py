@@ -1,7 +1,8 @@
 """The line a vehicle drives: a lane path drawn as one smooth curve, with a point every metre.
 
-Lane centre lines have corners where netconvert joins its pieces. A path follows them within `CORRIDOR`, blends lane
-changes over the length the road gives, and smooths the whole so that curvature changes steadily.
+Lanes are smooth curves, but not where a road begins in the middle of a junction, and not from one lane to the next. A path
+follows them within `CORRIDOR`, blends lane changes over the length the road gives, and smooths the whole so that curvature
+changes steadily.
 """
 
 from dataclasses import dataclass, field
@@ -19,10 +20,9 @@ PATH_ROWS = 5
 MAKERS = ("path.py", "curve.py")
 
 GRAIN = 0.25  # [m] spacing of the curve while it is made
-CORRIDOR = 0.27  # [m] how far smoothing may leave the centre line on a road
-JUNCTION_CORRIDOR = 0.8  # [m] in a junction, where the centre line is a guess
+CORRIDOR = 0.15  # [m] how far smoothing may leave the lane
 CHANGE_CORRIDOR = 0.8  # [m] in a lane change
-WAVELENGTH = 24.0  # [m] shorter waves are corners of the map, not bends of the road
+WAVELENGTH = 8.0  # [m] shorter waves are corners where lanes meet
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
 SHARPEST = 0.15  # [1/m] curvature that a car still drives with ease; its full lock is about 0.18
@@ -128,7 +128,7 @@ def drafted(network: Network, lane_path: LanePath) -> Draft:
     for used in stretches(network, lane_path):
         last = used[-1]
         if last.internal:
-            draft.add(last.centre, JUNCTION_CORRIDOR, last.speed)
+            draft.add(last.centre, CORRIDOR, last.speed)
             continue
         line = blended(used)
         for i, lane in enumerate(used):

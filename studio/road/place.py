@@ -14,7 +14,7 @@ from studio.road.network import ATTRIBUTION, Connection, Network
 from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
-    *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
+    *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
     *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
@@ -76,6 +76,7 @@ def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
 def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
     from studio.road import audit, turn
+    from studio.road.alignment import aligned
     from studio.road.country import country_at
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
@@ -91,7 +92,8 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     left_hand = side.side == "left"
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
-    net, forks = lanes_of(path, found, ways, box, ids, left_hand)
+    raw, forks = lanes_of(path, found, ways, box, ids, left_hand)
+    net = aligned(raw)
     progress("placing signals and scenery")
     lights = lights_of(found, ways, box, net)
     network = Network(
@@ -107,7 +109,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
         signals=lights,
         scenery=scenery(found, box),
     )
-    report = audit.report(network, found, ways, box, net.origins, turns=turn.count(net, forks), side=side, country=country.name)
+    report = audit.report(network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name)
     return replace(network, report=replace(report, seconds=time.perf_counter() - began))
 
 
