@@ -52,7 +52,14 @@ def aligned(net: Net) -> Net:
     net = redrawn(net, chained)
     through = {id(connection) for connection in onward.values()}
     turns = [c for c in net.connections if c.via and id(c) not in through]
-    return redrawn(net, {lane: line for turn in turns for lane, line in turn_lines(net, turn)})
+    net = redrawn(net, {lane: line for turn in turns for lane, line in turn_lines(net, turn)})
+    return replace(net, connections=tuple(replace(c, sharpest=sharpest(net, c)) for c in net.connections))
+
+
+def sharpest(net: Net, connection: Connection) -> float:
+    """Curvature of the sharpest bend on the way through a junction [1/m]."""
+    lines = [net.lanes[via].centre for via in connection.via]
+    return max((float(curve.curvature(line)[1:-1].max()) for line in lines if line.shape[1] > 3), default=0.0)
 
 
 def redrawn(net: Net, lines: dict[int, np.ndarray]) -> Net:

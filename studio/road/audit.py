@@ -9,6 +9,7 @@ from studio.road import osm
 from studio.road.netconvert import Net
 from studio.road.network import Network
 from studio.road.osm import Box, Survey, Way, spot_of
+from studio.road.priority import counts
 from studio.road.report import (
     BuildingCount,
     DriveSide,
@@ -45,6 +46,7 @@ def report(
         lane_km=sum(lane.length for lane in raw.lanes if not lane.internal) / 1000.0,
         junctions=len(network.junctions),
         signals=signals,
+        right_of_way=counts(network.connections),
         turn_lanes=turns,
         speed_limits=count_limits(raw, ways, notes),
         buildings=buildings,

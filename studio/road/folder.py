@@ -97,7 +97,8 @@ def network_json(network: Network) -> dict[str, Any]:
             {"id": each.id, "name": each.name, "lanes": list(each.lanes), "internal": each.internal} for each in network.roads.values()
         ],
         "connections": [
-            {"from_lane": each.from_lane, "to_lane": each.to_lane, "via": list(each.via), "signal": each.link, "direction": each.direction}
+            {"from_lane": each.from_lane, "to_lane": each.to_lane, "via": list(each.via), "signal": each.link, "direction": each.direction,
+             "right_of_way": each.right_of_way, "yields": list(each.yields)}
             for each in network.connections
         ],
         "junctions": [points(each) for each in network.junctions],

@@ -6,7 +6,8 @@ programmes.
 
 import subprocess
 import tempfile
-from dataclasses import dataclass
+from collections import defaultdict
+from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.sax.saxutils import unescape
@@ -36,11 +37,16 @@ DIRECTIONS = {
 }
 
 
+Pair = tuple[str, str]  # the roads that a connection leads from and to
+
+
 @dataclass(frozen=True)
 class Net:
     """What netconvert made: all but signals and scenery.
 
     `signalled` are the lanes that end at a mapped signal, `origins` the ids of the ways that a road is made of.
+    `yields` tells whom one lets go first on the way from a road to another, `equal` names the junctions without major road,
+    `rings` the roads of roundabouts.
     """
 
     lanes: tuple[Lane, ...]
@@ -49,6 +55,9 @@ class Net:
     junctions: tuple[np.ndarray, ...]
     signalled: frozenset[int]
     origins: dict[str, tuple[int, ...]]
+    yields: dict[Pair, frozenset[Pair]] = field(default_factory=dict)
+    equal: frozenset[str] = frozenset()
+    rings: frozenset[str] = frozenset()
 
 
 def convert(xml: str, projection: str, *, source: Path, left_hand: bool = False) -> Net:
@@ -93,7 +102,25 @@ def parse(root: ElementTree.Element) -> Net:
     steps = [Step.read(element, named, roads) for element in root.iter("connection")]
     signalled = frozenset(step.start for step in steps if step.signalled)
     junctions = tuple(shape(element.get("shape")) for element in root.iter("junction") if is_surface(element))
-    return Net(tuple(lanes), roads, connections(steps, lanes), junctions, signalled, origins(root))
+    made = connections(steps, lanes)
+    equal = frozenset(junction.get("id") for junction in root.iter("junction") if junction.get("type") == "right_before_left")
+    rings = frozenset(road for ring in root.iter("roundabout") for road in ring.get("edges", "").split())
+    return Net(tuple(lanes), roads, made, junctions, signalled, origins(root), yields(root, named, made, lanes), equal, rings)
+
+
+def yields(root: ElementTree.Element, named: dict, made: tuple[Connection, ...], lanes: list[Lane]) -> dict[Pair, frozenset[Pair]]:
+    """For the way from a road to another those that go first: netconvert numbers a junction's ways and tells of each to
+    which others it responds, in a word of bits whose last one is for way 0."""
+    over = {via: (lanes[c.from_lane].road, lanes[c.to_lane].road) for c in made for via in c.via}
+    found = defaultdict(frozenset)
+    for junction in root.iter("junction"):
+        pairs = [over.get(named.get(tuple_of(lane))) for lane in (junction.get("intLanes") or "").split()]
+        for request in junction.iter("request"):
+            own = pairs[int(request.get("index"))]
+            first = {pair for pair, bit in zip(pairs, reversed(request.get("response")), strict=False) if bit == "1" and pair}
+            if own is not None:
+                found[own] |= first - {own}
+    return dict(found)
 
 
 def origins(root: ElementTree.Element) -> dict[str, tuple[int, ...]]:

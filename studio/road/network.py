@@ -15,6 +15,7 @@ from studio.road.report import Report
 from studio.road.signals import Signals
 
 ATTRIBUTION = "© OpenStreetMap contributors"
+RIGHTS = ("signal", "priority", "yield", "stop", "all_way_stop", "right_before_left", "left_before_right", "roundabout", "zipper")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,13 +49,19 @@ class Road:
 
 @dataclass(frozen=True)
 class Connection:
-    """The way from the end of one lane to the start of another; `link` is the signal at its start, or -1."""
+    """The way from the end of one lane to the start of another; `link` is the signal at its start, or -1.
+
+    `right_of_way` is one of `RIGHTS`, `yields` are the connections (by their number) that go first where both come at once.
+    """
 
     from_lane: int
     to_lane: int
     via: tuple[int, ...]
     link: int
     direction: str
+    right_of_way: str = "priority"
+    yields: tuple[int, ...] = ()
+    sharpest: float = 0.0  # [1/m] curvature of its sharpest bend
 
 
 @dataclass(frozen=True, eq=False)

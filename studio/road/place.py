@@ -15,7 +15,7 @@ from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
     *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
-    *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
+    *("network.py", "osm.py", "overpass.py", "place.py", "priority.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
 
@@ -78,6 +78,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     from studio.road import audit, turn
     from studio.road.alignment import aligned
     from studio.road.country import country_at
+    from studio.road.priority import ruled
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
 
@@ -104,7 +105,9 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
         digest=digest,
         lanes=net.lanes,
         roads=net.roads,
-        connections=linked(net.connections, lights),
+        connections=ruled(
+            net, linked(net.connections, lights), lights, ways, found.nodes, box, country=country.name, left_hand=left_hand
+        ),
         junctions=net.junctions,
         signals=lights,
         scenery=scenery(found, box),

@@ -97,6 +97,7 @@ class Report:
     lane_km: float = 0.0
     junctions: int = 0
     signals: SignalCount = SignalCount()
+    right_of_way: dict[str, int] = field(default_factory=dict)  # connections by their rule
     turn_lanes: TurnCount = TurnCount()
     speed_limits: LimitCount = LimitCount()
     buildings: BuildingCount = BuildingCount()
@@ -143,6 +144,7 @@ def rows(report: Report) -> list[list[str]]:
         ["lanes", f"{report.lane_km:.3f} km", ""],
         ["junctions", str(report.junctions), ""],
         ["signals", f"{signals.placed} of {signals.in_map}", f"have a stop line; {signals.groups} programmes"],
+        ["right of way", f"{sum(report.right_of_way.values())} ways", ", ".join(f"{right} {count}" for right, count in report.right_of_way.items())],
         ["turn lanes", f"{turns.matching} of {turns.tagged_lanes}", "lanes lead where their tag says"],
         ["speed limits", f"{limits.mapped_ways} ways", f"{limits.guessed_ways} more guessed; {by_limit(limits)}"],
         ["buildings", str(report.buildings.placed), f"{report.buildings.height_guessed} heights guessed"],
