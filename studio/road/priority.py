@@ -76,7 +76,7 @@ def ruled(net: Net, connections: tuple[Connection, ...], lights: Signals, ways: 
 def foes_of(net: Net, connections: tuple[Connection, ...], lights: Signals) -> list[frozenset[int]]:
     """For each way through a junction those that cross it or end in the same lane, unless lights keep them apart."""
     apart = {(i, j) for a, b in lights.conflicts.T.tolist() for i, j in ((a, b), (b, a))}
-    lines = [shapely.LineString(line_of(net, c).T) for c in connections]
+    lines = np.array([shapely.LineString(line_of(net, c).T) for c in connections], dtype=object)
     found = defaultdict(set)
     for i, j in shapely.STRtree(lines).query(lines, predicate="intersects").T.tolist():
         if connections[i].from_lane != connections[j].from_lane and (connections[i].link, connections[j].link) not in apart:
