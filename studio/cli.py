@@ -133,12 +133,12 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
 
         load_applications(applications)
         prepared = job.prepare(job.load(scenario, changes(set_)))
-    print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}")
+    print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
 
 
 @app.command("import")
 def import_(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A map: .osm, .osm.gz, .osm.pbf, or .json from an Overpass server.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A map: .osm, .osm.gz, .osm.pbf, .json from an Overpass server, or OpenDRIVE (.xodr).")],
     out: Annotated[Path, typer.Option("--out", help="The folder to make; an earlier import there is replaced.")],
     bbox: Annotated[str | None, typer.Option("--bbox", metavar="W,S,E,N", help="The part to keep [deg]; default: the mapped place.")] = None,
     as_json: AsJson = False,
@@ -154,7 +154,7 @@ def import_(
         print_json(folder.report_json(network, file, bbox))
         return
     print_table(["what", "how many", "remark"], rows(network.report))
-    print(f"{out}: {network.name}. {network.attribution}")
+    print(f"{out}: {network.name}. {network.attribution}".rstrip())
 
 
 @app.command()

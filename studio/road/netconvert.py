@@ -16,7 +16,7 @@ import sumo
 
 from studio.errors import MapError
 from studio.road import curve
-from studio.road.network import Connection, Lane, Road
+from studio.road.network import Connection, Lane, Net, Road
 
 NETCONVERT = Path(sumo.SUMO_HOME) / "bin" / "netconvert"
 PATIENCE = 120.0  # [s] after which an import is given up
@@ -34,21 +34,6 @@ DIRECTIONS = {
     **{"s": "straight", "l": "left", "r": "right", "L": "slight_left", "R": "slight_right"},
     **{"t": "turn", "T": "turn"},
 }
-
-
-@dataclass(frozen=True)
-class Net:
-    """What netconvert made: all but signals and scenery.
-
-    `signalled` are the lanes that end at a mapped signal, `origins` the ids of the ways that a road is made of.
-    """
-
-    lanes: tuple[Lane, ...]
-    roads: dict[str, Road]
-    connections: tuple[Connection, ...]
-    junctions: tuple[np.ndarray, ...]
-    signalled: frozenset[int]
-    origins: dict[str, tuple[int, ...]]
 
 
 def convert(xml: str, projection: str, *, source: Path, left_hand: bool = False) -> Net:

@@ -7,19 +7,20 @@ Coordinates are local metres, x east, y north, from the centre of the clipped ma
     Connection  how one leaves a lane at its end: over the lanes `via` onto the lane `to_lane`
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from studio.road.report import Report
 from studio.road.signals import Signals
 
-ATTRIBUTION = "© OpenStreetMap contributors"
-
 
 @dataclass(frozen=True, eq=False)
 class Lane:
-    """One lane. `index` 0 is the lane at the kerb; `centre` is its centre line, float64[2, n] [m]."""
+    """One lane. `index` 0 is the lane at the kerb; `centre` is its centre line, float64[2, n] [m].
+
+    `height` float64[n] [m] is that of the road at the points of `centre`; zeros where nothing is known.
+    """
 
     id: int
     road: str
@@ -30,6 +31,11 @@ class Lane:
     internal: bool
     length: float  # [m]
     open: bool = True  # to cars; a bus lane is not
+    height: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        if self.height.size != self.centre.shape[1]:
+            object.__setattr__(self, "height", np.zeros(self.centre.shape[1]))
 
 
 @dataclass(frozen=True)
@@ -55,6 +61,21 @@ class Connection:
     via: tuple[int, ...]
     link: int
     direction: str
+
+
+@dataclass(frozen=True)
+class Net:
+    """Lanes and junctions before signals and scenery.
+
+    `signalled` are the lanes that end at a mapped signal, `origins` the ids of the ways that a road is made of.
+    """
+
+    lanes: tuple[Lane, ...]
+    roads: dict[str, Road]
+    connections: tuple[Connection, ...]
+    junctions: tuple[np.ndarray, ...]
+    signalled: frozenset[int]
+    origins: dict[str, tuple[int, ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +112,7 @@ class Network:
     """A place: `origin` is the latitude and longitude [deg] of (0, 0), `bounds` x0, y0, x1, y1 [m].
 
     `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out.
+    `datum` is where (0, 0) lies in the file's own plane coordinates [m], for a kind of map that has some.
     """
 
     name: str
@@ -105,6 +127,8 @@ class Network:
     signals: Signals
     scenery: Scenery
     report: Report = Report()
+    licence: str = ""
+    datum: tuple[float, float] = (0.0, 0.0)
 
     @property
     def drive_side(self) -> str:

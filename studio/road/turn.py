@@ -20,8 +20,7 @@ import shapely
 
 from studio.road import curve
 from studio.road.bend import hermite, is_one_way, unit
-from studio.road.netconvert import Net
-from studio.road.network import Connection, Lane, Road
+from studio.road.network import Connection, Lane, Net, Road
 from studio.road.osm import Box, Way, spot_of
 from studio.road.report import Notes, TurnCount
 

@@ -1,0 +1,25 @@
+"""What a reader makes of a map file. What is left to do, signals and report, is the same for every kind of map."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from studio.road.network import Net, Network, Scenery
+from studio.road.report import Report
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Lanes and scenery with their place on the earth; `signalled` are the lanes that end at a signal.
+
+    `report` looks at the finished network and tells what became of the map. The others are as in a Network.
+    """
+
+    net: Net
+    signalled: frozenset[int]
+    scenery: Scenery
+    origin: tuple[float, float]
+    bounds: tuple[float, float, float, float]
+    attribution: str
+    licence: str
+    report: Callable[[Network], Report]
+    datum: tuple[float, float] = (0.0, 0.0)
