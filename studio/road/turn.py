@@ -291,7 +291,8 @@ class Draft:
         line = through(a.centre, b.centre)
         number, road = len(self.lanes), f":turn_{start}_{end}"
         length, speed = curve.length(line), (a.speed + b.speed) / 2.0
-        self.lanes.append(Lane(number, road, 0, min(a.width, b.width), speed, line, True, length))
+        height = np.interp(curve.stations(line), [0.0, length], [a.height[-1], b.height[0]])
+        self.lanes.append(Lane(number, road, 0, min(a.width, b.width), speed, line, True, length, height=height))
         junction = self.roads[a.road].to_junction
         self.roads[road] = Road(road, "", (number,), junction, junction, speed, length, True)
         self.connections.append(Connection(start, end, (number,), -1, direction))
