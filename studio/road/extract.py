@@ -34,7 +34,7 @@ def part(path: Path, radius: float | None, bbox: str | None) -> Part:
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
     """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road import audit, turn
+    from studio.road import audit, elevation, turn
     from studio.road.country import country_at
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
@@ -49,6 +49,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
     net, forks = lanes_of(path, found, ways, box, ids, left_hand)
+    net = elevation.raised(net, found, cut, box)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),

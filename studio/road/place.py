@@ -15,7 +15,7 @@ from studio.road.reader import ending_of, reader_of
 from studio.road.signals import Signals, signals
 
 IMPORTER = (
-    *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "extract.py", "lane_graph.py"),
+    *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "elevation.py", "extract.py", "lane_graph.py"),
     *("limit.py", "netconvert.py", "network.py", "opendrive.py", "osm.py", "overpass.py", "place.py", "plan.py"),
     *("reader.py", "reference_line.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py", "xodr.py"),
 )
