@@ -14,7 +14,7 @@ from typing import Annotated, Any
 
 import typer
 
-from studio.errors import Problem, RunError, StudioError, UnknownError
+from studio.errors import MapError, Problem, RunError, StudioError, UnknownError
 
 app = typer.Typer(
     help="Cooperative ADAS Studio. Without a command it serves the page.",
@@ -23,6 +23,8 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
+generate = typer.Typer(help="Makes a map.", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
+app.add_typer(generate, name="generate")
 
 Db = Annotated[Path, typer.Option("--db", help="The run database; made when there is none.")]
 Applications = Annotated[
@@ -133,12 +135,12 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
 
         load_applications(applications)
         prepared = job.prepare(job.load(scenario, changes(set_)))
-    print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}")
+    print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
 
 
 @app.command("import")
 def import_(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="A map: .osm, .osm.gz, .osm.pbf, or .json from an Overpass server.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A map: .osm, .osm.gz, .osm.pbf, .json from an Overpass server, or OpenDRIVE (.xodr).")],
     out: Annotated[Path, typer.Option("--out", help="The folder to make; an earlier import there is replaced.")],
     bbox: Annotated[str | None, typer.Option("--bbox", metavar="W,S,E,N", help="The part to keep [deg]; default: the mapped place.")] = None,
     as_json: AsJson = False,
@@ -154,7 +156,27 @@ def import_(
         print_json(folder.report_json(network, file, bbox))
         return
     print_table(["what", "how many", "remark"], rows(network.report))
-    print(f"{out}: {network.name}. {network.attribution}")
+    print(f"{out}: {network.name}. {network.attribution}".rstrip())
+
+
+@generate.command()
+def motorway(
+    out: Annotated[Path, typer.Option("--out", help="The OpenDRIVE file to write; one that is there is replaced.")],
+    length: Annotated[float, typer.Option(help="Length [m].")] = 6000.0,
+    lanes: Annotated[int, typer.Option(help="Lanes of each direction.")] = 3,
+    radius: Annotated[float, typer.Option(help="Radius of its bends [m].")] = 1000.0,
+    grade: Annotated[float, typer.Option(help="Steepest slope of its hills [1]; 0 is level.")] = 0.0,
+) -> None:
+    """Writes a motorway with straights, clothoids and bends as OpenDRIVE."""
+    from studio.road.motorway import motorway as written
+
+    text = written(length=length, lanes=lanes, radius=radius, grade=grade)
+    try:
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        problem = Problem("--out", "cannot be written", str(out), remedy="name a file in a folder that exists")
+        raise MapError(f"{out}: {error.strerror or error}", [problem]) from None
+    print(f"{out}: a motorway of {length:g} m with {lanes} lanes each way")
 
 
 @app.command()

@@ -21,8 +21,7 @@ import shapely
 
 from studio.road import curve
 from studio.road.bend import unit
-from studio.road.netconvert import Net
-from studio.road.network import Connection, Lane
+from studio.road.network import Connection, Lane, Net
 
 SPACING = 1.0  # [m] of the points of a lane
 CORRIDOR = 0.3  # [m] how far a curve may leave the mapped line
@@ -52,8 +51,7 @@ def aligned(net: Net) -> Net:
     net = redrawn(net, chained)
     through = {id(connection) for connection in onward.values()}
     turns = [c for c in net.connections if c.via and id(c) not in through]
-    net = redrawn(net, {lane: line for turn in turns for lane, line in turn_lines(net, turn)})
-    return replace(net, connections=tuple(replace(c, sharpest=sharpest(net, c)) for c in net.connections))
+    return redrawn(net, {lane: line for turn in turns for lane, line in turn_lines(net, turn)})
 
 
 def sharpest(net: Net, connection: Connection) -> float:

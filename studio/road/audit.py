@@ -6,8 +6,7 @@ import numpy as np
 import shapely
 
 from studio.road import osm
-from studio.road.netconvert import Net
-from studio.road.network import Network
+from studio.road.network import Net, Network
 from studio.road.osm import Box, Survey, Way, spot_of
 from studio.road.priority import counts
 from studio.road.report import (

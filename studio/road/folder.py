@@ -1,6 +1,6 @@
 """An imported place as a folder: the map it was made of, the network as plain JSON, and the report.
 
-    map.osm, map.osm.gz, map.osm.pbf, map.json   the map as it came; `load` of the folder starts from it
+    map.osm, map.osm.gz, map.osm.pbf, map.json, map.xodr   the map as it came; `load` of the folder starts from it
     network.json.gz     lanes, roads, connections and signals in local metres, for other programs
     report.json         what was found, guessed and skipped, the part that was kept, the attribution
 """
@@ -17,6 +17,7 @@ import numpy as np
 
 from studio.errors import MapError
 from studio.road.network import Network
+from studio.road.reader import ENDINGS, ending_of
 
 REPORT, NETWORK = "report.json", "network.json.gz"
 
@@ -33,7 +34,7 @@ def write(network: Network, source: Path, out: Path, *, bbox: str | None) -> Non
         with tempfile.TemporaryDirectory(prefix=f".{out.name}-", dir=out.parent) as beside:
             made = Path(beside, "made")
             made.mkdir()
-            shutil.copyfile(source, made / f"map{ending(source)}")
+            shutil.copyfile(source, made / f"map{ending_of(source)}")
             (made / NETWORK).write_bytes(gzip.compress(as_text(network_json(network)), mtime=0))
             (made / REPORT).write_bytes(as_text(report_json(network, source, bbox)))
             if out.exists():
@@ -51,16 +52,6 @@ def refuse_foreign(out: Path) -> None:
         raise MapError(f"{out}: the folder holds other things; name a new or an empty one")
 
 
-def ending(source: Path) -> str:
-    """The ending that tells a map's kind.
-
-    >>> ending(Path("some.place.osm.gz"))
-    '.osm.gz'
-    """
-    name = source.name.lower()
-    return next(each for each in (".osm.gz", ".osm.pbf", ".osm", ".json") if name.endswith(each))
-
-
 def as_text(value: Any) -> bytes:
     """JSON as it stands in a file."""
     return json.dumps(value, ensure_ascii=False, indent=1).encode()
@@ -72,7 +63,7 @@ def report_json(network: Network, source: Path, bbox: str | None) -> dict[str, A
     return {
         "name": network.name,
         "attribution": network.attribution,
-        "licence": "Open Database License (ODbL) 1.0",
+        "licence": network.licence,
         "source": source.name,
         "bbox": bbox,
         "origin": {"latitude": latitude, "longitude": longitude},
@@ -122,7 +113,7 @@ def opened(folder: Path) -> tuple[Path, str | None]:
     """
     try:
         text = json.loads((folder / REPORT).read_text(encoding="utf-8"))
-        (source,) = [each for each in folder.iterdir() if each.name in ("map.osm", "map.osm.gz", "map.osm.pbf", "map.json")]
+        (source,) = [each for each in folder.iterdir() if each.name in {f"map{ending}" for ending in ENDINGS}]
         bbox = text["bbox"]
     except (OSError, ValueError, KeyError, TypeError):
         raise MapError(f"{folder}: the map file cannot be read: this folder is no import; make one with `studio import`") from None

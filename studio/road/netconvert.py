@@ -7,7 +7,7 @@ programmes.
 import subprocess
 import tempfile
 from collections import defaultdict
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.sax.saxutils import unescape
@@ -17,7 +17,7 @@ import sumo
 
 from studio.errors import MapError
 from studio.road import curve
-from studio.road.network import Connection, Lane, Road
+from studio.road.network import Connection, Lane, Net, Pair, Road
 
 NETCONVERT = Path(sumo.SUMO_HOME) / "bin" / "netconvert"
 PATIENCE = 120.0  # [s] after which an import is given up
@@ -35,29 +35,6 @@ DIRECTIONS = {
     **{"s": "straight", "l": "left", "r": "right", "L": "slight_left", "R": "slight_right"},
     **{"t": "turn", "T": "turn"},
 }
-
-
-Pair = tuple[str, str]  # the roads that a connection leads from and to
-
-
-@dataclass(frozen=True)
-class Net:
-    """What netconvert made: all but signals and scenery.
-
-    `signalled` are the lanes that end at a mapped signal, `origins` the ids of the ways that a road is made of.
-    `yields` tells whom one lets go first on the way from a road to another, `equal` names the junctions without major road,
-    `rings` the roads of roundabouts.
-    """
-
-    lanes: tuple[Lane, ...]
-    roads: dict[str, Road]
-    connections: tuple[Connection, ...]
-    junctions: tuple[np.ndarray, ...]
-    signalled: frozenset[int]
-    origins: dict[str, tuple[int, ...]]
-    yields: dict[Pair, frozenset[Pair]] = field(default_factory=dict)
-    equal: frozenset[str] = frozenset()
-    rings: frozenset[str] = frozenset()
 
 
 def convert(xml: str, projection: str, *, source: Path, left_hand: bool = False) -> Net:

@@ -7,20 +7,22 @@ Coordinates are local metres, x east, y north, from the centre of the clipped ma
     Connection  how one leaves a lane at its end: over the lanes `via` onto the lane `to_lane`
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from studio.road.report import Report
 from studio.road.signals import Signals
 
-ATTRIBUTION = "© OpenStreetMap contributors"
 RIGHTS = ("signal", "priority", "yield", "stop", "all_way_stop", "right_before_left", "left_before_right", "roundabout", "zipper")
 
 
 @dataclass(frozen=True, eq=False)
 class Lane:
-    """One lane. `index` 0 is the lane at the kerb; `centre` is its centre line, float64[2, n] [m]."""
+    """One lane. `index` 0 is the lane at the kerb; `centre` is its centre line, float64[2, n] [m].
+
+    `height` float64[n] [m] is that of the road at the points of `centre`; zeros where nothing is known.
+    """
 
     id: int
     road: str
@@ -31,6 +33,11 @@ class Lane:
     internal: bool
     length: float  # [m]
     open: bool = True  # to cars; a bus lane is not
+    height: np.ndarray = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        if self.height.size != self.centre.shape[1]:
+            object.__setattr__(self, "height", np.zeros(self.centre.shape[1]))
 
 
 @dataclass(frozen=True)
@@ -62,6 +69,29 @@ class Connection:
     right_of_way: str = "priority"
     yields: tuple[int, ...] = ()
     sharpest: float = 0.0  # [1/m] curvature of its sharpest bend
+
+
+Pair = tuple[str, str]  # the roads that a connection leads from and to
+
+
+@dataclass(frozen=True)
+class Net:
+    """Lanes and junctions before signals and scenery.
+
+    `signalled` are the lanes that end at a mapped signal, `origins` the ids of the ways that a road is made of.
+    `yields` tells whom one lets go first on the way from a road to another, `equal` names the junctions without major road,
+    `rings` the roads of roundabouts.
+    """
+
+    lanes: tuple[Lane, ...]
+    roads: dict[str, Road]
+    connections: tuple[Connection, ...]
+    junctions: tuple[np.ndarray, ...]
+    signalled: frozenset[int]
+    origins: dict[str, tuple[int, ...]]
+    yields: dict[Pair, frozenset[Pair]] = field(default_factory=dict)
+    equal: frozenset[str] = frozenset()
+    rings: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +128,7 @@ class Network:
     """A place: `origin` is the latitude and longitude [deg] of (0, 0), `bounds` x0, y0, x1, y1 [m].
 
     `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out.
+    `datum` is where (0, 0) lies in the file's own plane coordinates [m], for a kind of map that has some.
     """
 
     name: str
@@ -112,6 +143,8 @@ class Network:
     signals: Signals
     scenery: Scenery
     report: Report = Report()
+    licence: str = ""
+    datum: tuple[float, float] = (0.0, 0.0)
 
     @property
     def drive_side(self) -> str:

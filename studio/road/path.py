@@ -15,14 +15,15 @@ from studio.road.network import Lane, Network
 from studio.road.route import LanePath
 
 PATH_SPACING = 1.0  # [m]
-PATH_X, PATH_Y, PATH_HEADING, PATH_CURVATURE, PATH_SPEED = range(5)
-PATH_ROWS = 5
+PATH_X, PATH_Y, PATH_HEADING, PATH_CURVATURE, PATH_SPEED, PATH_HEIGHT, PATH_SLOPE = range(7)
+PATH_ROWS = 7
 MAKERS = ("path.py", "curve.py")
 
 GRAIN = 0.25  # [m] spacing of the curve while it is made
 CORRIDOR = 0.15  # [m] how far smoothing may leave the lane
 CHANGE_CORRIDOR = 0.8  # [m] in a lane change
 WAVELENGTH = 8.0  # [m] shorter waves are corners where lanes meet
+HEIGHT_WAVELENGTH = 60.0  # [m] the same of its height
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
 SHARPEST = 0.15  # [1/m] curvature that a car still drives with ease; its full lock is about 0.18
@@ -43,7 +44,10 @@ class Station:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Points float64[PATH_ROWS, n], one per metre; stop lines as (arc length [m], link); stations in order."""
+    """Points float64[PATH_ROWS, n], one per metre; stop lines as (arc length [m], link); stations in order.
+
+    PATH_HEIGHT [m] is the road's, PATH_SLOPE [1] its rise per metre driven, measured level like every arc length.
+    """
 
     points: np.ndarray
     stop_lines: tuple[tuple[float, int], ...]
@@ -65,9 +69,10 @@ class Mark:
 
 @dataclass
 class Draft:
-    """The rough line while it is put together: pieces, where each starts, how far it may be left [m], its limit [m/s]."""
+    """The rough line while it is put together: pieces, their heights [m], where each starts, how far it may be left [m], its limit [m/s]."""
 
     pieces: list[np.ndarray] = field(default_factory=list)
+    heights: list[np.ndarray] = field(default_factory=list)
     starts: list[Mark] = field(default_factory=list)
     corridors: list[float] = field(default_factory=list)
     limits: list[float] = field(default_factory=list)
@@ -75,10 +80,11 @@ class Draft:
     stations: list[tuple[Mark, Lane]] = field(default_factory=list)
     s: float = 0.0
 
-    def add(self, piece: np.ndarray, corridor: float, limit: float) -> None:
+    def add(self, piece: np.ndarray, height: np.ndarray, corridor: float, limit: float) -> None:
         """Goes on along `piece`."""
         self.starts.append(Mark(piece[:, 0], self.s))
         self.pieces.append(piece)
+        self.heights.append(height)
         self.corridors.append(corridor)
         self.limits.append(limit)
         self.s += curve.length(piece)
@@ -104,7 +110,7 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
 def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float) -> Path:
     """The same, made anew."""
     draft = drafted(network, lane_path)
-    points = sampled(smooth(draft))
+    points = sampled(*smooth(draft))
     limit = limits(draft, points)
     points[PATH_SPEED] = speeds(points[PATH_CURVATURE], limit, lateral_acceleration, deceleration)
     stops = located(points, [mark for mark, _ in draft.stop_lines])
@@ -128,13 +134,13 @@ def drafted(network: Network, lane_path: LanePath) -> Draft:
     for used in stretches(network, lane_path):
         last = used[-1]
         if last.internal:
-            draft.add(last.centre, CORRIDOR, last.speed)
+            draft.add(last.centre, last.height, CORRIDOR, last.speed)
             continue
-        line = blended(used)
+        line, height = blended(used)
         for i, lane in enumerate(used):
             at = i * line.shape[1] // len(used)
             draft.stations.append((Mark(line[:, at], draft.s + curve.length(line[:, : at + 1])), lane))
-        draft.add(line, CORRIDOR if len(used) == 1 else CHANGE_CORRIDOR, min(lane.speed for lane in used))
+        draft.add(line, height, CORRIDOR if len(used) == 1 else CHANGE_CORRIDOR, min(lane.speed for lane in used))
         if link.get(last.id, -1) >= 0:
             draft.stop_lines.append((Mark(line[:, -1], draft.s), link[last.id]))
     return draft
@@ -150,20 +156,23 @@ def stretches(network: Network, lane_path: LanePath) -> list[list[Lane]]:
     return found
 
 
-def blended(used: list[Lane]) -> np.ndarray:
-    """The line along a road from its first used lane to its last, lane changes one after another."""
+def blended(used: list[Lane]) -> tuple[np.ndarray, np.ndarray]:
+    """The line along a road from its first used lane to its last, lane changes one after another, and its height [m]."""
     lines = [curve.resampled(lane.centre, GRAIN) for lane in used]
     count = max(line.shape[1] for line in lines)
     total = sum(lane.length for lane in used) / len(used)
     fraction = np.linspace(0.0, 1.0, count)
     lines = [curve.along(lane.centre, fraction * curve.length(lane.centre)) for lane in used]
-    line = lines[0]
+    heights = [np.interp(fraction * curve.length(lane.centre), curve.stations(lane.centre), lane.height) for lane in used]
+    line, height = lines[0], heights[0]
     slot = 1.0 / max(1, len(used) - 1)
     for i, other in enumerate(lines[1:]):
         reach = min(slot, CHANGE_LENGTH / total)
         middle = (i + 0.5) * slot
-        line = line + ease((fraction - middle) / reach + 0.5) * (other - lines[i])
-    return line
+        share = ease((fraction - middle) / reach + 0.5)
+        line = line + share * (other - lines[i])
+        height = height + share * (heights[i + 1] - heights[i])
+    return line, height
 
 
 def ease(u: np.ndarray) -> np.ndarray:
@@ -172,8 +181,8 @@ def ease(u: np.ndarray) -> np.ndarray:
     return u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
 
 
-def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
-    """One polyline of all pieces that never turns back, and how far it may be left at each point [m].
+def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """One polyline of all pieces that never turns back, its height [m], and how far it may be left at each point [m].
 
     netconvert lets short ways through a junction run backwards where a signal stands close before it.
     """
@@ -181,26 +190,38 @@ def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
     corridor = np.repeat(draft.corridors, [piece.shape[1] for piece in draft.pieces])
     fresh = np.flatnonzero(np.append(1.0, np.hypot(*np.diff(points))) > 1e-3)
     kept = fresh[curve.forward(points[:, fresh])]
-    return points[:, kept], corridor[kept]
+    return points[:, kept], np.concatenate(draft.heights)[kept], corridor[kept]
 
 
 # -- the smooth line -------------------------------------------------------------------------------
 
 
-def smooth(draft: Draft) -> np.ndarray:
-    """The fine curve of a draft, a point every `GRAIN` metres; where it would be too sharp to drive, it gets room."""
-    rough, corridor = joined(draft)
+def smooth(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
+    """The fine curve of a draft, a point every `GRAIN` metres, and its height [m]; where it would be too sharp to drive, it gets room."""
+    rough, height, corridor = joined(draft)
     own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
     s = np.linspace(0.0, own[-1], fine.shape[1])
     corridor = np.interp(s, own, corridor)
+    height = np.interp(s, own, height)
     for room in (*ROOM, np.inf):
         line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
         sharp = np.abs(curvature_of(line)) > SHARPEST
         if room == np.inf or not sharp.any():
-            return line
+            return line, height
         corridor = np.where(
             curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor
         )
+
+
+def without_kinks(height: np.ndarray) -> np.ndarray:
+    """Heights [m] of points one metre apart, smoothed about the straight line between their ends; level ones stay as they are."""
+    if not height.any():
+        return height
+    weight = np.ones(height.size)
+    weight[[0, -1]] = 1e6
+    straight = np.linspace(height[0], height[-1], height.size)
+    stiffness = (HEIGHT_WAVELENGTH / (2.0 * np.pi * PATH_SPACING)) ** 6
+    return straight + curve.whittaker((height - straight)[None], weight, stiffness)[0]
 
 
 def curvature_of(line: np.ndarray) -> np.ndarray:
@@ -213,8 +234,8 @@ def heading_of(line: np.ndarray) -> np.ndarray:
     return np.unwrap(np.arctan2(np.gradient(line[1]), np.gradient(line[0])))
 
 
-def sampled(fine: np.ndarray) -> np.ndarray:
-    """Points exactly one metre of arc apart, with heading and curvature of the fine curve."""
+def sampled(fine: np.ndarray, height: np.ndarray) -> np.ndarray:
+    """Points exactly one metre of arc apart, with heading, curvature and slope of the fine curve."""
     s, heading, curvature = curve.stations(fine), heading_of(fine), curvature_of(fine)
     at = np.arange(0.0, np.floor(s[-1] / PATH_SPACING + 1e-6) + 1.0) * PATH_SPACING
     points = np.zeros((PATH_ROWS, len(at)))
@@ -223,8 +244,11 @@ def sampled(fine: np.ndarray) -> np.ndarray:
         (PATH_Y, fine[1]),
         (PATH_HEADING, heading),
         (PATH_CURVATURE, curvature),
+        (PATH_HEIGHT, height),
     ):
         points[row] = np.interp(at, s, values)
+    points[PATH_HEIGHT] = without_kinks(points[PATH_HEIGHT])
+    points[PATH_SLOPE] = np.gradient(points[PATH_HEIGHT], PATH_SPACING)
     return points
 
 

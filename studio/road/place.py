@@ -1,23 +1,24 @@
 """From a map file to a Network, kept on disk: the second time it is only read back."""
 
-import itertools
 import os
 import time
 from collections.abc import Callable
 from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 from studio.errors import MapError
-from studio.road import folder, kept, osm
-from studio.road.network import ATTRIBUTION, Connection, Network
-from studio.road.signals import Signals, dead_ends, signals
+from studio.road import folder, kept
+from studio.road.network import Connection, Net, Network
+from studio.road.reader import ending_of, reader_of
+from studio.road.signals import Signals, signals
 
 IMPORTER = (
-    *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
-    *("network.py", "osm.py", "overpass.py", "place.py", "priority.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
+    *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "elevation.py", "extract.py"),
+    *("lane_graph.py", "limit.py", "netconvert.py", "network.py", "opendrive.py", "osm.py", "overpass.py", "place.py", "plan.py"),
+    *("priority.py", "reader.py", "reference_line.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py", "xodr.py"),
 )
-SHORTEST_RADIUS = 50.0  # [m]
 
 
 def load(
@@ -27,12 +28,13 @@ def load(
     bbox: str | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
-    """The roads and the scenery of a map file (.osm, .osm.gz, .osm.pbf, or .json from an Overpass server).
+    """The roads and the scenery of a map: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json from Overpass) or OpenDRIVE (.xodr).
 
     Args:
         path: the map file, or the folder that `studio import` made of one.
-        bbox: the part to keep, "west,south,east,north" [deg].
-        radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms.
+        bbox: the part to keep, "west,south,east,north" [deg]; OpenDRIVE is taken whole.
+        radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms. OpenDRIVE is
+            taken whole.
         progress: is told what is being done.
 
     Raises:
@@ -43,18 +45,26 @@ def load(
         source, kept_part = folder.opened(path)
         network = load(source, radius=radius, bbox=bbox or (None if radius else kept_part), progress=progress)
         return replace(network, name=path.name)
-    if radius is not None and not radius >= SHORTEST_RADIUS:
-        raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
-    box = None if bbox is None else osm.bounding_box(bbox)
-    if box is not None and radius is not None:
-        raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
-    data = osm.read(path)
-    digest = digest_of(data, radius, box)
+    reader = reader_of(path)
+    part = reader.part(path, radius, bbox)
+    data = reader.read(path)
+    digest = digest_of(data, part)
     network = recall(digest)
     if network is None:
-        network = imported(path, data, digest, radius=radius, bbox=box, progress=progress)
+        network = imported(path, reader, data, part, digest, progress)
         kept.keep("maps", digest, network)
     return replace(network, name=name_of(path))
+
+
+def attribution(path: str | os.PathLike) -> str:
+    """Who made a map, or the map of an import's folder, without building it; "" where it does not say.
+
+    Raises:
+        MapError: the file is of an unknown kind, or the folder is no import.
+    """
+    path = Path(path)
+    source = folder.opened(path)[0] if path.is_dir() else path
+    return reader_of(source).attribution(source)
 
 
 def recall(digest: str) -> Network | None:
@@ -64,101 +74,46 @@ def recall(digest: str) -> Network | None:
 
 
 def name_of(path: Path) -> str:
-    """The map's name: its file without endings."""
-    return path.name.split(".osm")[0].removesuffix(".json")
+    """The map's name: its file without the ending."""
+    return path.name[: -len(ending_of(path))]
 
 
-def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
-    """Digest of the map's content, the options and everything that turns them into a Network."""
-    return kept.digest_of(radius, bbox, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
+def digest_of(data: bytes, part: object) -> str:
+    """Digest of the map's content, the part that is kept and everything that turns them into a Network."""
+    return kept.digest_of(part, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
 
 
-def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
-    """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road import audit, turn
-    from studio.road.alignment import aligned
-    from studio.road.country import country_at
+def imported(path: Path, reader: Any, data: bytes, part: object, digest: str, progress: Callable[[str], None]) -> Network:
+    """The network, made anew."""
     from studio.road.priority import ruled
-    from studio.road.scenery import scenery
-    from studio.road.side import drive_side
 
     began = time.perf_counter()
     progress(f"reading {path.name}")
-    found = osm.survey(path, data)
-    box = clipped(path, found, radius, bbox)
-    ids = itertools.count(10**15)  # above every OpenStreetMap id
-    cut = cut_ways(path, found, box, ids)
-    country = country_at(*box.centre)
-    side = drive_side(cut, country)
-    left_hand = side.side == "left"
-    ways = tagged(cut, found, country.name, left_hand)
-    progress("building lanes and junctions")
-    raw, forks = lanes_of(path, found, ways, box, ids, left_hand)
-    net = aligned(raw)
+    plan = reader.plan(path, data, part, progress)
     progress("placing signals and scenery")
-    lights = lights_of(found, ways, box, net)
+    net = plan.net
+    lights = signals(net.lanes, net.roads, net.connections, plan.signalled)
     network = Network(
         name=name_of(path),
-        attribution=ATTRIBUTION,
-        origin=box.centre,
-        bounds=box.bounds(),
+        attribution=plan.attribution,
+        licence=plan.licence,
+        origin=plan.origin,
+        bounds=plan.bounds,
         digest=digest,
         lanes=net.lanes,
         roads=net.roads,
-        connections=ruled(
-            net, linked(net.connections, lights), lights, ways, found.nodes, box, country=country.name, left_hand=left_hand
-        ),
+        connections=ruled(net, plan.law, linked(net, lights), lights),
         junctions=net.junctions,
         signals=lights,
-        scenery=scenery(found, box),
+        scenery=plan.scenery,
+        datum=plan.datum,
     )
-    report = audit.report(network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name)
-    return replace(network, report=replace(report, seconds=time.perf_counter() - began))
+    return replace(network, report=replace(plan.report(network), seconds=time.perf_counter() - began))
 
 
-def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
-    """The part of the map that is kept; raises MapError that names the file."""
-    try:
-        return osm.clip_box(found, radius=radius, bbox=bbox)
-    except MapError as error:
-        raise MapError(f"{path}: {error.message}") from None
+def linked(net: Net, lights: Signals) -> tuple[Connection, ...]:
+    """The connections with the signal that each starts at, and with their sharpest bends."""
+    from studio.road.alignment import sharpest
 
-
-def cut_ways(path: Path, found, box, ids) -> list:
-    """The ways within that part; raises MapError when there is none."""
-    ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
-    if not ways:
-        raise MapError(
-            f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox"
-        )
-    return ways
-
-
-def tagged(ways: list, found, country: str, left_hand: bool) -> list:
-    """The ways with limits, lane counts and widths that netconvert reads; what was guessed is noted in `found`."""
-    from studio.road import cross_section, limit
-
-    limited = [limit.limited(way, country, found.notes) for way in ways]
-    return [cross_section.mended(way, found.notes, left_hand=left_hand) for way in limited]
-
-
-def lanes_of(path: Path, found, ways: list, box, ids, left_hand: bool):
-    """Lanes and junctions, their arrows mended, and the forks that have arrows."""
-    from studio.road import bend, netconvert, turn
-
-    clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
-    net = netconvert.convert(clean, box.projection, source=path, left_hand=left_hand)
-    forks = turn.forks(net, ways, box, found.notes, left_hand=left_hand)
-    return turn.mended(net, forks, left_hand=left_hand), forks
-
-
-def lights_of(found, ways: list, box, net) -> Signals:
-    """The signals of the network, those at the map's edge too."""
-    mapped = list(osm.mapped_signals(found, ways, box).values())
-    return signals(net.lanes, net.roads, net.connections, net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped))
-
-
-def linked(connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:
-    """The connections with the signal that each starts at."""
     link = {lane: number for number, lane in enumerate(lights.link_lane.tolist())}
-    return tuple(replace(connection, link=link.get(connection.from_lane, -1)) for connection in connections)
+    return tuple(replace(each, link=link.get(each.from_lane, -1), sharpest=sharpest(net, each)) for each in net.connections)

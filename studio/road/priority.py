@@ -22,8 +22,7 @@ import shapely
 
 from studio.road import curve
 from studio.road.alignment import direction_at, turned
-from studio.road.netconvert import Net
-from studio.road.network import Connection
+from studio.road.network import Connection, Net, Pair
 from studio.road.osm import Box, Way
 from studio.road.signals import Signals
 
@@ -36,18 +35,30 @@ SIGNS = {"give_way": "yield", "stop": "stop"}
 
 
 @dataclass(frozen=True)
-class Ground:
-    """What the rules look at: connections, for each those it meets, junctions without major road, signs at the ends of roads."""
+class Law:
+    """What a place says about who goes first.
 
-    net: Net
-    connections: tuple[Connection, ...]
-    foes: list[frozenset[int]]
+    `yields` are netconvert's answers, `equal` the junctions without major road, `signs` the rules that signs set at the ends of
+    roads, `left_first` whether the left goes before the right at equal roads.
+    """
+
+    yields: dict[Pair, frozenset[Pair]]
     equal: frozenset[str]
     signs: dict[str, str]
     left_hand: bool
     left_first: bool
 
-    def pair(self, i: int) -> tuple[str, str]:
+
+@dataclass(frozen=True)
+class Ground:
+    """Connections under a law, and for each those that it meets."""
+
+    net: Net
+    law: Law
+    connections: tuple[Connection, ...]
+    foes: list[frozenset[int]]
+
+    def pair(self, i: int) -> Pair:
         """The roads that a connection leads from and to."""
         connection = self.connections[i]
         return self.net.lanes[connection.from_lane].road, self.net.lanes[connection.to_lane].road
@@ -58,15 +69,12 @@ class Ground:
 
     def is_equal(self, i: int) -> bool:
         """Whether the connection's junction has no major road."""
-        return self.net.roads[self.pair(i)[0]].to_junction in self.equal
+        return self.net.roads[self.pair(i)[0]].to_junction in self.law.equal
 
 
-def ruled(net: Net, connections: tuple[Connection, ...], lights: Signals, ways: list[Way], nodes: dict[int, dict[str, str]],
-          box: Box, *, country: str, left_hand: bool) -> tuple[Connection, ...]:  # fmt: skip
-    """The connections with their right of way; `nodes` are the tags of the map's nodes."""
-    equal = net.equal | (equal_junctions(net, ways) if left_hand else frozenset())
-    signs = signs_of(net, ways, nodes, box)
-    ground = Ground(net, connections, foes_of(net, connections, lights), equal, signs, left_hand, country in LEFT_FIRST)
+def ruled(net: Net, law: Law, connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:
+    """The connections with their right of way."""
+    ground = Ground(net, law, connections, foes_of(net, connections, lights))
     first = [frozenset(j for j in ground.foes[i] if goes_first(ground, j, i)) for i in range(len(connections))]
     return tuple(
         replace(c, right_of_way=right_of(ground, i, first[i]), yields=tuple(sorted(first[i]))) for i, c in enumerate(connections)
@@ -96,14 +104,14 @@ def line_of(net: Net, connection: Connection) -> np.ndarray:
 def goes_first(ground: Ground, j: int, i: int) -> bool:
     """Whether connection j goes before i, which it meets."""
     own, other = ground.pair(i), ground.pair(j)
-    signs, rings = ground.signs, ground.net.rings
+    signs, rings = ground.law.signs, ground.net.rings
     if own[0] == other[0]:
         return ground.connections[i].to_lane == ground.connections[j].to_lane  # in turn
     if (own[0] in signs) != (other[0] in signs):
         return own[0] in signs
     if (own[0] in rings) != (other[0] in rings):
         return other[0] in rings
-    return comes_first(ground, j, i) if ground.is_equal(i) else other in ground.net.yields.get(own, ())
+    return comes_first(ground, j, i) if ground.is_equal(i) else other in ground.law.yields.get(own, ())
 
 
 def comes_first(ground: Ground, j: int, i: int) -> bool:
@@ -112,7 +120,7 @@ def comes_first(ground: Ground, j: int, i: int) -> bool:
     if turned(own, other) > ONCOMING:
         return turns_across(ground, i) and not turns_across(ground, j)
     from_right = own[0] * other[1] - own[1] * other[0] > 0.0
-    return bool(from_right != ground.left_first)
+    return bool(from_right != ground.law.left_first)
 
 
 def turns_across(ground: Ground, i: int) -> bool:
@@ -120,7 +128,7 @@ def turns_across(ground: Ground, i: int) -> bool:
     own = ground.coming(i)
     after = direction_at(ground.net.lanes[ground.connections[i].to_lane].centre, 0)
     left = own[0] * after[1] - own[1] * after[0]
-    return turned(own, after) > np.radians(30.0) and bool(left > 0.0) != ground.left_hand
+    return turned(own, after) > np.radians(30.0) and bool(left > 0.0) != ground.law.left_hand
 
 
 # -- what it is called -----------------------------------------------------------------------------
@@ -134,16 +142,37 @@ def right_of(ground: Ground, i: int, first: frozenset[int]) -> str:
         return "signal"
     if first and not others & first:
         return "zipper"
-    if start in ground.signs and others:
-        return ground.signs[start]
+    if start in ground.law.signs and others:
+        return ground.law.signs[start]
     if ground.is_equal(i) and others:
-        return "left_before_right" if ground.left_first else "right_before_left"
+        return "left_before_right" if ground.law.left_first else "right_before_left"
     if not first:
         return "priority"
     return "roundabout" if end in ground.net.rings and start not in ground.net.rings else "yield"
 
 
 # -- what the map says -----------------------------------------------------------------------------
+
+
+def mapped_law(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: Box, *, country: str, left_hand: bool) -> Law:
+    """The law of a place on OpenStreetMap; `nodes` are the tags of its nodes."""
+    equal = net.equal | (equal_junctions(net, ways) if left_hand else frozenset())
+    return Law(net.yields, equal, signs_of(net, ways, nodes, box), left_hand, country in LEFT_FIRST)
+
+
+def law_by_limits(net: Net, *, country: str, left_hand: bool) -> Law:
+    """The law of a map that says nothing of it: of two roads that meet, the one with the higher limit is the major one."""
+    at = defaultdict(set)
+    for c in net.connections:
+        start, end = net.lanes[c.from_lane].road, net.lanes[c.to_lane].road
+        at[net.roads[start].to_junction].add((start, end))
+    yields = {
+        own: frozenset(other for other in pairs if net.roads[other[0]].speed > net.roads[own[0]].speed + 0.1)
+        for pairs in at.values()
+        for own in pairs
+    }
+    equal = frozenset(name for name, pairs in at.items() if not any(yields[pair] for pair in pairs))
+    return Law(yields, equal, {}, left_hand, country in LEFT_FIRST)
 
 
 def equal_junctions(net: Net, ways: list[Way]) -> frozenset[str]:

@@ -61,11 +61,14 @@ def bearing(network: Network, road: str, end: int) -> float:
 
 
 def all_routes(network: Network) -> tuple[LanePath, ...]:
-    """The cheapest way from every entry to every exit, where there is one."""
+    """The cheapest way from every entry to every exit, where there is one; of a road without others every lane is a way."""
     entries, exits = arms(network)
     found = []
     for entry in entries:
         for end in exits:
+            if entry == end:
+                found += [LanePath((lane.id,)) for lane in network.lanes_of(entry) if lane.open]
+                continue
             try:
                 found.append(connect(network, [entry, end]))
             except RouteError:

@@ -20,8 +20,7 @@ import shapely
 
 from studio.road import curve
 from studio.road.bend import hermite, is_one_way, unit
-from studio.road.netconvert import Net
-from studio.road.network import Connection, Lane, Road
+from studio.road.network import Connection, Lane, Net, Road
 from studio.road.osm import Box, Way, spot_of
 from studio.road.report import Notes, TurnCount
 
@@ -292,7 +291,8 @@ class Draft:
         line = through(a.centre, b.centre)
         number, road = len(self.lanes), f":turn_{start}_{end}"
         length, speed = curve.length(line), (a.speed + b.speed) / 2.0
-        self.lanes.append(Lane(number, road, 0, min(a.width, b.width), speed, line, True, length))
+        height = np.interp(curve.stations(line), [0.0, length], [a.height[-1], b.height[0]])
+        self.lanes.append(Lane(number, road, 0, min(a.width, b.width), speed, line, True, length, height=height))
         junction = self.roads[a.road].to_junction
         self.roads[road] = Road(road, "", (number,), junction, junction, speed, length, True)
         self.connections.append(Connection(start, end, (number,), -1, direction))

@@ -31,8 +31,8 @@ class Part(BaseModel):
 class Map(Part):
     """The place."""
 
-    file: str = Field(..., max_length=300, title="Map file", description="relative to the scenario file: .osm or .osm.gz")
-    radius: float = number(800.0, unit="m", title="Radius", description="what lies farther from the centre is cut off", ge=100, le=5000)
+    file: str = Field(..., max_length=300, title="Map file", description="relative to the scenario file: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json), OpenDRIVE (.xodr), or the folder of an import")
+    radius: float = number(800.0, unit="m", title="Radius", description="what lies farther from the centre is cut off; OpenDRIVE is taken whole", ge=100, le=5000)
     signal_start: float = number(0.0, unit="s", title="Signals at the start", description="how far into their programmes the lights are", ge=0, le=600)
 
 

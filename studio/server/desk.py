@@ -9,7 +9,7 @@ from studio import job
 from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
-from studio.road.network import ATTRIBUTION
+from studio.road import place
 from studio.server.live import Lives, LiveRun
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
@@ -63,7 +63,9 @@ class Desk:
         """A scenario for the list; one that cannot be read says why."""
         row = {"id": scenario, "title": scenario, "description": "", "vehicles": 0, "duration_s": 0.0}
         try:
-            found = self.load(scenario).scenario
+            loaded = self.load(scenario)
+            found = loaded.scenario
+            attribution = place.attribution(loaded.path.parent / found.map.file)
         except StudioError as error:
             return row | {"attribution": "", "problem": str(error)}
         return row | {
@@ -71,7 +73,7 @@ class Desk:
             "description": found.description.strip(),
             "vehicles": len(found.vehicles) + found.traffic.count,
             "duration_s": found.clock.duration,
-            "attribution": ATTRIBUTION,
+            "attribution": attribution,
             "problem": None,
         }
 

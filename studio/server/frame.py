@@ -15,13 +15,18 @@ MOTION = (pose.X, pose.Y, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEE
 
 
 def poses(vehicles: Vehicles) -> np.ndarray:
-    """float32[POSE_ROWS, vehicle] of the vehicles now; the body rolls, pitches and heaves on its springs."""
+    """float32[POSE_ROWS, vehicle] of the vehicles now; the body rolls, pitches and heaves on its springs.
+
+    The picture is flat: height and slope of the road, those under the first wheel, are taken off.
+    """
     state, parameter = vehicles.state, vehicles.parameter
     n = state.shape[1]
+    height, g_x, g_y = vehicles.ground[[HEIGHT, SLOPE_X, SLOPE_Y], :n]
     rows = np.zeros((pose.POSE_ROWS, n), np.float32)
     rows[pose.X], rows[pose.Y], rows[pose.YAW] = state[X], state[Y], state[PSI]
-    rows[pose.Z] = state[Z] - parameter[H]
-    rows[pose.ROLL], rows[pose.PITCH] = state[ROLL], state[PITCH]
+    rows[pose.Z] = state[Z] - parameter[H] - (height + g_x * state[X] + g_y * state[Y])
+    rows[pose.ROLL] = state[ROLL]
+    rows[pose.PITCH] = state[PITCH] + np.arctan(g_x * np.cos(state[PSI]) + g_y * np.sin(state[PSI]))
     rows[pose.STEER] = state[DELTA]
     rows[pose.WHEEL_ANGLE] = vehicles.wheels[ROTATION, 2 * n : 3 * n]
     rows[pose.VISIBLE] = state[ACTIVE]

@@ -8,7 +8,6 @@ from starlette.websockets import WebSocketDisconnect
 from studio import job
 from studio.application import registry
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
-from studio.road.network import ATTRIBUTION
 from studio.scenario.schema import Scenario
 from studio.server import answer
 from studio.server.desk import Desk, check_pace
@@ -46,12 +45,13 @@ def scenarios(desk: AtDesk) -> list[answer.ScenarioRow]:
 def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
     """A scenario with all defaults filled in, and the schema of its form."""
     loaded = desk.load(scenario)
+    prepared = job.prepare(loaded)
     return answer.ScenarioDetail(
         id=scenario,
         title=loaded.scenario.title,
         description=loaded.scenario.description.strip(),
-        attribution=ATTRIBUTION,
-        scenario_hash=job.scenario_hash(loaded, job.prepare(loaded)),
+        attribution=prepared.network.attribution,
+        scenario_hash=job.scenario_hash(loaded, prepared),
         document=loaded.document,
         schema=Scenario.model_json_schema(),
     )

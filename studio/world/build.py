@@ -13,7 +13,7 @@ from studio.application.host import Hosted, compiled_loop, first_memory, observa
 from studio.road import conflict
 from studio.world import ground
 from studio.world.control import wheel_torque
-from studio.world.fleet import Start, fleet
+from studio.world.fleet import Start, fleet, level_ground
 from studio.world.setting import Car, Setting, pose
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
@@ -62,13 +62,22 @@ def vehicles_of(cars: list[Car]) -> Vehicles:
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     return Vehicles(
-        **vars(fleet(starts)),
+        **vars(fleet(starts, ground=ground_of(cars))),
         drivers=np.array([[getattr(car.driver, row.name) for row in DRIVER] for car in cars]).T.copy(),
         mind=mind,
         script=np.tile([[0.0], [-np.inf], [0.0]], n),
         returns=np.array([int(car.returns) for car in cars]),
         app_command=np.full((len(ACTUATORS), n), np.nan),
     )
+
+
+def ground_of(cars: list[Car]) -> np.ndarray:
+    """The ground under the cars at their start: level where their paths are."""
+    under = level_ground(len(cars))
+    for v, car in enumerate(cars):
+        if ground.is_raised(car.path):
+            ground.touch_all(v, len(cars), float(car.station), car.path.points, 0, car.path.points.shape[1], under)
+    return under
 
 
 def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
@@ -93,6 +102,7 @@ def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
         points=points,
         path_first=path_first,
         path_count=path_count,
+        raised=np.array([int(ground.is_raised(car.path)) for car in cars]),
         stop_first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
         stop_count=counts,
         stop_station=flat[:, 0].copy(),

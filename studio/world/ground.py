@@ -1,4 +1,6 @@
-"""The ground under every wheel: its friction, by weather and by patches along the roads. One pass a tick.
+"""The ground under every wheel: its height and slope, by the vehicle's path, and its friction, by weather and by patches. Two passes a tick.
+
+A road has no slope across: under a wheel lies the plane that touches the path beside it.
 
 A patch is a stretch of some route, cut into pieces one metre long, across a width or one half of it. Where patches
 overlap, the later one of the file counts.
@@ -9,7 +11,7 @@ from math import cos, sin
 import numpy as np
 
 from studio.compiled import compiled
-from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y
+from studio.road.path import PATH_HEADING, PATH_HEIGHT, PATH_SLOPE, PATH_SPACING, PATH_X, PATH_Y, interpolate
 from studio.road.path import Path as RoadPath
 from studio.scenario.schema import Patch
 from studio.world.corner import side_of
@@ -17,6 +19,40 @@ from studio.world.state import *  # noqa: F403 - the names of the rows
 
 NEAR = 12.0  # [m] a piece farther from the centre of gravity is under no wheel
 MOST_NEAR = 1000  # pieces that are looked at for one vehicle
+
+
+@compiled
+def touch(w, s, points, first, count, ground):
+    """Lays the plane under one wheel that touches a path at station s [m]: z = height + slope_x x + slope_y y."""
+    at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
+    slope, heading = interpolate(points, first, PATH_SLOPE, at), interpolate(points, first, PATH_HEADING, at)
+    g_x, g_y = slope * cos(heading), slope * sin(heading)
+    level = g_x * interpolate(points, first, PATH_X, at) + g_y * interpolate(points, first, PATH_Y, at)
+    ground[SLOPE_X, w], ground[SLOPE_Y, w] = g_x, g_y
+    ground[HEIGHT, w] = interpolate(points, first, PATH_HEIGHT, at) - level
+
+
+@compiled
+def touch_all(v, n, s, points, first, count, ground):
+    """The same plane under all wheels of one vehicle."""
+    for corner in range(4):
+        touch(corner * n + v, s, points, first, count, ground)
+
+
+@compiled
+def rise(state, parameter, station, points, path_first, path_count, raised, ground):
+    """First pass: height and slope under all wheels of vehicles whose path is `raised`; the others' ground stays level."""
+    n = state.shape[1]
+    for v in range(n):
+        if raised[v] != 0:
+            for corner in range(4):
+                ahead = parameter[L_F, v] if corner < 2 else -parameter[L_R, v]
+                touch(corner * n + v, station[v] + ahead, points, path_first[v], path_count[v], ground)
+
+
+def is_raised(path: RoadPath) -> bool:
+    """Whether a path is not level at height 0 all along."""
+    return bool(path.points[PATH_HEIGHT].any())
 
 
 def pieces(patch: Patch, path: RoadPath, world: int) -> np.ndarray:
@@ -64,7 +100,7 @@ def near_pieces(v, world, state, table, near):
 
 @compiled
 def lay(state, parameter, world_of, weather, table, near, ground):
-    """Friction under all wheels; weather float64[world]."""
+    """Second pass: friction under all wheels; weather float64[world]."""
     n = state.shape[1]
     for v in range(n):
         found = near_pieces(v, world_of[v], state, table, near)

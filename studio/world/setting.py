@@ -16,6 +16,7 @@ from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uni
 from studio.road import path as road_path
 from studio.road.network import Network
 from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
+from studio.road.reader import ENDINGS
 from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
@@ -120,7 +121,7 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
     """The map of a scenario."""
     file = folder / scenario.map.file
     if not os.path.exists(file):
-        others = [path.name for path in file.parent.glob("*.osm*")] if file.parent.is_dir() else []
+        others = [path.name for path in file.parent.iterdir() if path.name.lower().endswith(ENDINGS)] if file.parent.is_dir() else []
         raise MapError(
             f"The map of {where} is missing.",
             [Problem(f"{where}: map.file", "does not exist", scenario.map.file, remedy=nearest(file.name, others))],

@@ -38,6 +38,7 @@ def part(world: World) -> None:
 def environment(world: World) -> None:
     """Lights, triggers, and the road under the wheels."""
     v, r, e, time = world.vehicles, world.roads, world.events, world.clock.time
+    ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
     ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
     control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
@@ -115,5 +116,5 @@ def recirculate(world: World) -> None:
     """Traffic that has arrived comes in again."""
     v, r, w = world.vehicles, world.roads, world.worlds
     traffic.recirculate(
-        v.returns, r.points, r.path_first, w.of, w.first, w.count, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
+        v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, w.first, w.count, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
     )

@@ -20,6 +20,7 @@ from studio.road.path import (
     project,
 )
 from studio.road.signals import GREEN, signal_state
+from studio.world.ground import touch_all
 from studio.world.shift import start
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
@@ -229,7 +230,9 @@ def is_free(x, y, first, count, state):
 
 
 @compiled
-def recirculate(returns, points, path_first, world_of, first, count, state, wheels, ground, parameter, gears, mind):
+def recirculate(
+    returns, points, path_first, path_count, raised, world_of, first, count, state, wheels, ground, parameter, gears, mind
+):  # fmt: skip
     """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:
@@ -237,5 +240,7 @@ def recirculate(returns, points, path_first, world_of, first, count, state, whee
         at, w = path_first[v], world_of[v]
         x, y = points[PATH_X, at], points[PATH_Y, at]
         if is_free(x, y, first[w], count[w], state):
+            if raised[v] != 0:
+                touch_all(v, state.shape[1], 0.0, points, at, path_count[v], ground)
             start(v, x, y, points[PATH_HEADING, at], points[PATH_SPEED, at], state, wheels, ground, parameter, gears)
             mind[STATION, v] = 0.0

@@ -52,6 +52,7 @@ class Roads:
     points: np.ndarray
     path_first: np.ndarray
     path_count: np.ndarray
+    raised: np.ndarray  # 1 for a vehicle whose path has height
     stop_first: np.ndarray
     stop_count: np.ndarray
     stop_station: np.ndarray

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from studio.road import load
-from studio.road.network import ATTRIBUTION, Connection, Lane, Network, Road, Scenery
+from studio.road.extract import ATTRIBUTION
+from studio.road.network import Connection, Lane, Network, Road, Scenery
 from studio.road.path import path
 from studio.road.route import all_routes
 from studio.road.signals import signals

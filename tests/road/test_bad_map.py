@@ -70,7 +70,7 @@ def test_missing_file_and_unknown_kind_are_refused(tmp_path):
     with pytest.raises(MapError, match="no such map"):
         load(tmp_path / "gone.osm")
     with pytest.raises(MapError, match=r"\.osm\.gz"):
-        load(written(tmp_path, "x", "map.xodr"))
+        load(written(tmp_path, "x", "map.kml"))
     with pytest.raises(MapError, match="cannot be read"):
         (tmp_path / "folder.osm").mkdir()
         load(tmp_path / "folder.osm")

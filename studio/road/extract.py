@@ -1,0 +1,111 @@
+"""Reads OpenStreetMap: the file's content, the part of it that is kept, and the plan of that part."""
+
+import itertools
+from collections.abc import Callable
+from pathlib import Path
+
+from studio.errors import MapError
+from studio.road import osm
+from studio.road.plan import Plan
+
+ENDINGS = tuple(osm.FORMATS)
+ATTRIBUTION = "© OpenStreetMap contributors"
+LICENCE = "Open Database License (ODbL) 1.0"
+SHORTEST_RADIUS = 50.0  # [m]
+
+read = osm.read
+Part = tuple[float | None, osm.Box | None]  # radius, box
+
+
+def attribution(path: Path) -> str:
+    """Who made the map."""
+    return ATTRIBUTION
+
+
+def part(path: Path, radius: float | None, bbox: str | None) -> Part:
+    """The part that is asked for; raises MapError when it is none."""
+    if radius is not None and not radius >= SHORTEST_RADIUS:
+        raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
+    box = None if bbox is None else osm.bounding_box(bbox)
+    if box is not None and radius is not None:
+        raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
+    return radius, box
+
+
+def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
+    """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
+    from studio.road import audit, elevation, turn
+    from studio.road.alignment import aligned
+    from studio.road.country import country_at
+    from studio.road.priority import mapped_law
+    from studio.road.scenery import scenery
+    from studio.road.side import drive_side
+
+    found = osm.survey(path, data)
+    box = clipped(path, found, *kept)
+    ids = itertools.count(10**15)  # above every OpenStreetMap id
+    cut = cut_ways(path, found, box, ids)
+    country = country_at(*box.centre)
+    side = drive_side(cut, country)
+    left_hand = side.side == "left"
+    ways = tagged(cut, found, country.name, left_hand)
+    progress("building lanes and junctions")
+    raw, forks = lanes_of(path, found, ways, box, ids, left_hand)
+    net = elevation.raised(aligned(raw), found, cut, box)
+    return Plan(
+        net=net,
+        signalled=signalled(found, ways, box, net),
+        scenery=scenery(found, box),
+        origin=box.centre,
+        bounds=box.bounds(),
+        attribution=ATTRIBUTION,
+        licence=LICENCE,
+        law=mapped_law(net, ways, found.nodes, box, country=country.name, left_hand=left_hand),
+        report=lambda network: audit.report(
+            network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name
+        ),
+    )
+
+
+def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
+    """The part of the map that is kept; raises MapError that names the file."""
+    try:
+        return osm.clip_box(found, radius=radius, bbox=bbox)
+    except MapError as error:
+        raise MapError(f"{path}: {error.message}") from None
+
+
+def cut_ways(path: Path, found, box, ids) -> list:
+    """The ways within that part; raises MapError when there is none."""
+    ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
+    if not ways:
+        raise MapError(
+            f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox"
+        )
+    return ways
+
+
+def tagged(ways: list, found, country: str, left_hand: bool) -> list:
+    """The ways with limits, lane counts and widths that netconvert reads; what was guessed is noted in `found`."""
+    from studio.road import cross_section, limit
+
+    limited = [limit.limited(way, country, found.notes) for way in ways]
+    return [cross_section.mended(way, found.notes, left_hand=left_hand) for way in limited]
+
+
+def lanes_of(path: Path, found, ways: list, box, ids, left_hand: bool):
+    """Lanes and junctions, their arrows mended, and the forks that have arrows."""
+    from studio.road import bend, netconvert, turn
+
+    clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
+    net = netconvert.convert(clean, box.projection, source=path, left_hand=left_hand)
+    forks = turn.forks(net, ways, box, found.notes, left_hand=left_hand)
+    return turn.mended(net, forks, left_hand=left_hand), forks
+
+
+def signalled(found, ways: list, box, net) -> frozenset[int]:
+    """The lanes that end at a mapped signal, those at the map's edge too."""
+    from studio.road.signals import dead_ends
+
+    mapped = list(osm.mapped_signals(found, ways, box).values())
+    return net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped)

@@ -1,0 +1,27 @@
+"""What a reader makes of a map file. What is left to do, signals and report, is the same for every kind of map."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from studio.road.network import Net, Network, Scenery
+from studio.road.priority import Law
+from studio.road.report import Report
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Lanes and scenery with their place on the earth; `signalled` are the lanes that end at a signal, `law` tells who goes first.
+
+    `report` looks at the finished network and tells what became of the map. The others are as in a Network.
+    """
+
+    net: Net
+    signalled: frozenset[int]
+    scenery: Scenery
+    origin: tuple[float, float]
+    bounds: tuple[float, float, float, float]
+    attribution: str
+    licence: str
+    law: Law
+    report: Callable[[Network], Report]
+    datum: tuple[float, float] = (0.0, 0.0)

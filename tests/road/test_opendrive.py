@@ -1,0 +1,358 @@
+"""OpenDRIVE: every lane lies where the document says, lanes join as it says, and what cannot be used is told or refused."""
+
+import gzip
+import json
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import shapely
+from scipy.integrate import quad
+from scipy.optimize import brentq
+from scipy.special import fresnel
+
+from studio.errors import MapError
+from studio.road import load, place
+from studio.road.path import PATH_CURVATURE, path
+from studio.road.reference_line import Bend, Cubic, Profile, ReferenceLine
+from studio.road.route import all_routes, connect
+from studio.road.xodr import Header, read_header
+
+FILES = sorted((Path(__file__).parents[1] / "reference" / "opendrive").glob("*.xodr"))
+FOLDER = FILES[0].parent
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("STUDIO_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
+# -- a writer of small documents -------------------------------------------------------------------
+
+
+def lanes(*kinds, width=3.5, side="right", inner=""):
+    """Lanes of one side, from the middle outwards."""
+    sign = 1 if side == "left" else -1
+    text = "".join(f'<lane id="{sign * (i + 1)}" type="{kind}">{inner}<width sOffset="0" a="{width}" b="0" c="0" d="0"/></lane>' for i, kind in enumerate(kinds))
+    return f"<{side}>{text}</{side}>"
+
+
+LINE = '<geometry s="0" x="0" y="0" hdg="0" length="200"><line/></geometry>'
+LINKED = '<link><predecessor id="{0}"/><successor id="{0}"/></link>'
+
+
+def road(number="1", *, length=200.0, plan=LINE, sections=None, extra="", link="", **attributes):
+    """One road."""
+    sections = sections or f'<laneSection s="0">{lanes("driving")}</laneSection>'
+    more = "".join(f' {key}="{value}"' for key, value in ({"junction": "-1"} | attributes).items())
+    return (
+        f'<road id="{number}" length="{length}"{more}><link>{link}</link>{extra}<planView>{plan}</planView>'
+        f"<lanes>{sections}</lanes></road>"
+    )
+
+
+def written(tmp_path, *content, head='<header name="Test" vendor="us"/>', name="map.xodr"):
+    target = tmp_path / name
+    target.write_text(f"<OpenDRIVE>{head}{''.join(content)}</OpenDRIVE>", encoding="utf-8")
+    return target
+
+
+# -- geometry against closed forms -----------------------------------------------------------------
+
+
+def spiral(s, k_0, k_1, length):
+    """x and y of a clothoid from the origin along x with rising curvature, by Fresnel's integrals."""
+    rate = (k_1 - k_0) / length
+    scale = np.sqrt(np.pi / abs(rate))
+    sign, t_0 = np.sign(rate), k_0 / rate
+    (s_a, c_a), (s_b, c_b) = fresnel(t_0 / scale), fresnel((t_0 + s) / scale)
+    x, y = scale * (c_b - c_a), sign * scale * (s_b - s_a)
+    turn = -0.5 * rate * t_0**2  # the heading of the whole clothoid where ours begins
+    return x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)
+
+
+@pytest.mark.parametrize(("k_0", "k_1"), [(0.0, 0.02), (0.02, 0.0), (-0.01, 0.03), (0.004, -0.004), (0.1, 0.3)])
+def test_spiral_is_fresnels(k_0, k_1):
+    s = np.linspace(0.0, 80.0, 41)
+    x, y, heading = Bend(0.0, 0.0, 0.0, 0.0, 80.0, k_0, k_1).at(s)
+    assert np.abs([x, y] - np.array(spiral(s, k_0, k_1, 80.0))).max() < 1e-10
+    assert heading == pytest.approx(k_0 * s + (k_1 - k_0) * s**2 / 160.0)
+
+
+def test_arc_and_line_are_circle_and_line():
+    s = np.linspace(0.0, 300.0, 7)
+    x, y, heading = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.02, 0.02).at(s)
+    assert np.abs(x - (5.0 + (np.sin(0.3 + s / 50) - np.sin(0.3)) * 50)).max() < 1e-10
+    assert np.abs(y - (-2.0 - (np.cos(0.3 + s / 50) - np.cos(0.3)) * 50)).max() < 1e-10
+    x, y, heading = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.0, 0.0).at(s)
+    assert np.abs([x - 5.0 - s * np.cos(0.3), y + 2.0 - s * np.sin(0.3)]).max() < 1e-10
+
+
+def test_poly3_is_measured_along_its_arc():
+    v = (0.0, 0.05, 2e-3, -1e-5)
+    bent = Cubic(0.0, 0.0, 0.0, 0.0, 60.0, (0.0, 1.0, 0.0, 0.0), v, by_arc=True)
+    s = np.array([0.0, 7.0, 33.0, 60.0])
+
+    def arc(u):
+        return quad(lambda q: np.hypot(1.0, v[1] + 2 * v[2] * q + 3 * v[3] * q * q), 0.0, u)[0]
+
+    u = np.array([brentq(lambda q, each=each: arc(q) - each, 0.0, 60.0) for each in s])
+    x, y, _ = bent.at(s)
+    assert np.abs(x - u).max() < 1e-6
+    assert np.abs(y - np.polynomial.Polynomial(v)(u)).max() < 1e-6
+
+
+@pytest.mark.parametrize(("rate", "scale"), [(1.0, 1.0), (1.0 / 50.0, 50.0)])
+def test_param_poly3_in_both_ranges(rate, scale):
+    u, v = (0.0, scale, 0.0, -1e-5 * scale**3), (0.0, 0.0, 2e-3 * scale**2, 1e-5 * scale**3)
+    s = np.linspace(0.0, 50.0, 11)
+    x, y, heading = Cubic(0.0, 10.0, 20.0, np.pi / 2, 50.0, u, v, rate).at(s)
+    assert x == pytest.approx(10.0 - (2e-3 * s**2 + 1e-5 * s**3)) and y == pytest.approx(20.0 + s - 1e-5 * s**3)
+    assert heading == pytest.approx(np.pi / 2 + np.arctan2(4e-3 * s + 3e-5 * s**2, 1.0 - 3e-5 * s**2))
+
+
+def test_chords_stay_within_a_millimetre():
+    line = ReferenceLine((Bend(0.0, 0.0, 0.0, 0.0, 60.0, 0.0, 0.1), Bend(60.0, *spiral(60.0, 0.0, 0.1, 60.0), 3.0, 40.0, 0.1, 0.1)))
+    chords = shapely.LineString(line.at(line.stations(100.0))[:2].T)
+    fine = line.at(np.linspace(0.0, 100.0, 5001))[:2].T
+    assert max(chords.distance(shapely.Point(point)) for point in fine) < 0.0011
+    assert max(gap for _, gap, _ in line.gaps()) < 1e-9
+
+
+def test_profile_is_piecewise():
+    profile = Profile(np.array([0.0, 10.0]), np.array([[1.0, 2.0], [0.5, 0.0], [0.0, 0.1], [0.0, 0.0]]))
+    assert profile.at(np.array([0.0, 4.0, 10.0, 12.0])) == pytest.approx([1.0, 3.0, 2.0, 2.4])
+
+
+# -- real files against the document, evaluated here ------------------------------------------------
+
+
+def evaluated(geometry, s):
+    """x, y, heading of one `<geometry>` at a distance s from its start, by closed forms."""
+    x_0, y_0, h, length = (float(geometry.get(name)) for name in ("x", "y", "hdg", "length"))
+    shape = next(iter(geometry))
+    value = {key: float(text) for key, text in shape.attrib.items() if key != "pRange"}
+    if shape.tag == "line":
+        u, v, turn = s, 0.0, 0.0
+    elif shape.tag == "arc":
+        k = value["curvature"]
+        u, v, turn = np.sin(k * s) / k, (1.0 - np.cos(k * s)) / k, k * s
+    elif shape.tag == "spiral":
+        k_0, k_1 = value["curvStart"], value["curvEnd"]
+        (u, v), turn = spiral(s, k_0, k_1, length), k_0 * s + 0.5 * (k_1 - k_0) * s * s / length
+    else:
+        p = s if shape.get("pRange") == "arcLength" else s / length
+        u, v = (np.polynomial.Polynomial([value[letter + axis] for letter in "abcd"]) for axis in "UV")
+        turn = np.arctan2(v.deriv()(p), u.deriv()(p))
+        u, v = u(p), v(p)
+    return x_0 + u * np.cos(h) - v * np.sin(h), y_0 + u * np.sin(h) + v * np.cos(h), h + turn
+
+
+def true_lanes(file):
+    """The centre lines of the lanes for cars outside of junctions, half a metre from point to point, and their numbers."""
+    for each in ElementTree.parse(file).getroot().iter("road"):
+        if each.get("junction") != "-1":
+            continue
+        length, geometries = float(each.get("length")), each.findall("planView/geometry")
+        starts = np.array([float(geometry.get("s")) for geometry in geometries])
+        s = np.linspace(0.0, length - 1e-6, int(2 * length))
+        own = [geometries[i] for i in np.searchsorted(starts, s, side="right") - 1]
+        line = np.array([evaluated(geometry, at - float(geometry.get("s"))) for geometry, at in zip(own, s, strict=True)]).T
+        (section,) = each.iter("laneSection")
+        for side, sign in (("left", 1.0), ("right", -1.0)):
+            edge = np.zeros_like(s)
+            for lane in sorted(section.findall(f"{side}/lane"), key=lambda lane: abs(int(lane.get("id")))):
+                (width,) = lane.findall("width")
+                w = np.polynomial.Polynomial([float(width.get(letter)) for letter in "abcd"])(s)
+                t, edge = edge + sign * w / 2.0, edge + sign * w
+                if lane.get("type") == "driving":
+                    yield each.get("id"), int(lane.get("id")), np.array([line[0] - t * np.sin(line[2]), line[1] + t * np.cos(line[2])])
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_lanes_lie_where_the_document_says(file):
+    network = load(file)
+    found = [lane for lane in network.lanes if not lane.internal]
+    total = 0.0
+    for number, lane, line in true_lanes(file):
+        forward = (lane < 0) == (network.drive_side == "right")
+        line = (line - np.array(network.datum)[:, None])[:, :: 1 if forward else -1]
+        mine = [each for each in network.lanes if each.road.lstrip(":").split("#")[0] == ("" if forward else "-") + number]
+        form = shapely.MultiLineString([each.centre.T for each in mine])
+        assert shapely.distance(form, shapely.points(line.T)).max() < 0.003
+        total += np.hypot(*np.diff(line)).sum()
+        assert min(np.hypot(*(each.centre[:, 0] - line[:, 0])) for each in mine) < 0.01
+    assert sum(lane.length for lane in found) == pytest.approx(total, rel=0.006)  # less the metres behind a stop line
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_connections_join_what_they_name(file):
+    network = load(file)
+    for each in network.connections:
+        chain = [network.lanes[lane] for lane in (each.from_lane, *each.via, each.to_lane)]
+        for a, b in zip(chain, chain[1:], strict=False):
+            assert np.hypot(*(a.centre[:, -1] - b.centre[:, 0])) < 0.05
+            t, d = a.centre[:, -1] - a.centre[:, -2], b.centre[:, 1] - b.centre[:, 0]
+            assert t @ d > 0.98 * np.hypot(*t) * np.hypot(*d)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_kerb_lanes_come_first_and_traffic_keeps_its_side(file):
+    """The left neighbour of a lane is nearer to the middle where one drives on the right; the oncoming lanes lie beyond it."""
+    network = load(file)
+    assert network.drive_side == ("left" if "lht" in file.stem else "right")
+    for one in network.roads.values():
+        inner = [network.lanes[lane] for lane in one.lanes]
+        back = network.roads.get(one.id.removeprefix("-") if one.id.startswith("-") else "-" + one.id)
+        order = [*inner, network.lanes[back.lanes[-1]]] if back and not one.internal and "#" not in one.id else inner
+        for a, b in zip(order, order[1:], strict=False):
+            (t_x, t_y), middle = a.centre[:, 1] - a.centre[:, 0], b.centre[:, 0] if a.road == b.road else b.centre[:, -1]
+            d_x, d_y = middle - a.centre[:, 0]
+            assert (t_x * d_y - t_y * d_x) * network.middle > 0.0
+
+
+def test_every_arm_leads_to_every_other():
+    """Both crossings join their four arms with each other; the merge joins what its document joins."""
+    for name in ("X-Intersection_NCAP", "fabriksgatan_traffic_lights"):
+        network = load(FOLDER / f"{name}.xodr")
+        assert len(all_routes(network)) == 12 and network.report.junctions == 1
+        directions = [each.direction for each in network.connections]
+        assert sorted(directions) == 4 * ["left"] + 4 * ["right"] + 4 * ["straight"]
+    merge = load(FOLDER / "highway_merge.xodr")
+    ways = {(way.roads(merge)[0], way.roads(merge)[-1]) for way in all_routes(merge)}
+    assert ways == {("0", "2"), ("1", "2"), ("-2", "-0")}
+    assert {round(lane.speed, 2) for lane in merge.lanes} == {33.33}
+
+
+def test_a_path_has_the_documents_curvature():
+    """ALKS road: arcs of 4e-3 to 6e-3 1/m; the smoothed path of the middle lane keeps k/(1 - k t) at t = -8 m."""
+    network = load(FOLDER / "alks_road_different_curvatures.xodr")
+    line = path(network, connect(network, ["0"], start_lane=1))
+    s = np.cumsum(np.append(0.0, np.hypot(*np.diff(network.lanes[network.roads["0"].lanes[1]].centre))))
+    assert line.length == pytest.approx(s[-1], abs=1.0)
+    x, y = line.points[:2] + np.array(network.datum)[:, None]
+    on_arc = np.hypot(x - 599.60, y - 6.65).argmin() + 100
+    assert line.points[PATH_CURVATURE, on_arc] == pytest.approx(0.004 / (1.0 + 0.004 * 8.0), rel=0.01)
+    assert line.points[PATH_CURVATURE, 200] == pytest.approx(0.0, abs=1e-6)
+
+
+# -- traffic lights --------------------------------------------------------------------------------
+
+
+def test_a_light_has_its_stop_line_where_it_stands():
+    network = load(FOLDER / "fabriksgatan_traffic_lights.xodr")
+    assert network.report.signals.in_map == network.report.signals.placed == 1
+    (lane,) = network.signals.link_lane
+    assert network.lanes[lane].road == "3" and network.lanes[lane].length == pytest.approx(109.0, abs=0.2)
+    links = {c.link for c in network.connections if c.from_lane == lane}
+    assert links == {0} and all(c.link == -1 for c in network.connections if c.from_lane != lane)
+    assert {each.kind for each in network.report.skipped} >= {"light", "object", "lane"}
+
+
+# -- attribution, licence and the folder -----------------------------------------------------------
+
+
+def test_attribution_is_the_headers():
+    assert load(FOLDER / "alks_road_straight.xodr").attribution == "ALKS Road, BMW AG"
+    assert place.attribution(FOLDER / "alks_road_straight.xodr") == "ALKS Road, BMW AG"
+    assert load(FOLDER / "e6mini.xodr").attribution == place.attribution(FOLDER / "e6mini.xodr") == ""
+    head = b'<OpenDRIVE><header name="A" vendor="B"><license name="CC0" resource="x"/></header><road'
+    assert read_header(head) == Header("A", "B", "CC0", "")
+
+
+def studio(*arguments):
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_the_folder_is_that_of_every_import(tmp_path):
+    file = FOLDER / "fabriksgatan_traffic_lights.xodr"
+    code, output, _ = studio("import", file, "--out", tmp_path / "street", "--json")
+    assert code == 0
+    text = json.loads((tmp_path / "street" / "report.json").read_text())
+    assert text == json.loads(output) and text["licence"] == "" and "ODbL" not in output and "OpenStreetMap" not in output
+    assert {"drive_side", "lane_km", "junctions", "signals", "turn_lanes", "speed_limits", "guesses", "skipped"} <= set(text)
+    assert sorted(each.name for each in (tmp_path / "street").iterdir()) == ["map.xodr", "network.json.gz", "report.json"]
+    opened = load(tmp_path / "street")
+    assert opened.digest == load(file).digest and opened.name == "street" and place.attribution(tmp_path / "street") == ""
+    network = json.loads(gzip.decompress((tmp_path / "street" / "network.json.gz").read_bytes()))
+    assert len(network["lanes"]) == len(opened.lanes)
+    with pytest.raises(MapError, match="taken whole"):
+        load(file, bbox="0,0,1,1")
+    assert load(file, radius=100.0).digest == load(file).digest
+
+
+# -- bad input -------------------------------------------------------------------------------------
+
+BOMB = '<!DOCTYPE OpenDRIVE [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><OpenDRIVE>&b;</OpenDRIVE>'
+REFUSED = {
+    "empty": ("", "empty"),
+    "blank": ("  \n", "empty"),
+    "bomb": (BOMB, "entities"),
+    "wide bomb": (BOMB.encode("utf-16"), "entities"),
+    "text": ("road 1", "not XML"),
+    "cut off": (FILES[0].read_bytes()[:1200], "cut off"),
+    "another root": ('<osm version="0.6"></osm>', "root element is <osm>"),
+    "no roads": ('<OpenDRIVE><header revMajor="1"/></OpenDRIVE>', "no roads"),
+    "version": (f'<OpenDRIVE><header revMajor="2"/>{road()}</OpenDRIVE>', "revMajor"),
+}
+WRONG = {
+    "no geometry": (road("7", plan=""), "road 7: <planView>"),
+    "no lanes": (road("7", sections=" "), "road 7: <lanes>"),
+    "unknown geometry": (road("7", plan=LINE.replace("line", "wave")), "road 7, <geometry> at s = 0: <wave>"),
+    "not a number": (road("7", plan=LINE.replace('hdg="0"', 'hdg="north"')), "road 7: hdg of <geometry>"),
+    "infinite": (road("7", plan=LINE.replace('x="0"', 'x="inf"')), "road 7: x of <geometry>"),
+    "missing": (road("7", plan=LINE.replace('y="0"', "")), "road 7: y of <geometry> is missing"),
+    "no length": (road("7", length=0), "road 7: length of <road>"),
+    "endless": (road("7", plan=LINE.replace("200", "1e9")), "length is 1e[+]09 m"),
+    "curled": (road("7", plan=LINE.replace("<line/>", '<arc curvature="20"/>')), "curvature is 20 1/m"),
+    "torn": (road("7", length=300, plan=LINE + LINE.replace('s="0" x="0"', 's="200" x="240"')), "begins 40 m beside"),
+    "rule": (road("7", rule="UHT"), "road 7: rule of <road>"),
+    "twice": (road("7") + road("7"), "road 7: <road> stands twice"),
+    "both sides": (road("7", rule="LHT") + road("8"), "road 7: rule of <road> is LHT"),
+    "sidewalk": (road("7", sections=f'<laneSection s="0">{lanes("sidewalk", "border")}</laneSection>'), "no roads for cars"),
+    "narrow": (road("7", sections=f'<laneSection s="0">{lanes("driving", width=0.5)}</laneSection>'), "no roads for cars"),
+    "lane numbers": (road("7", sections=f'<laneSection s="0">{lanes("driving").replace("-1", "-3")}</laneSection>'), "<lane> -3"),
+    "sections": (road("7", sections=2 * f'<laneSection s="5">{lanes("driving")}</laneSection>'), "<laneSection> at s = 5"),
+    "unit": (road("7", extra='<type s="0" type="town"><speed max="50" unit="knots"/></type>'), "road 7: unit of <speed>"),
+    "speed": (road("7", extra='<type s="0" type="town"><speed max="-3"/></type>'), "road 7: max of <speed>"),
+    "incoming": (road("7") + '<junction id="5"><connection id="0" incomingRoad="9" connectingRoad="7" contactPoint="start"/></junction>',
+                 "junction 5, <connection> 0: incomingRoad"),
+    "contact": (road("7", link='<successor elementType="road" elementId="8"/>'), "road 7: <successor>"),
+    "far apart": (road("7") + road("8", plan=LINE.replace('x="0"', 'x="9e5"')), "km wide"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_is_no_map_is_refused(tmp_path, case):
+    content, says = REFUSED[case]
+    target = tmp_path / "bad.xodr"
+    target.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(MapError, match=says) as error:
+        load(target)
+    assert str(error.value).startswith(str(target)) and "Traceback" not in str(error.value)
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_refusal_names_the_element(tmp_path, case):
+    content, says = WRONG[case]
+    with pytest.raises(MapError, match=says) as error:
+        load(written(tmp_path, content))
+    assert "map.xodr" in str(error.value)
+
+
+def test_refused_files_leave_no_folder(tmp_path):
+    bad = tmp_path / "bad.xodr"
+    bad.write_text(BOMB)
+    code, output, errors = studio("import", bad, "--out", tmp_path / "out" / "place")
+    assert code == 2 and "entities" in errors and "Traceback" not in errors and not output
+    assert not (tmp_path / "out").exists()
+    with pytest.raises(MapError, match="no such map file"):
+        load(tmp_path / "gone.xodr")
+    with pytest.raises(MapError, match="cannot be read"):
+        place.attribution(tmp_path / "gone.xodr")
