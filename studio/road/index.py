@@ -13,9 +13,10 @@
 lanes of the second map then count from where those of the first end, and the map's number picks its part of the grid.
 """
 
+import functools
 import weakref
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -35,6 +36,7 @@ NONE = -1  # no such lane or signal
 CELL = 16.0  # [m] of the grid: a few lanes in each cell
 SHARPEST_CORNER = np.radians(120.0)  # a centre line that turns back has no mitre
 SHORTEST = 1e-6  # [m] a piece shorter than this has no direction
+Made = TypeVar("Made")
 
 
 class Index(NamedTuple):
@@ -53,18 +55,22 @@ class Index(NamedTuple):
     grid: Grid
 
 
-_indices: "weakref.WeakKeyDictionary[Network, Index]" = weakref.WeakKeyDictionary()
+def once(make: Callable[[Network], Made]) -> Callable[[Network], Made]:
+    """`make`, called once for every map; what it made goes when its map goes."""
+    made: weakref.WeakKeyDictionary[Network, Made] = weakref.WeakKeyDictionary()
+
+    @functools.wraps(make)
+    def remembered(network: Network) -> Made:
+        if network not in made:
+            made[network] = make(network)
+        return made[network]
+
+    return remembered
 
 
+@once
 def index_of(network: Network) -> Index:
-    """The index of a map; made when it is first asked for, gone with its map."""
-    if network not in _indices:
-        _indices[network] = indexed(network)
-    return _indices[network]
-
-
-def indexed(network: Network) -> Index:
-    """The same, made anew."""
+    """The index of a map."""
     lines = [centre_points(lane.centre) for lane in network.lanes]
     points = np.concatenate(lines, axis=1)
     counts = np.array([line.shape[1] for line in lines], dtype=np.int64)

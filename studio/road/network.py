@@ -90,7 +90,8 @@ class Scenery:
 class Network:
     """A place: `origin` is the latitude and longitude [deg] of (0, 0), `bounds` x0, y0, x1, y1 [m].
 
-    `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out.
+    `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out,
+    `bans` roads that must not be driven one after another although each leads to the next.
     """
 
     name: str
@@ -105,6 +106,7 @@ class Network:
     signals: Signals
     scenery: Scenery
     report: Report = Report()
+    bans: tuple[tuple[str, ...], ...] = ()
 
     @property
     def drive_side(self) -> str:

@@ -15,7 +15,7 @@ from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
     *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
-    *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
+    *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "restriction.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
 
@@ -91,7 +91,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     left_hand = side.side == "left"
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
-    net, forks = lanes_of(path, found, ways, box, ids, left_hand)
+    net, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
     progress("placing signals and scenery")
     lights = lights_of(found, ways, box, net)
     network = Network(
@@ -106,6 +106,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
         junctions=net.junctions,
         signals=lights,
         scenery=scenery(found, box),
+        bans=bans,
     )
     report = audit.report(network, found, ways, box, net.origins, turns=turn.count(net, forks), side=side, country=country.name)
     return replace(network, report=replace(report, seconds=time.perf_counter() - began))
@@ -138,13 +139,14 @@ def tagged(ways: list, found, country: str, left_hand: bool) -> list:
 
 
 def lanes_of(path: Path, found, ways: list, box, ids, left_hand: bool):
-    """Lanes and junctions, their arrows mended, and the forks that have arrows."""
-    from studio.road import bend, netconvert, turn
+    """Lanes and junctions, their arrows mended; the forks that have arrows; what must not be driven one after another."""
+    from studio.road import bend, netconvert, restriction, turn
 
     clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
     net = netconvert.convert(clean, box.projection, source=path, left_hand=left_hand)
+    net, bans = restriction.restricted(net, found.restrictions, ways, box, found.notes)
     forks = turn.forks(net, ways, box, found.notes, left_hand=left_hand)
-    return turn.mended(net, forks, left_hand=left_hand), forks
+    return turn.mended(net, forks, left_hand=left_hand), forks, bans
 
 
 def lights_of(found, ways: list, box, net) -> Signals:

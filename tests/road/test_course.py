@@ -6,7 +6,7 @@ import pytest
 from studio.road import load
 from studio.road.course import ahead, follow, light, light_at_end, successors
 from studio.road.frenet import Place, to_world
-from studio.road.index import KERB_SIDE, LIGHT, MIDDLE_SIDE, NONE, index_of, indexed, joined
+from studio.road.index import KERB_SIDE, LIGHT, MIDDLE_SIDE, NONE, index_of, joined
 from tests.road.conftest import lane, network
 from tests.road.test_places import FILES
 
@@ -95,7 +95,7 @@ def test_lights_are_those_of_the_signals(here):
 
 def test_maps_side_by_side_lead_on_as_each_alone():
     maps = [load(FILES[name]) for name in ("munich_olympiapark", "seattle_i5_exit_ramp")]
-    both, base = joined([indexed(each) for each in maps]), len(maps[0].lanes)
+    both, base = joined([index_of(each) for each in maps]), len(maps[0].lanes)
     for each, shift in zip(maps, (0, base), strict=True):
         index = index_of(each)
         for number in range(0, len(each.lanes), 7):

@@ -8,7 +8,7 @@ import pytest
 from studio.road import load
 from studio.road.frenet import Place, nearest, nearest_lane, nearest_piece, to_lane, to_world
 from studio.road.index import (
-    CELL, NONE, P_EAST, P_HEADING, P_MITRE, P_NORTH, P_S, P_X, P_Y, POINT_COUNT, POINT_FIRST, index_of, indexed, joined,
+    CELL, NONE, P_EAST, P_HEADING, P_MITRE, P_NORTH, P_S, P_X, P_Y, POINT_COUNT, POINT_FIRST, index_of, joined,
 )  # fmt: skip
 from tests.road.conftest import lane, network
 from tests.road.test_places import FILES
@@ -197,7 +197,7 @@ def test_empty_cells_between_are_walked_through():
 def test_maps_side_by_side_answer_as_each_alone():
     """Two maps in one index: lanes of the second count on, everything else is bit for bit the same."""
     maps = [load(FILES[name]) for name in ("perth_peanut_roundabout_lht", "berlin_siegessaeule_grosser_stern")]
-    alone = [indexed(each) for each in maps]
+    alone = [index_of(each) for each in maps]
     both = joined(alone)
     for m, (each, index) in enumerate(zip(maps, alone, strict=True)):
         base = m * len(maps[0].lanes)
