@@ -183,6 +183,7 @@ def nearest_piece(index, m, x, y, heading, reach):
     column, row = grid.place(frame, m, x, y)
     inner = margin(frame, m, column, row, x, y)
     best, found = reach * reach, NONE
+    east, north, least = (0.0, 0.0, -inf) if isnan(heading) else (cos(heading), sin(heading), 0.0)
     nearest_ring = max(0, max(max(-column, column - columns + 1), max(-row, row - rows + 1)))
     farthest_ring = max(max(column, columns - 1 - column), max(row, rows - 1 - row))
     for ring in range(nearest_ring, farthest_ring + 1):
@@ -193,7 +194,7 @@ def nearest_piece(index, m, x, y, heading, reach):
             whole = j == row - ring or j == row + ring
             for i in range(column - ring, column + ring + 1, 1 if whole or ring == 0 else 2 * ring):
                 if 0 <= i < columns:
-                    best, found = nearest_in_cell(index, m, j * columns + i, x, y, heading, best, found)
+                    best, found = nearest_in_cell(index, m, j * columns + i, x, y, east, north, least, best, found)
     return found, sqrt(best)
 
 
@@ -207,13 +208,13 @@ def margin(frame, m, column, row, x, y):
 
 
 @compiled
-def nearest_in_cell(index, m, cell, x, y, heading, best, found):
-    """The best square of a distance [m²] and its piece, with those of one more cell."""
+def nearest_in_cell(index, m, cell, x, y, east, north, least, best, found):
+    """The best square of a distance [m²] and its piece, with those of one more cell that lead more than `least` that way."""
     points, cells = index.points, index.grid
     number = int(cells.frame[CELLS, m]) + cell
     for k in range(cells.first[number], cells.first[number + 1]):
         i = cells.item[k]
-        if not isnan(heading) and cos(heading) * points[P_EAST, i] + sin(heading) * points[P_NORTH, i] <= 0.0:
+        if east * points[P_EAST, i] + north * points[P_NORTH, i] <= least:
             continue
         apart, _, _ = beside(points, i, x, y)
         if apart < best or (apart == best and (found == NONE or i < found)):

@@ -8,6 +8,7 @@ from math import atan2, cos, nan, sin, sqrt
 from studio.compiled import compiled
 from studio.model import radio, sensor
 from studio.model.random import MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, uniform
+from studio.road.shadow import EYE, walls_between
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
@@ -107,6 +108,8 @@ def send(k, tick, state, command, radio_set, world_of, entity, sent):
             sent[M_SPEED, column] = state[V_X, v]
             sent[M_ACCELERATION, column] = state[A_X, v]
             sent[M_INTENTION, column] = command[U, ((k - 1) % RING) * n + v]
+            sent[M_TRUE_X, column] = state[X, v]
+            sent[M_TRUE_Y, column] = state[Y, v]
 
 
 @compiled
@@ -118,17 +121,30 @@ def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity,
 
 
 @compiled
-def gets_through(number, column, sender, receiver, w, state, radio_set, entity, seed, sent):
+def felt_distance(x0, y0, x1, y1, w, place, radio_set, shadow):
+    """Distance [m] between two antennas, drawn out by the buildings between them."""
+    distance = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
+    if radio_set[BUILDINGS, w] == 0.0 or distance > radio_set[RADIO_RANGE, w]:
+        return distance
+    walls, inside = walls_between(shadow, place, x0, y0, EYE, x1, y1, EYE)
+    return radio.felt_distance(distance, radio.attenuation(walls, inside), radio_set[EXPONENT, w])
+
+
+@compiled
+def gets_through(number, column, sender, receiver, w, place, state, radio_set, entity, seed, sent, shadow):
     """Whether a message that comes in now is in range and not lost."""
     link = entity[receiver] * PAIR + entity[sender]
-    dx, dy = sent[M_X, column] - state[X, receiver], sent[M_Y, column] - state[Y, receiver]
+    distance = felt_distance(
+        sent[M_TRUE_X, column], sent[M_TRUE_Y, column], state[X, receiver], state[Y, receiver], w, place, radio_set, shadow
+    )
     draw = uniform(seed, link, MESSAGE_LOSS, number)
-    distance = sqrt(dx * dx + dy * dy)
     return not radio.is_lost(distance, radio_set[RADIO_RANGE, w], radio_set[LOSS, w], radio_set[LOSS_DISTANCE, w], draw)
 
 
 @compiled
-def receive(k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, sent, inbox):
+def receive(
+    k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, place_of, shadow, sent, inbox
+):  # fmt: skip
     """Second pass, second half: every link takes the newest of the messages that come in at this tick."""
     n = state.shape[1]
     for link in range(link_receiver.size):
@@ -144,6 +160,6 @@ def receive(k, tick, state, radio_set, link_receiver, link_sender, world_of, ent
                 break
             was_sent = abs(sent[SENT, column] - sent_at) < 0.5 * tick  # else it left before, and this is an older one
             if was_sent and arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
-                if gets_through(number, column, sender, receiver, w, state, radio_set, entity, seed[w], sent):
+                if gets_through(number, column, sender, receiver, w, place_of[w], state, radio_set, entity, seed[w], sent, shadow):
                     inbox[:, link] = sent[:, column]
                     break

@@ -338,8 +338,10 @@ RADIO_SET = (
     Row("loss", "1", "rate"),
     Row("loss_per_metre", "1/m", "growth of the loss with distance"),
     Row("range", "m", "beyond it nothing is heard"),
+    Row("buildings", "1", "1 where they weaken the signal"),
+    Row("path_loss_exponent", "1", "power falls with distance to this power"),
 )
-(PERIOD, DELAY, VARIATION, LOSS, LOSS_DISTANCE, RADIO_RANGE) = range(len(RADIO_SET))
+(PERIOD, DELAY, VARIATION, LOSS, LOSS_DISTANCE, RADIO_RANGE, BUILDINGS, EXPONENT) = range(len(RADIO_SET))
 
 MESSAGE = (
     Row("sent", "s", "time of sending"),
@@ -348,8 +350,10 @@ MESSAGE = (
     Row("speed", "m/s", "speed of the sender"),
     Row("acceleration", "m/s²", "acceleration of the sender"),
     Row("intention", "m/s²", "acceleration that the sender has requested of its actuators"),
+    Row("true_x", "m", "where the antenna was; for the radio, not for the receiver"),
+    Row("true_y", "m", "where the antenna was; for the radio, not for the receiver"),
 )
-(SENT, M_X, M_Y, M_SPEED, M_ACCELERATION, M_INTENTION) = range(len(MESSAGE))
+(SENT, M_X, M_Y, M_SPEED, M_ACCELERATION, M_INTENTION, M_TRUE_X, M_TRUE_Y) = range(len(MESSAGE))
 
 COLLISION = (
     Row("time", "s", "of the first contact"),

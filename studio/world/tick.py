@@ -65,11 +65,12 @@ def sense(world: World) -> None:
 
 def communicate(world: World) -> None:
     """Units send, and take what has reached them."""
-    v, u, w, clock = world.vehicles, world.units, world.worlds, world.clock
+    v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
     perception.send(clock.k, clock.tick, v.state, v.commands, u.radio_set, w.of, w.entity, u.sent)
     perception.receive(
-        clock.k, clock.tick, v.state, u.radio_set, u.link_receiver, u.link_sender, w.of, w.entity, w.seed, u.sent, u.inbox
-    )
+        clock.k, clock.tick, v.state, u.radio_set, u.link_receiver, u.link_sender, w.of, w.entity, w.seed, r.place_of, r.shadow,
+        u.sent, u.inbox,
+    )  # fmt: skip
 
 
 def think(world: World) -> None:

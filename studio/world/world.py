@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.application.host import Hosted
+from studio.road.shadow import Shadow
 from studio.world.fleet import Fleet
 
 
@@ -67,6 +68,8 @@ class Roads:
     weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of patches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
+    place_of: np.ndarray  # number of the map, per world
+    shadow: Shadow  # the buildings of all maps
 
 
 @dataclass
