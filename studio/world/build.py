@@ -180,6 +180,7 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: list[Car]) -> Un
     return Units(
         sensor_set=np.array([[getattr(car.sensor, row.name) for row in SENSOR_SET] for car in cars]).T.copy(),
         sensors=np.zeros((len(SENSOR), n)),
+        gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
         radio_set=np.array([[getattr(each.scenario.radio, row.name) for row in RADIO_SET] for each in settings]).T.copy(),
         sent=sent,
         link_receiver=receiver,

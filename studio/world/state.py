@@ -320,8 +320,12 @@ SENSOR = (
     Row("range_rate", "m/s", "change of the range"),
     Row("azimuth", "rad", "direction of the target, left positive"),
     Row("target", "1", "column of the target, for the record only"),
+    Row("drift_east", "1", "slow error of the satellite position, over its standard deviation"),
+    Row("drift_north", "1", "slow error of the satellite position, over its standard deviation"),
+    Row("gps_error_east", "m", "measured minus true position"),
+    Row("gps_error_north", "m", "measured minus true position"),
 )
-(DETECTED, RANGE, RANGE_RATE, AZIMUTH, TARGET) = range(len(SENSOR))
+(DETECTED, RANGE, RANGE_RATE, AZIMUTH, TARGET, DRIFT_EAST, DRIFT_NORTH, GPS_EAST, GPS_NORTH) = range(len(SENSOR))
 
 SENSOR_SET = (
     Row("range", "m", "reach"),
@@ -330,6 +334,14 @@ SENSOR_SET = (
     Row("rate_noise", "m/s", "standard deviation"),
 )
 (REACH, OPENING, RANGE_SIGMA, RATE_SIGMA) = range(len(SENSOR_SET))
+
+GPS_SET = (
+    Row("drift", "m", "standard deviation of the slow error under an open sky"),
+    Row("correlation_time", "s", "of the slow error"),
+    Row("noise", "m", "standard deviation of the white noise"),
+    Row("canyon_factor", "1", "by how much the slow error is larger where no sky is open"),
+)
+(DRIFT_SIGMA, DRIFT_TIME, GPS_SIGMA, CANYON) = range(len(GPS_SET))
 
 RADIO_SET = (
     Row("period", "s", "between two messages of a unit"),

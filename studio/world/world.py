@@ -78,6 +78,7 @@ class Units:
 
     sensor_set: np.ndarray
     sensors: np.ndarray
+    gps_set: np.ndarray
     radio_set: np.ndarray  # per world
     sent: np.ndarray  # [row, slot · n + vehicle]
     link_receiver: np.ndarray
