@@ -7,8 +7,8 @@ An application is a module with
     Memory       a NamedTuple of floats: what it remembers from tick to tick, with its first values as defaults
     decide       decide(parameters, memory, observation) -> (memory, command)
 
-`decide` sees what a real unit sees and nothing else: its clock, its own car's bus, its front sensor, the messages that
-reached it. It acts only through the actuators. It keeps nothing outside `memory`, so a run can be repeated, cut and
+`decide` sees what a real unit sees and nothing else: its clock, its own car's bus and satellite receiver, its front sensor,
+the messages that reached it. It acts only through the actuators. It keeps nothing outside `memory`, so a run can be repeated, cut and
 batched. It is plain Python over NamedTuples of floats; with `COMPILED = True`, and `@compiled` above it, the same function is machine code.
 
 What a command leaves at `LEAVE` stays the driver's. Most applications return a `Command`; one that works closer to the
@@ -29,7 +29,7 @@ class Clock(NamedTuple):
 
 
 class Own(NamedTuple):
-    """What the own car's bus tells."""
+    """What the own car's bus and its satellite receiver tell."""
 
     speed: float  # [m/s]
     acceleration: float  # [m/s²] forward
@@ -37,6 +37,8 @@ class Own(NamedTuple):
     steering: float  # [rad] road wheel angle
     set_speed: float  # [m/s] that the driver has set for this stretch
     driver_acceleration: float  # [m/s²] that the driver's pedals ask for
+    gps_x: float  # [m] east position of the centre of gravity by satellite, with its errors
+    gps_y: float  # [m] north
 
 
 class Front(NamedTuple):
@@ -53,7 +55,7 @@ class Message(NamedTuple):
 
     received: bool  # whether one ever came
     age: float  # [s] since it was sent; since the start of the run while none has come
-    x: float  # [m] position of the sender
+    x: float  # [m] position of the sender by satellite, with its errors
     y: float  # [m]
     speed: float  # [m/s]
     acceleration: float  # [m/s²] measured by the sender

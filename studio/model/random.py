@@ -5,7 +5,7 @@ Source: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC 201
 one batch that are to differ by chance have different seeds.
 """
 
-from math import cos, log, pi, sqrt
+from math import cos, log, pi, sin, sqrt
 
 import numpy as np
 
@@ -16,7 +16,9 @@ WEYL_A, WEYL_B = np.uint64(0x9E3779B9), np.uint64(0xBB67AE85)
 LOW, HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
 
 # Streams: one per purpose, so that switching noise on in one place changes nothing elsewhere.
-RANGE_NOISE, RATE_NOISE, MESSAGE_LOSS, MESSAGE_DELAY, TRAFFIC_ROUTE, TRAFFIC_PLACE, TRAFFIC_STYLE = range(7)
+(
+    RANGE_NOISE, RATE_NOISE, MESSAGE_LOSS, MESSAGE_DELAY, TRAFFIC_ROUTE, TRAFFIC_PLACE, TRAFFIC_STYLE, GPS_DRIFT, GPS_NOISE,
+) = range(9)  # fmt: skip
 
 
 @compiled
@@ -52,3 +54,11 @@ def normal(seed, entity, stream, tick):
     """A number of the standard normal distribution (Box & Muller 1958)."""
     a, b, c, d = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
     return sqrt(-2.0 * log(unit(a, b))) * cos(2.0 * pi * unit(c, d))
+
+
+@compiled
+def normal_pair(seed, entity, stream, tick):
+    """Two independent numbers of the standard normal distribution; the first is that of `normal`."""
+    a, b, c, d = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+    radius, angle = sqrt(-2.0 * log(unit(a, b))), 2.0 * pi * unit(c, d)
+    return radius * cos(angle), radius * sin(angle)

@@ -50,7 +50,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     left_hand = side.side == "left"
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
-    raw, forks = lanes_of(path, found, ways, box, ids, left_hand)
+    raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
     net = elevation.raised(aligned(raw), found, cut, box)
     return Plan(
         net=net,
@@ -64,6 +64,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
         report=lambda network: audit.report(
             network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name
         ),
+        bans=bans,
     )
 
 
@@ -94,13 +95,14 @@ def tagged(ways: list, found, country: str, left_hand: bool) -> list:
 
 
 def lanes_of(path: Path, found, ways: list, box, ids, left_hand: bool):
-    """Lanes and junctions, their arrows mended, and the forks that have arrows."""
-    from studio.road import bend, netconvert, turn
+    """Lanes and junctions, their arrows mended; the forks that have arrows; what must not be driven one after another."""
+    from studio.road import bend, netconvert, restriction, turn
 
     clean = osm.clean_xml(found, bend.rounded(ways, box, ids))
     net = netconvert.convert(clean, box.projection, source=path, left_hand=left_hand)
+    net, bans = restriction.restricted(net, found.restrictions, ways, box, found.notes)
     forks = turn.forks(net, ways, box, found.notes, left_hand=left_hand)
-    return turn.mended(net, forks, left_hand=left_hand), forks
+    return turn.mended(net, forks, left_hand=left_hand), forks, bans
 
 
 def signalled(found, ways: list, box, net) -> frozenset[int]:

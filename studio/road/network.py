@@ -127,7 +127,8 @@ class Scenery:
 class Network:
     """A place: `origin` is the latitude and longitude [deg] of (0, 0), `bounds` x0, y0, x1, y1 [m].
 
-    `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out.
+    `digest` tells which file, which options and which importer made it, `report` what was found, guessed and left out,
+    `bans` roads that must not be driven one after another although each leads to the next.
     `datum` is where (0, 0) lies in the file's own plane coordinates [m], for a kind of map that has some.
     """
 
@@ -145,6 +146,7 @@ class Network:
     report: Report = Report()
     licence: str = ""
     datum: tuple[float, float] = (0.0, 0.0)
+    bans: tuple[tuple[str, ...], ...] = ()
 
     @property
     def drive_side(self) -> str:

@@ -17,7 +17,7 @@ from studio.road.signals import Signals, signals
 IMPORTER = (
     *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "elevation.py", "extract.py"),
     *("lane_graph.py", "limit.py", "netconvert.py", "network.py", "opendrive.py", "osm.py", "overpass.py", "place.py", "plan.py"),
-    *("priority.py", "reader.py", "reference_line.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py", "xodr.py"),
+    *("priority.py", "reader.py", "reference_line.py", "report.py", "restriction.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py", "xodr.py"),
 )
 
 
@@ -107,6 +107,7 @@ def imported(path: Path, reader: Any, data: bytes, part: object, digest: str, pr
         signals=lights,
         scenery=plan.scenery,
         datum=plan.datum,
+        bans=plan.bans,
     )
     return replace(network, report=replace(plan.report(network), seconds=time.perf_counter() - began))
 

@@ -25,3 +25,4 @@ class Plan:
     law: Law
     report: Callable[[Network], Report]
     datum: tuple[float, float] = (0.0, 0.0)
+    bans: tuple[tuple[str, ...], ...] = ()

@@ -1,7 +1,5 @@
-"""Ways through the network: from road to road over its lanes."""
+"""Ways through the network: from road to road over its lanes, in the least time."""
 
-import heapq
-from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -9,12 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.errors import Problem, RouteError, nearest
-from studio.road.network import Connection, Lane, Network
-
-CHANGE_COST = 25.0  # [m] a lane change is taken only if it saves a detour of this length
-CHANGE_ROOM = 12.0  # [m] of road that one lane change needs at the very least
-CLOSED_COST = 1000.0  # [m] a lane that cars keep out of is used only where nothing else leads on
-CHANGE_EASE = 50.0  # [m] of road on which a lane change is comfortable
+from studio.road.graph import graph_of, search
+from studio.road.network import Network
 
 
 @dataclass(frozen=True)
@@ -61,7 +55,7 @@ def bearing(network: Network, road: str, end: int) -> float:
 
 
 def all_routes(network: Network) -> tuple[LanePath, ...]:
-    """The cheapest way from every entry to every exit, where there is one; of a road without others every lane is a way."""
+    """The quickest way from every entry to every exit, where there is one; of a road without others every lane is a way."""
     entries, exits = arms(network)
     found = []
     for entry in entries:
@@ -76,33 +70,36 @@ def all_routes(network: Network) -> tuple[LanePath, ...]:
     return tuple(found)
 
 
-def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = None) -> LanePath:
-    """The cheapest lanes through `roads` in this order; between two of them any road may be used.
+def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = None, turn_back: bool = False) -> LanePath:
+    """The quickest lanes through `roads` in this order; between two of them any road may be used.
 
     Args:
         network: the map.
         roads: road ids, at least one.
-        start_lane: lane of the first road to start in, 0 at the kerb; left out, the cheapest.
+        start_lane: lane of the first road to start in, 0 at the kerb; left out, the quickest.
+        turn_back: whether one may turn back at the end of a dead end; such a turn is narrower than a car can drive.
 
     Raises:
         RouteError: a road is not on the map, or there is no way from one to the next.
     """
     check(network, roads, start_lane)
-    exits = onward(network)
     lanes = network.roads[roads[0]].lanes
     starts = lanes if start_lane is None else (lanes[start_lane],)
     if start_lane is None and any(network.lanes[lane].open for lane in lanes):
         starts = tuple(lane for lane in lanes if network.lanes[lane].open)
-    return LanePath(search(network, exits, tuple(roads), starts))
+    way, reached = search(graph_of(network), tuple(roads), starts, turn_back=turn_back)
+    if not way:
+        raise no_way(network, tuple(roads), reached)
+    return LanePath(way)
 
 
 def check(network: Network, roads: Sequence[str], start_lane: int | None) -> None:
     """Refuses roads and lanes that are not on the map."""
-    known = [road.id for road in network.roads.values() if not road.internal]
     if not roads:
         raise RouteError("a route needs at least one road")
-    unknown = [(i, road) for i, road in enumerate(roads) if road not in known]
+    unknown = [(i, road) for i, road in enumerate(roads) if road not in network.roads or network.roads[road].internal]
     if unknown:
+        known = [road.id for road in network.roads.values() if not road.internal]
         raise RouteError(
             f"{network.name}: the route names a road that is not on the map",
             [
@@ -122,61 +119,12 @@ def check(network: Network, roads: Sequence[str], start_lane: int | None) -> Non
         )
 
 
-def onward(network: Network) -> dict[int, list[Connection]]:
-    """The connections that leave each lane; turning back where a road ends is not driven."""
-    exits = defaultdict(list)
-    for connection in network.connections:
-        if connection.direction != "turn":
-            exits[connection.from_lane].append(connection)
-    return exits
-
-
-def search(network: Network, exits, roads: tuple[str, ...], starts: Sequence[int]) -> tuple[int, ...]:
-    """Dijkstra over (lane entered, number of `roads` reached); a road is left by one of its lanes at a price."""
-    waiting = [(0.0, lane, 1, (lane,)) for lane in starts]
-    done, farthest = set(), 1
-    while waiting:
-        cost, lane, reached, lanes = heapq.heappop(waiting)
-        farthest = max(farthest, reached)
-        if reached == len(roads):
-            return lanes
-        if (lane, reached) in done:
-            continue
-        done.add((lane, reached))
-        for price, changed in changes(network, network.lanes[lane]):
-            for connection in exits[changed[-1]]:
-                through = sum(network.lanes[via].length for via in connection.via)
-                further = reached + (network.lanes[connection.to_lane].road == roads[reached])
-                path = (*lanes, *changed[1:], *connection.via, connection.to_lane)
-                onto = closed_cost(network.lanes[connection.to_lane])
-                heapq.heappush(waiting, (cost + price + through + onto, connection.to_lane, further, path))
-    raise no_way(network, roads, farthest)
-
-
-def changes(network: Network, lane: Lane) -> list[tuple[float, tuple[int, ...]]]:
-    """How the road may be left that was entered on `lane`: the price [m] and the lanes used, from this one on."""
-    lanes = network.roads[lane.road].lanes
-    ways = [(lane.length, (lane.id,))]
-    for side in (-1, 1):
-        used, index = (lane.id,), lane.index + side
-        while 0 <= index < len(lanes) and len(used) * CHANGE_ROOM <= lane.length:
-            hurry = 1.0 + (len(used) * CHANGE_EASE / lane.length) ** 2
-            closed = closed_cost(network.lanes[lanes[index]])
-            ways.append((lane.length + CHANGE_COST * len(used) * hurry + closed, used := (*used, lanes[index])))
-            index += side
-    return ways
-
-
-def closed_cost(lane: Lane) -> float:
-    """What it costs to drive onto a lane, besides its length [m]."""
-    return 0.0 if lane.open else CLOSED_COST
-
-
 def no_way(network: Network, roads: tuple[str, ...], reached: int) -> RouteError:
     """The error that names the pair of roads without a way, and where one can go instead."""
     start, end = roads[reached - 1], roads[reached]
-    exits = onward(network)
-    following = {network.lanes[c.to_lane].road for lane in network.roads[start].lanes for c in exits[lane]}
+    lanes = set(network.roads[start].lanes)
+    ahead = [c for c in network.connections if c.from_lane in lanes and c.direction != "turn"]
+    following = {network.lanes[c.to_lane].road for c in ahead}
     remedy = (
         f"after {start!r} come: {', '.join(sorted(following))}"
         if following

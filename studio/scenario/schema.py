@@ -101,6 +101,19 @@ class FrontSensor(Part):
     rate_noise: float = number(0.05, unit="m/s", title="Noise of the range rate", description="standard deviation", ge=0, le=5)
 
 
+class Gps(Part):
+    """The satellite position, which messages carry: a slow error and white noise, to the east and to the north. Both 0: exact.
+
+    Slow errors of 1.5 to 3 m with correlation times from 10 s to half an hour are usual with a plain receiver, 0.5 to 1 m with
+    corrections, 0.02 m with RTK. How much larger they are between houses is estimated.
+    """
+
+    drift: float = number(1.5, unit="m", title="Slow error", description="standard deviation under an open sky", ge=0, le=100)
+    correlation_time: float = number(60.0, unit="s", title="Correlation time", description="of the slow error", ge=0.1, le=100_000)
+    noise: float = number(0.3, unit="m", title="White noise", description="standard deviation", ge=0, le=100)
+    canyon_factor: float = number(5.0, unit="1", title="Factor without sky", description="by how much the slow error is larger where buildings hide the whole sky", ge=1, le=100)
+
+
 class Vehicle(Part):
     """One named car."""
 
@@ -110,6 +123,7 @@ class Vehicle(Part):
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
     driver: Driver = Field(default_factory=Driver, title="Driver")
     sensor: FrontSensor = Field(default_factory=FrontSensor, title="Front sensor")
+    gps: Gps = Field(default_factory=Gps, title="Satellite position")
     colour: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] = Field("#2f6fde", title="Colour")
 
 
@@ -188,6 +202,8 @@ class Radio(Part):
     loss: float = number(0.01, unit="1", title="Loss rate", ge=0, le=1)
     loss_per_metre: float = number(0.0, unit="1/m", title="Loss per distance", ge=0, le=0.1)
     range: float = number(300.0, unit="m", title="Range", gt=0, le=5000)
+    buildings: bool = Field(True, title="Shadowed by buildings", description="9 dB a wall and 0.4 dB a metre inside (Sommer et al., WONS 2011) count as distance")
+    path_loss_exponent: float = number(2.0, unit="1", title="Path loss exponent", description="how fast power falls with distance, which makes the shadow a distance: 2 in free space, 2.7 to 3 in cities", ge=1.5, le=6)
 
 
 class Recording(Part):

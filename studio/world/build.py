@@ -10,7 +10,8 @@ import numpy as np
 from studio.application import registry
 from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
-from studio.road import conflict
+from studio.road import conflict, shadow
+from studio.road.shadow import Shadow
 from studio.world import ground
 from studio.world.control import wheel_torque
 from studio.world.fleet import Start, fleet, level_ground
@@ -111,6 +112,7 @@ def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
         zone_span=span,
         **signals_of(settings),
         **surface_of(settings),
+        **buildings_of(settings),
     )
 
 
@@ -125,6 +127,17 @@ def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
         "weather": np.array([each.scenario.road.friction for each in settings]),
         "pieces": np.concatenate([np.zeros((len(PIECE), 0)), *found], axis=1),
         "near": np.zeros(ground.MOST_NEAR, dtype=np.int64),
+    }
+
+
+def buildings_of(settings: Sequence[Setting]) -> dict[str, np.ndarray | Shadow]:
+    """The map of every world, and the buildings of all maps; worlds on the same map share them."""
+    shadows = {id(each.network): shadow.shadow_of(each.network) for each in settings}
+    number = {name: i for i, name in enumerate(shadows)}
+    found = list(shadows.values())
+    return {
+        "place_of": np.array([number[id(each.network)] for each in settings]),
+        "shadow": found[0] if len(found) == 1 else shadow.joined(found),
     }
 
 
@@ -177,6 +190,7 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: list[Car]) -> Un
     return Units(
         sensor_set=np.array([[getattr(car.sensor, row.name) for row in SENSOR_SET] for car in cars]).T.copy(),
         sensors=np.zeros((len(SENSOR), n)),
+        gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
         radio_set=np.array([[getattr(each.scenario.radio, row.name) for row in RADIO_SET] for each in settings]).T.copy(),
         sent=sent,
         link_receiver=receiver,

@@ -41,6 +41,8 @@ CHANNELS = (
     Channel("desired_speed", "m/s", "Permitted speed", "mind", V_DESIRED),
     Channel("requested_acceleration", "m/s²", "Requested acceleration", "command", U),
     Channel("measured_range", "m", "Range of the front sensor", "sensor", RANGE),
+    Channel("gps_error_east", "m", "Error of the satellite position to the east", "sensor", GPS_EAST),
+    Channel("gps_error_north", "m", "Error of the satellite position to the north", "sensor", GPS_NORTH),
 )
 TIME_GAP = Channel("time_gap", "s", "Time gap to the car ahead", "derived", -1)
 BY_NAME = {channel.name: channel for channel in (*CHANNELS, TIME_GAP)}

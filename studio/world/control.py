@@ -187,18 +187,20 @@ def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
         observed[5, j] = state[DELTA, v]
         observed[6, j] = mind[V_DESIRED, v]
         observed[7, j] = mind[WISH, v]
+        observed[8, j] = state[X, v] + sensors[GPS_EAST, v]
+        observed[9, j] = state[Y, v] + sensors[GPS_NORTH, v]
         for i in range(4):
-            observed[8 + i, j] = sensors[i, v] if sensors[DETECTED, v] > 0.0 else 0.0
+            observed[10 + i, j] = sensors[i, v] if sensors[DETECTED, v] > 0.0 else 0.0
         observe_message(time, links[j], inbox, observed, j)
 
 
 @compiled
 def observe_message(time, link, inbox, observed, j):
     """The newest message of the unit that car j listens to."""
-    observed[12, j] = 0.0
-    observed[13, j] = time
+    observed[14, j] = 0.0
+    observed[15, j] = time
     if link >= 0 and inbox[SENT, link] > -inf:
-        observed[12, j] = 1.0
-        observed[13, j] = time - inbox[SENT, link]
-        for i in range(1, 6):
-            observed[13 + i, j] = inbox[i, link]
+        observed[14, j] = 1.0
+        observed[15, j] = time - inbox[SENT, link]
+        for i in range(M_X, M_INTENTION + 1):
+            observed[15 + i, j] = inbox[i, link]

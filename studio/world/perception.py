@@ -1,4 +1,4 @@
-"""Perception: what the units of this tick get to know, by sensor and by radio. Two passes.
+"""Perception: what the units of this tick get to know, by sensor, by satellite and by radio. Three passes.
 
 Sensors look at the true world and add their errors; messages are looked up in what the senders have sent.
 """
@@ -6,8 +6,11 @@ Sensors look at the true world and add their errors; messages are looked up in w
 from math import atan2, cos, nan, sin, sqrt
 
 from studio.compiled import compiled
-from studio.model import radio, sensor
-from studio.model.random import MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, uniform
+from studio.model import radio, satellite, sensor
+from studio.model.random import (
+    GPS_DRIFT, GPS_NOISE, MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, normal_pair, uniform,
+)  # fmt: skip
+from studio.road.shadow import EYE, open_sky, walls_between
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
@@ -88,25 +91,49 @@ def report(k, v, other, forward, left, state, sensor_set, unit, seed, sensors):
 
 
 @compiled
+def fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, sensors):
+    """Second pass: where every car takes itself to be. A car without errors draws nothing."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] > 0.0 and (gps_set[DRIFT_SIGMA, v] > 0.0 or gps_set[GPS_SIGMA, v] > 0.0):
+            sky = open_sky(shadow, place_of[world_of[v]], state[X, v], state[Y, v])
+            wander(k, tick, v, sky, gps_set, entity[v], seed[world_of[v]], sensors)
+
+
+@compiled
+def wander(k, tick, v, sky, gps_set, unit, seed, sensors):
+    """The error of a satellite position at this tick; at the first one the slow error is drawn as if it had long been running."""
+    phi = satellite.kept(tick, gps_set[DRIFT_TIME, v]) if k > 0 else 0.0
+    draw_east, draw_north = normal_pair(seed, unit, GPS_DRIFT, k)
+    noise_east, noise_north = normal_pair(seed, unit, GPS_NOISE, k)
+    sensors[DRIFT_EAST, v] = satellite.drift(sensors[DRIFT_EAST, v], phi, draw_east)
+    sensors[DRIFT_NORTH, v] = satellite.drift(sensors[DRIFT_NORTH, v], phi, draw_north)
+    sigma = satellite.spread(gps_set[DRIFT_SIGMA, v], gps_set[CANYON, v], sky)
+    sensors[GPS_EAST, v] = sigma * sensors[DRIFT_EAST, v] + gps_set[GPS_SIGMA, v] * noise_east
+    sensors[GPS_NORTH, v] = sigma * sensors[DRIFT_NORTH, v] + gps_set[GPS_SIGMA, v] * noise_north
+
+
+@compiled
 def is_turn(k, unit, period):
     """Whether a unit sends at tick k: every `period` ticks, units spread over the period."""
     return (k + unit) % period == 0
 
 
 @compiled
-def send(k, tick, state, command, radio_set, world_of, entity, sent):
-    """Second pass, first half: the units whose turn it is broadcast what their car's bus says."""
+def send(k, tick, state, command, radio_set, world_of, entity, sensors, sent):
+    """Third pass, first half: the units whose turn it is broadcast what their car's bus and its receiver say."""
     n = state.shape[1]
     for v in range(n):
         period = int(round(radio_set[PERIOD, world_of[v]] / tick))
         if state[ACTIVE, v] > 0.0 and is_turn(k, entity[v], period):
             column = ((k + entity[v]) // period % RING) * n + v
             sent[SENT, column] = k * tick
-            sent[M_X, column] = state[X, v]
-            sent[M_Y, column] = state[Y, v]
+            sent[M_X, column] = state[X, v] + sensors[GPS_EAST, v]
+            sent[M_Y, column] = state[Y, v] + sensors[GPS_NORTH, v]
             sent[M_SPEED, column] = state[V_X, v]
             sent[M_ACCELERATION, column] = state[A_X, v]
             sent[M_INTENTION, column] = command[U, ((k - 1) % RING) * n + v]
+            sent[M_TRUE_X, column] = state[X, v]
+            sent[M_TRUE_Y, column] = state[Y, v]
 
 
 @compiled
@@ -118,18 +145,31 @@ def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity,
 
 
 @compiled
-def gets_through(number, column, sender, receiver, w, state, radio_set, entity, seed, sent):
+def felt_distance(x0, y0, x1, y1, w, place, radio_set, shadow):
+    """Distance [m] between two antennas, drawn out by the buildings between them."""
+    distance = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
+    if radio_set[BUILDINGS, w] == 0.0 or distance > radio_set[RADIO_RANGE, w]:
+        return distance
+    walls, inside = walls_between(shadow, place, x0, y0, EYE, x1, y1, EYE)
+    return radio.felt_distance(distance, radio.attenuation(walls, inside), radio_set[EXPONENT, w])
+
+
+@compiled
+def gets_through(number, column, sender, receiver, w, place, state, radio_set, entity, seed, sent, shadow):
     """Whether a message that comes in now is in range and not lost."""
     link = entity[receiver] * PAIR + entity[sender]
-    dx, dy = sent[M_X, column] - state[X, receiver], sent[M_Y, column] - state[Y, receiver]
+    distance = felt_distance(
+        sent[M_TRUE_X, column], sent[M_TRUE_Y, column], state[X, receiver], state[Y, receiver], w, place, radio_set, shadow
+    )
     draw = uniform(seed, link, MESSAGE_LOSS, number)
-    distance = sqrt(dx * dx + dy * dy)
     return not radio.is_lost(distance, radio_set[RADIO_RANGE, w], radio_set[LOSS, w], radio_set[LOSS_DISTANCE, w], draw)
 
 
 @compiled
-def receive(k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, sent, inbox):
-    """Second pass, second half: every link takes the newest of the messages that come in at this tick."""
+def receive(
+    k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, place_of, shadow, sent, inbox
+):  # fmt: skip
+    """Third pass, second half: every link takes the newest of the messages that come in at this tick."""
     n = state.shape[1]
     for link in range(link_receiver.size):
         receiver, sender = link_receiver[link], link_sender[link]
@@ -144,6 +184,6 @@ def receive(k, tick, state, radio_set, link_receiver, link_sender, world_of, ent
                 break
             was_sent = abs(sent[SENT, column] - sent_at) < 0.5 * tick  # else it left before, and this is an older one
             if was_sent and arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
-                if gets_through(number, column, sender, receiver, w, state, radio_set, entity, seed[w], sent):
+                if gets_through(number, column, sender, receiver, w, place_of[w], state, radio_set, entity, seed[w], sent, shadow):
                     inbox[:, link] = sent[:, column]
                     break

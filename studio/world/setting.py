@@ -20,7 +20,7 @@ from studio.road.reader import ENDINGS
 from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
+from studio.scenario.schema import Driver, FrontSensor, Gps, Place, Scenario
 from studio.world.channel import BY_NAME
 from studio.world.fleet import check_step
 from studio.world.state import RING
@@ -44,6 +44,7 @@ class Car:
     driver: Driver
     sensor: FrontSensor
     colour: str
+    gps: Gps
     returns: bool = False
 
 
@@ -264,7 +265,7 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour)
+    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour, vehicle.gps)
 
 
 # --- traffic -----------------------------------------------------------------------------------------------------------
@@ -289,7 +290,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
         name = f"traffic_{i + 1:02d}"
-        cars.append(Car(name, models[wanted.model], path, station, speed, driver, FrontSensor(range=0.0), PAINTS[i % len(PAINTS)], returns=True))
+        cars.append(Car(name, models[wanted.model], path, station, speed, driver, FrontSensor(range=0.0), PAINTS[i % len(PAINTS)], Gps(drift=0.0, noise=0.0), returns=True))
     return cars
 
 

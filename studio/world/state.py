@@ -320,8 +320,12 @@ SENSOR = (
     Row("range_rate", "m/s", "change of the range"),
     Row("azimuth", "rad", "direction of the target, left positive"),
     Row("target", "1", "column of the target, for the record only"),
+    Row("drift_east", "1", "slow error of the satellite position, over its standard deviation"),
+    Row("drift_north", "1", "slow error of the satellite position, over its standard deviation"),
+    Row("gps_error_east", "m", "measured minus true position"),
+    Row("gps_error_north", "m", "measured minus true position"),
 )
-(DETECTED, RANGE, RANGE_RATE, AZIMUTH, TARGET) = range(len(SENSOR))
+(DETECTED, RANGE, RANGE_RATE, AZIMUTH, TARGET, DRIFT_EAST, DRIFT_NORTH, GPS_EAST, GPS_NORTH) = range(len(SENSOR))
 
 SENSOR_SET = (
     Row("range", "m", "reach"),
@@ -331,6 +335,14 @@ SENSOR_SET = (
 )
 (REACH, OPENING, RANGE_SIGMA, RATE_SIGMA) = range(len(SENSOR_SET))
 
+GPS_SET = (
+    Row("drift", "m", "standard deviation of the slow error under an open sky"),
+    Row("correlation_time", "s", "of the slow error"),
+    Row("noise", "m", "standard deviation of the white noise"),
+    Row("canyon_factor", "1", "by how much the slow error is larger where no sky is open"),
+)
+(DRIFT_SIGMA, DRIFT_TIME, GPS_SIGMA, CANYON) = range(len(GPS_SET))
+
 RADIO_SET = (
     Row("period", "s", "between two messages of a unit"),
     Row("delay", "s", "mean"),
@@ -338,8 +350,10 @@ RADIO_SET = (
     Row("loss", "1", "rate"),
     Row("loss_per_metre", "1/m", "growth of the loss with distance"),
     Row("range", "m", "beyond it nothing is heard"),
+    Row("buildings", "1", "1 where they weaken the signal"),
+    Row("path_loss_exponent", "1", "power falls with distance to this power"),
 )
-(PERIOD, DELAY, VARIATION, LOSS, LOSS_DISTANCE, RADIO_RANGE) = range(len(RADIO_SET))
+(PERIOD, DELAY, VARIATION, LOSS, LOSS_DISTANCE, RADIO_RANGE, BUILDINGS, EXPONENT) = range(len(RADIO_SET))
 
 MESSAGE = (
     Row("sent", "s", "time of sending"),
@@ -348,8 +362,10 @@ MESSAGE = (
     Row("speed", "m/s", "speed of the sender"),
     Row("acceleration", "m/s²", "acceleration of the sender"),
     Row("intention", "m/s²", "acceleration that the sender has requested of its actuators"),
+    Row("true_x", "m", "where the antenna was; for the radio, not for the receiver"),
+    Row("true_y", "m", "where the antenna was; for the radio, not for the receiver"),
 )
-(SENT, M_X, M_Y, M_SPEED, M_ACCELERATION, M_INTENTION) = range(len(MESSAGE))
+(SENT, M_X, M_Y, M_SPEED, M_ACCELERATION, M_INTENTION, M_TRUE_X, M_TRUE_Y) = range(len(MESSAGE))
 
 COLLISION = (
     Row("time", "s", "of the first contact"),

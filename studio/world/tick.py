@@ -57,20 +57,20 @@ def look(world: World) -> None:
 
 
 def sense(world: World) -> None:
-    """Sensors measure."""
-    v, u, w = world.vehicles, world.units, world.worlds
-    perception.sense(
-        world.clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, w.seed, u.sensors
-    )
+    """Sensors measure, satellites tell where one is."""
+    v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
+    perception.sense(clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, w.seed, u.sensors)
+    perception.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.sensors)
 
 
 def communicate(world: World) -> None:
     """Units send, and take what has reached them."""
-    v, u, w, clock = world.vehicles, world.units, world.worlds, world.clock
-    perception.send(clock.k, clock.tick, v.state, v.commands, u.radio_set, w.of, w.entity, u.sent)
+    v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
+    perception.send(clock.k, clock.tick, v.state, v.commands, u.radio_set, w.of, w.entity, u.sensors, u.sent)
     perception.receive(
-        clock.k, clock.tick, v.state, u.radio_set, u.link_receiver, u.link_sender, w.of, w.entity, w.seed, u.sent, u.inbox
-    )
+        clock.k, clock.tick, v.state, u.radio_set, u.link_receiver, u.link_sender, w.of, w.entity, w.seed, r.place_of, r.shadow,
+        u.sent, u.inbox,
+    )  # fmt: skip
 
 
 def think(world: World) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.application.host import Hosted
+from studio.road.shadow import Shadow
 from studio.world.fleet import Fleet
 
 
@@ -68,6 +69,8 @@ class Roads:
     weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of patches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
+    place_of: np.ndarray  # number of the map, per world
+    shadow: Shadow  # the buildings of all maps
 
 
 @dataclass
@@ -76,6 +79,7 @@ class Units:
 
     sensor_set: np.ndarray
     sensors: np.ndarray
+    gps_set: np.ndarray
     radio_set: np.ndarray  # per world
     sent: np.ndarray  # [row, slot · n + vehicle]
     link_receiver: np.ndarray

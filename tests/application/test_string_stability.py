@@ -35,7 +35,7 @@ def platoon(name, *, frequency, cars=2, seconds=120.0, link=True, message_delay=
         for i in range(1, cars):
             seen = Front(True, gap[i], v[i - 1] - v[i], 0.0)
             message = Message(link, message_delay if link else inf, 0.0, 0.0, v[i - 1], a[i - 1], heard[i - 1])
-            own = Own(v[i], a[i], 0.0, 0.0, 60.0, 0.0)
+            own = Own(v[i], a[i], 0.0, 0.0, 60.0, 0.0, 0.0, 0.0)
             memories[i], command = module.decide(p, memories[i], Observation(Clock(t, TICK), own, seen, message))
             u[i] = command.acceleration
         for _ in range(SUBSTEPS):
@@ -104,7 +104,7 @@ def test_acc_is_rajamanis(headway, frequency):
 def test_a_silent_link_lengthens_the_headway():
     """From the time-out on the wanted gap grows towards that of the fallback."""
     module, p = registry.find("cacc").module, parameters("cacc")
-    own, seen = Own(20.0, 0.0, 0.0, 0.0, 60.0, 0.0), Front(True, p.standstill + 0.6 * 20, 0.0, 0.0)
+    own, seen = Own(20.0, 0.0, 0.0, 0.0, 60.0, 0.0, 0.0, 0.0), Front(True, p.standstill + 0.6 * 20, 0.0, 0.0)
     memory = module.Memory()
     for k in range(1000):
         message = Message(True, k * 0.02, 0.0, 0.0, 20.0, 0.0, 0.0)
