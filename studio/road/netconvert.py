@@ -123,6 +123,7 @@ def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Roa
         speed=max(lane.speed for lane in own),
         length=sum(lane.length for lane in own) / len(own),
         internal=internal,
+        kind=edge.get("type", "").split("|")[0].removeprefix("highway."),
     )
 
 

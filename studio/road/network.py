@@ -7,7 +7,7 @@ Coordinates are local metres, x east, y north, from the centre of the clipped ma
     Connection  how one leaves a lane at its end: over the lanes `via` onto the lane `to_lane`
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from studio.road.report import Report
 from studio.road.signals import Signals
 
 ATTRIBUTION = "© OpenStreetMap contributors"
+SPACE_X, SPACE_Y, SPACE_HEADING, SPACE_LENGTH, SPACE_WIDTH = range(5)
+SPACE_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +46,7 @@ class Road:
     speed: float  # [m/s]
     length: float  # [m]
     internal: bool
+    kind: str = ""  # as mapped, such as "residential"
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ class Building:
 
 @dataclass(frozen=True, eq=False)
 class Area:
-    """A patch of ground: kind is "green" or "water"; outline and holes float64[2, n]."""
+    """A patch of ground: kind is "green", "water", "sand", "square" or "parking"; outline and holes float64[2, n]."""
 
     kind: str
     outline: np.ndarray
@@ -78,12 +81,56 @@ class Area:
 
 
 @dataclass(frozen=True, eq=False)
+class Crossing:
+    """Where walkers cross a carriageway: a strip of this width [m] along `line` from edge to edge, float64[2, 2].
+
+    `marking` is "zebra", "lines" (two, as at lights) or "none"; `signalled` tells whether walkers have lights.
+    """
+
+    line: np.ndarray
+    width: float
+    marking: str
+    signalled: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Wall:
+    """Something upright along a line, float64[2, n]: kind is a "wall", "fence", "hedge" or another barrier."""
+
+    kind: str
+    line: np.ndarray
+    height: float  # [m]
+    thickness: float  # [m]
+
+
+@dataclass(frozen=True)
+class Post:
+    """Something slim and upright: kind is "bollard", "block", "lamp", "flagpole", "mast" or "pole"."""
+
+    kind: str
+    x: float  # [m]
+    y: float  # [m]
+    height: float  # [m]
+    thickness: float  # [m]
+
+
+@dataclass(frozen=True, eq=False)
 class Scenery:
-    """What stands beside the road. `trees` are positions, float64[2, n]."""
+    """What stands beside the road. `trees` are positions, float64[2, n].
+
+    `spaces` are single parking spaces, float64[SPACE_ROWS, n]: centre, heading in which one drives in from the aisle,
+    length and width. Along a kerb the heading is that of the traffic; the last `along_kerbs` of them are not mapped one
+    by one but laid there because the street allows parking.
+    """
 
     buildings: tuple[Building, ...]
     areas: tuple[Area, ...]
     trees: np.ndarray
+    spaces: np.ndarray = field(default_factory=lambda: np.empty((SPACE_ROWS, 0)))
+    along_kerbs: int = 0
+    crossings: tuple[Crossing, ...] = ()
+    walls: tuple[Wall, ...] = ()
+    posts: tuple[Post, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,7 @@ from studio.road.signals import Signals, dead_ends, signals
 IMPORTER = (
     *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
     *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
+    *("crossing.py", "kind.py", "parking.py", "plane.py", "site.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
 
@@ -79,6 +80,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     from studio.road.country import country_at
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
+    from studio.road.site import Site
 
     began = time.perf_counter()
     progress(f"reading {path.name}")
@@ -105,7 +107,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
         connections=linked(net.connections, lights),
         junctions=net.junctions,
         signals=lights,
-        scenery=scenery(found, box),
+        scenery=scenery(found, Site(box, ways, net, left_hand)),
     )
     report = audit.report(network, found, ways, box, net.origins, turns=turn.count(net, forks), side=side, country=country.name)
     return replace(network, report=replace(report, seconds=time.perf_counter() - began))

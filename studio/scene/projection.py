@@ -44,7 +44,7 @@ class Scene:
         with self._lock, self._server.atomic():
             self._clear_city()
             self._city = [self._add(layer) for layer in layers]
-            self._city += tree.plant(self._server, network, foot=city.GREEN, shade=city.TREE_SHADOW)
+            self._city += tree.plant(self._server, network, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._look_at(reach=_reach(network))
 

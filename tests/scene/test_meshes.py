@@ -180,7 +180,7 @@ def test_shadows_fall_away_from_the_sun(town):
 def test_layers_are_few_and_lie_apart(town):
     layers = city.layers(town)
     assert len({layer.name for layer in layers}) == len(layers) <= 12
-    heights = sorted([city.GROUND, city.WATER, city.GREEN, city.ROAD, city.MARKING, city.SHADOW])
+    heights = sorted([city.GROUND, city.AREA, city.SPACE, city.ROAD, city.MARKING, city.SHADOW])
     assert np.diff(heights).min() > 0.015
 
 
