@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 
 from studio.errors import MapError
-from studio.road.network import Network
+from studio.road.network import ATTRIBUTION, Network
 
 REPORT, NETWORK = "report.json", "network.json.gz"
 
 
-def write(network: Network, source: Path, out: Path, *, bbox: str | None) -> None:
+def write(network: Network, source: Path, out: Path, *, bbox: str | None, parking_aisles: bool = False) -> None:
     """Writes the folder beside its place and renames it, so that there is never half of one.
 
     Raises:
@@ -35,7 +35,7 @@ def write(network: Network, source: Path, out: Path, *, bbox: str | None) -> Non
             made.mkdir()
             shutil.copyfile(source, made / f"map{ending(source)}")
             (made / NETWORK).write_bytes(gzip.compress(as_text(network_json(network)), mtime=0))
-            (made / REPORT).write_bytes(as_text(report_json(network, source, bbox)))
+            (made / REPORT).write_bytes(as_text(report_json(network, source, bbox, parking_aisles=parking_aisles)))
             if out.exists():
                 os.rename(out, Path(beside, "old"))
             os.rename(made, out)
@@ -66,15 +66,16 @@ def as_text(value: Any) -> bytes:
     return json.dumps(value, ensure_ascii=False, indent=1).encode()
 
 
-def report_json(network: Network, source: Path, bbox: str | None) -> dict[str, Any]:
+def report_json(network: Network, source: Path, bbox: str | None, *, parking_aisles: bool = False) -> dict[str, Any]:
     """The report with what it is of."""
     latitude, longitude = network.origin
     return {
         "name": network.name,
         "attribution": network.attribution,
-        "licence": "Open Database License (ODbL) 1.0",
+        "licence": "Open Database License (ODbL) 1.0" if network.attribution == ATTRIBUTION else "",
         "source": source.name,
         "bbox": bbox,
+        "parking_aisles": parking_aisles,
         "origin": {"latitude": latitude, "longitude": longitude},
         "bounds_m": list(network.bounds),
         "digest": network.digest,
@@ -113,8 +114,8 @@ def points(line: np.ndarray) -> list[list[float]]:
     return np.round(line.T, 3).tolist()
 
 
-def opened(folder: Path) -> tuple[Path, str | None]:
-    """The map of an import's folder, and the part of it that was kept.
+def opened(folder: Path) -> tuple[Path, str | None, bool]:
+    """The map of an import's folder, the part of it that was kept, and whether parking aisles were built.
 
     Raises:
         MapError: the folder is no import.
@@ -122,7 +123,7 @@ def opened(folder: Path) -> tuple[Path, str | None]:
     try:
         text = json.loads((folder / REPORT).read_text(encoding="utf-8"))
         (source,) = [each for each in folder.iterdir() if each.name in ("map.osm", "map.osm.gz", "map.osm.pbf", "map.json")]
-        bbox = text["bbox"]
+        bbox, parking_aisles = text["bbox"], bool(text.get("parking_aisles", False))
     except (OSError, ValueError, KeyError, TypeError):
         raise MapError(f"{folder}: the map file cannot be read: this folder is no import; make one with `studio import`") from None
-    return source, bbox
+    return source, bbox, parking_aisles

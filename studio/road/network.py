@@ -15,6 +15,7 @@ from studio.road.report import Report
 from studio.road.signals import Signals
 
 ATTRIBUTION = "© OpenStreetMap contributors"
+DRAWN = "Drawn by Cooperative ADAS Studio"  # no data of others
 SPACE_X, SPACE_Y, SPACE_HEADING, SPACE_LENGTH, SPACE_WIDTH = range(5)
 SPACE_ROWS = 5
 

@@ -23,6 +23,7 @@ from studio.road import overpass
 from studio.road.kind import OPENINGS, area_kind, hidden, line_kind, point_kind
 from studio.road.report import Notes, Spot
 
+GENERATOR = "Cooperative ADAS Studio"  # of maps that the studio has drawn itself
 FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf", ".json": "osm"}
 LARGEST_FILE = 100 * 2**20  # [B] on disk
 LARGEST = 512 * 2**20  # [B] unpacked, more than any city district; a bomb ends here
@@ -157,6 +158,7 @@ class Survey:
     barriers: Counter = field(default_factory=Counter)  # that are not drawn
     notes: Notes = field(default_factory=Notes)
     mapped: Box | None = None
+    drawn_here: bool = False  # by the studio, so that nobody else has a right in it
 
 
 # -- the file --------------------------------------------------------------------------------------
@@ -221,14 +223,18 @@ def check_xml(path: Path, data: bytes) -> None:
 # -- the survey ------------------------------------------------------------------------------------
 
 
-def survey(path: Path, data: bytes) -> Survey:
-    """Goes once through the map and notes what is used of it."""
+def survey(path: Path, data: bytes, *, parking_aisles: bool = False) -> Survey:
+    """Goes once through the map and notes what is used of it; parking aisles become ways for cars if asked for."""
     try:
         found = surveyed(data, file_format(path))
         if not found.ways:
             found = surveyed(sorted_xml(data, file_format(path)), "osm")
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
+    if parking_aisles:
+        built = [way for way in aisles(found.service) if is_open(way, found.notes)]
+        found.ways += built
+        found.small["service"] -= len(built)
     if not found.ways:
         lacking = f"; of {len(found.notes.skipped)} the nodes are not in the file" if found.notes.skipped else ""
         raise MapError(f"{path}: there are no roads for cars in this map{lacking}")
@@ -236,10 +242,29 @@ def survey(path: Path, data: bytes) -> Survey:
     return found
 
 
+def aisles(service: list[Way]) -> list[Way]:
+    """The parking aisles among service ways, and the driveways by which one comes to them, in the file's order."""
+    chosen = {way.id for way in service if way.tags.get("service") == "parking_aisle"}
+    driveways = [way for way in service if way.tags.get("service", "driveway") == "driveway"]
+    reached = {node for way in service if way.id in chosen for node in way.nodes}
+    while more := [way for way in driveways if way.id not in chosen and not reached.isdisjoint(way.nodes)]:
+        chosen |= {way.id for way in more}
+        reached |= {node for way in more for node in way.nodes}
+    return [way for way in service if way.id in chosen]
+
+
+def is_open(way: Way, notes: Notes) -> bool:
+    """Whether everyone may drive a car on a way; if not, that is noted."""
+    reason = closed_to_cars(way.tags)
+    if reason:
+        notes.skip("closed way", f"highway={way.tags['highway']}", spot_of(way), reason)
+    return not reason
+
+
 def note_counts(found: Survey) -> None:
     """Notes what is left out by kind, not one by one."""
     spot = Spot("the whole map", *found.places[0][::-1])
-    for kind, count in sorted(found.small.items()):
+    for kind, count in sorted((+found.small).items()):
         found.notes.skip("small way", f"{count} ways with highway={kind}", spot, "only public roads are built")
     broken = Counter(kind for name, kind in found.outlines.items() if name not in found.drawn)
     for kind, count in sorted(broken.items()):
@@ -254,6 +279,7 @@ def surveyed(data: bytes, form: str) -> Survey:
     found = Survey()
     file = osmium.FileProcessor(osmium.io.FileBuffer(data, form))
     found.mapped = mapped_box(file.header.box())
+    found.drawn_here = file.header.get("generator", "") == GENERATOR
     tagged = osmium.filter.EmptyTagFilter()
     for thing in file.with_locations().with_areas().with_filter(tagged):
         note(found, thing)

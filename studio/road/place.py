@@ -10,7 +10,7 @@ from pathlib import Path
 
 from studio.errors import MapError
 from studio.road import folder, kept, osm
-from studio.road.network import ATTRIBUTION, Connection, Network
+from studio.road.network import ATTRIBUTION, DRAWN, Connection, Network
 from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
@@ -26,6 +26,7 @@ def load(
     *,
     radius: float | None = None,
     bbox: str | None = None,
+    parking_aisles: bool = False,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
     """The roads and the scenery of a map file (.osm, .osm.gz, .osm.pbf, or .json from an Overpass server).
@@ -34,6 +35,7 @@ def load(
         path: the map file, or the folder that `studio import` made of one.
         bbox: the part to keep, "west,south,east,north" [deg].
         radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms.
+        parking_aisles: whether the aisles of parking places are built too, with the driveways that lead to them.
         progress: is told what is being done.
 
     Raises:
@@ -41,8 +43,9 @@ def load(
     """
     path = Path(path)
     if path.is_dir():
-        source, kept_part = folder.opened(path)
-        network = load(source, radius=radius, bbox=bbox or (None if radius else kept_part), progress=progress)
+        source, kept_part, with_aisles = folder.opened(path)
+        part = bbox or (None if radius else kept_part)
+        network = load(source, radius=radius, bbox=part, parking_aisles=parking_aisles or with_aisles, progress=progress)
         return replace(network, name=path.name)
     if radius is not None and not radius >= SHORTEST_RADIUS:
         raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
@@ -50,10 +53,10 @@ def load(
     if box is not None and radius is not None:
         raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
     data = osm.read(path)
-    digest = digest_of(data, radius, box)
+    digest = digest_of(data, radius, box, parking_aisles)
     network = recall(digest)
     if network is None:
-        network = imported(path, data, digest, radius=radius, bbox=box, progress=progress)
+        network = imported(path, data, digest, radius=radius, bbox=box, parking_aisles=parking_aisles, progress=progress)
         kept.keep("maps", digest, network)
     return replace(network, name=name_of(path))
 
@@ -69,12 +72,14 @@ def name_of(path: Path) -> str:
     return path.name.split(".osm")[0].removesuffix(".json")
 
 
-def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
+def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None, parking_aisles: bool) -> str:
     """Digest of the map's content, the options and everything that turns them into a Network."""
-    return kept.digest_of(radius, bbox, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
+    return kept.digest_of(radius, bbox, parking_aisles, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
 
 
-def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
+def imported(
+    path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, parking_aisles: bool, progress
+) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
     from studio.road import audit, turn
     from studio.road.country import country_at
@@ -84,7 +89,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
 
     began = time.perf_counter()
     progress(f"reading {path.name}")
-    found = osm.survey(path, data)
+    found = osm.survey(path, data, parking_aisles=parking_aisles)
     box = clipped(path, found, radius, bbox)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     cut = cut_ways(path, found, box, ids)
@@ -98,7 +103,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
     lights = lights_of(found, ways, box, net)
     network = Network(
         name=name_of(path),
-        attribution=ATTRIBUTION,
+        attribution=DRAWN if found.drawn_here else ATTRIBUTION,
         origin=box.centre,
         bounds=box.bounds(),
         digest=digest,
