@@ -44,11 +44,16 @@ def ways(plan: Plan) -> None:
         plan.way([start, end], highway="residential", maxspeed="30", lanes="2", name="Deckstraße")
     start, end = -ROW / 2.0, ROW / 2.0
     plan.way([(STREET, -RADIUS), (-END, -RADIUS), (start, -RADIUS)], **WALKING, service="driveway")
-    plan.way([(start, -RADIUS), (end, -RADIUS)], **WALKING, service="parking_aisle")
+    plan.way(aisle(start, end, -RADIUS), **WALKING, service="parking_aisle")
     plan.way(bend(end, 1.0), **WALKING, service="parking_aisle")
-    plan.way([(end, RADIUS), (start, RADIUS)], **WALKING, service="parking_aisle")
+    plan.way(aisle(end, start, RADIUS), **WALKING, service="parking_aisle")
     plan.way(bend(start, -1.0), **WALKING, service="parking_aisle")
     plan.way([(start, RADIUS), (-END, RADIUS), (STREET, RADIUS)], **WALKING, service="driveway")
+
+
+def aisle(start: float, end: float, y: float) -> list[tuple[float, float]]:
+    """A straight aisle, in pieces so short that the bends at its ends do not pull it out of line."""
+    return [(x, y) for x in np.linspace(start, end, 21)]
 
 
 def bend(x: float, side: float) -> list[tuple[float, float]]:

@@ -23,7 +23,7 @@ PATIENCE = 120.0  # [s] after which an import is given up
 DEFAULT_LANE_WIDTH = 3.2  # [m] netconvert's own
 # netconvert's own kinds of ways, and service ways for cars too; which of them are built is decided before
 KINDS = Path(sumo.SUMO_HOME) / "data" / "typemap" / "osmNetconvert.typ.xml"
-SERVICE = '<types><type id="highway.service" numLanes="1" speed="2.78" priority="1" oneway="false"/></types>'
+SERVICE = '<types><type id="highway.service" numLanes="1" speed="2.78" priority="1" oneway="false" allow="passenger delivery"/></types>'
 OPTIONS = (
     *("--geometry.remove", "true", "--roundabouts.guess", "true", "--ramps.guess", "true"),
     *("--junctions.join", "true", "--junctions.corner-detail", "5", "--junctions.internal-link-detail", "12"),
