@@ -36,6 +36,7 @@ TAGS = {
 KERBS = {"quiet": {"parking:both": "lane"}, "north": {"parking:right": "lane"}, "south": {"parking:right": "lane"}}
 HALF = {"main": 3.0 * LANE, "north": LANE, "south": LANE, "quiet": LANE}  # [m] from the axis to the farther kerb
 SET_BACK = {"main": 3.0 * LANE + 5.0, "north": LANE + 6.0, "south": LANE + 6.0, "quiet": LANE + 6.0}  # [m] axis to house front
+PAVEMENT = 2.0  # [m] before a house at the ring
 DEPTH = 13.0  # [m] of a house
 PARK, SQUARE, MARKET = (2, 2), (1, 3), (3, 1)  # blocks without houses around a yard
 EAST, NORTH, WEST, SOUTH = (1, 0), (0, 1), (-1, 0), (0, -1)
@@ -194,14 +195,22 @@ def houses(plan: Plan, x0: float, y0: float, x1: float, y1: float, number: int) 
     """Houses along all four sides, and a green yard within."""
     for low, high in ((y0, y0 + DEPTH), (y1 - DEPTH, y1)):
         for k, (left, right) in enumerate(split(x0, x1)):
-            plan.rectangle(left, low, right, high, building="apartments", building__levels=str(floors(number + k)))
+            house(plan, left, low, right, high, floors(number + k))
     for low, high in ((x0, x0 + DEPTH), (x1 - DEPTH, x1)):
         for k, (bottom, top) in enumerate(split(y0 + DEPTH, y1 - DEPTH)):
-            plan.rectangle(low, bottom, high, top, building="apartments", building__levels=str(floors(number + 2 * k + 1)))
+            house(plan, low, bottom, high, top, floors(number + 2 * k + 1))
     yard = DEPTH + 3.0
     plan.rectangle(x0 + yard, y0 + yard, x1 - yard, y1 - yard, leisure="garden")
     for x, y in spots(x0 + yard + 4.0, y0 + yard + 4.0, x1 - yard - 4.0, y1 - yard - 4.0, 14.0):
         plan.node((x, y), natural="tree")
+
+
+def house(plan: Plan, x0: float, y0: float, x1: float, y1: float, levels: int) -> None:
+    """One house, where the ring of the roundabout leaves room for it."""
+    x, y = place(*ROUNDABOUT)
+    away = np.hypot(max(x0 - x, x - x1, 0.0), max(y0 - y, y - y1, 0.0))
+    if away > RING + LANE + PAVEMENT:
+        plan.rectangle(x0, y0, x1, y1, building="apartments", building__levels=str(levels))
 
 
 def split(low: float, high: float) -> Iterator[tuple[float, float]]:
