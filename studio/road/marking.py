@@ -12,17 +12,18 @@ import shapely
 
 from studio.road import curve
 from studio.road.network import SPACE_LENGTH, SPACE_WIDTH, Crossing, Lane, Network
+from studio.road.plane import polygons
 from studio.road.surface import (
     LINE_WIDTH,
     MARKING,
     MIDDLE_INSET,
     Mesh,
     edge_lines,
+    empty,
     flat,
     junction_form,
     merged,
     middle_line,
-    road_form,
     road_lines,
     stop_line,
     strip,
@@ -37,25 +38,54 @@ SPACE_LINE = 0.1  # [m]
 TURNS = {"straight": "straight", "left": "left", "right": "right", "slight_left": "left", "slight_right": "right"}
 
 
-def marking_mesh(network: Network) -> Mesh:
-    """Everything that is painted."""
-    form = painted(network)
-    return merged([flat(form, MARKING), space_mesh(network.scenery.spaces), *(arrow_mesh(network))])
+def marking_mesh(network: Network, form: shapely.Geometry) -> Mesh:
+    """Everything that is painted on a road of this plane shape, and the lines of parking spaces beside it."""
+    pieces = painted(network, form)
+    return merged([flat(each, MARKING) for each in pieces[~is_quad(pieces)]] + [quad_mesh(pieces[is_quad(pieces)]), space_mesh(network.scenery.spaces), *arrow_mesh(network)])
 
 
-def painted(network: Network) -> shapely.Geometry:
-    """All lines and crossings as one plane shape; lane markings keep off junctions and painted crossings."""
+def painted(network: Network, form: shapely.Geometry) -> np.ndarray:
+    """All lines and crossings as plane shapes; lane markings keep off junctions and painted crossings."""
     roads = [road.id for road in network.roads.values() if not road.internal]
-    form, junctions = road_form(network), junction_form(network)
-    lines = [line for road in roads for line in road_lines(network, road)]
     middles = shapely.union_all([middle_line(network, road) for road in roads])
-    middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junctions)
+    middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junction_form(network))
+    dashes = [line for road in roads for line in road_lines(network, road)]
     stops = [stop_line(network, link) for link in range(len(network.signals))]
     shown = [crossing for crossing in network.scenery.crossings if crossing.marking != "none"]
-    covered = shapely.union_all([ground_of(crossing).buffer(STOPPED_BY, join_style="mitre") for crossing in shown])
-    beneath = shapely.union_all([*lines, *stops, middles, edge_lines(network, form)]).difference(covered)
-    crossed = [piece for crossing in shown for piece in crossing_pieces(crossing)]
-    return shapely.union_all([beneath, shapely.union_all(crossed).intersection(form)])
+    covered = [ground_of(crossing).buffer(STOPPED_BY, join_style="mitre") for crossing in shown]
+    lines = without(np.array([*dashes, *stops, *polygons(middles), *polygons(edge_lines(network, form))]), covered)
+    crossed = np.array([piece for crossing in shown for piece in crossing_pieces(crossing)], dtype=object)
+    return np.concatenate([lines, within(crossed, form)])
+
+
+def without(pieces: np.ndarray, covered: list[shapely.Geometry]) -> np.ndarray:
+    """The pieces cut where something covers them."""
+    piece, cover = shapely.STRtree(covered).query(pieces, predicate="intersects")
+    for i in np.unique(piece):
+        pieces[i] = pieces[i].difference(shapely.union_all([covered[j] for j in cover[piece == i]]))
+    return pieces[~shapely.is_empty(pieces)]
+
+
+def within(pieces: np.ndarray, form: shapely.Geometry) -> np.ndarray:
+    """The parts of the pieces that lie on this plane shape."""
+    shapely.prepare(form)
+    over = ~shapely.contains(form, pieces)
+    pieces[over] = shapely.intersection(pieces[over], form)
+    return pieces[~shapely.is_empty(pieces)]
+
+
+def is_quad(pieces: np.ndarray) -> np.ndarray:
+    """Which shapes have four corners and no hole: their triangles need no search."""
+    simple = shapely.get_type_id(pieces) == shapely.GeometryType.POLYGON
+    return simple & (shapely.get_num_interior_rings(pieces) == 0) & (shapely.get_num_coordinates(pieces) == 5)
+
+
+def quad_mesh(pieces: np.ndarray) -> Mesh:
+    """Strips of four corners as two triangles each, facing up."""
+    if not len(pieces):
+        return empty()
+    corners = shapely.get_coordinates(shapely.orient_polygons(pieces)).reshape(-1, 5, 2)[:, :4]
+    return quads_of(np.concatenate([corners, np.full((len(corners), 4, 1), MARKING)], axis=2))
 
 
 # -- crossings -------------------------------------------------------------------------------------
@@ -157,6 +187,11 @@ def quads(x, y, heading, length, width, z: float) -> Mesh:
     c, s = np.cos(heading), np.sin(heading)
     along, left = np.array([-1, 1, 1, -1])[:, None] * length / 2.0, np.array([-1, -1, 1, 1])[:, None] * width / 2.0
     corners = np.stack([x + along * c - left * s, y + along * s + left * c, np.full(along.shape, z)], axis=-1)
-    first = 4 * np.arange(len(x), dtype=np.uint32)[:, None]
+    return quads_of(corners.transpose(1, 0, 2))
+
+
+def quads_of(corners: np.ndarray) -> Mesh:
+    """Convex quads [n, 4, 3], counter-clockwise, as a mesh."""
+    first = 4 * np.arange(len(corners), dtype=np.uint32)[:, None]
     faces = np.concatenate([first + np.uint32([0, 1, 2]), first + np.uint32([0, 2, 3])])
-    return Mesh(corners.transpose(1, 0, 2).reshape(-1, 3).astype(np.float32), faces.astype(np.uint32))
+    return Mesh(corners.reshape(-1, 3).astype(np.float32), faces.astype(np.uint32))

@@ -107,9 +107,9 @@ def strip(centre: np.ndarray, width: float) -> shapely.Geometry:
     )
 
 
-def road_mesh(network: Network) -> Mesh:
-    """The carriageway."""
-    return flat(road_form(network), ROAD)
+def road_mesh(form: shapely.Geometry) -> Mesh:
+    """The carriageway of this plane shape."""
+    return flat(form, ROAD)
 
 
 def beside(lane: Lane, offset: float) -> shapely.LineString:
@@ -228,27 +228,26 @@ def shadow_mesh(network: Network, sun: tuple[float, float, float] = SUN) -> Mesh
         network: the map.
         sun: the direction that light travels, a unit vector that points down.
     """
-    footprints = [footprint(building) for building in network.scenery.buildings]
-    casts = [
-        cast(form, building, sun)
-        for form, building in zip(footprints, network.scenery.buildings, strict=True)
-    ]
-    standing = [form for form, b in zip(footprints, network.scenery.buildings, strict=True) if b.base == 0.0]
-    return flat(shapely.union_all(casts).difference(shapely.union_all(standing)), SHADOW)
+    buildings = network.scenery.buildings
+    pieces = [piece for building in buildings for piece in cast_pieces(footprint(building), building, sun)]
+    standing = [footprint(building) for building in buildings if building.base == 0.0]
+    return flat(shapely.union_all(pieces).difference(shapely.union_all(standing)), SHADOW)
 
 
 def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> shapely.Geometry:
+    """The shadow of a prism."""
+    return shapely.union_all(cast_pieces(form, building, sun))
+
+
+def cast_pieces(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> list[shapely.Geometry]:
     """The shadow of a prism: its footprint swept from the underside's shadow to the roof's, edge by edge."""
     length = np.array([sun[0], sun[1]]) / -sun[2]
     length *= min(1.0, LONGEST_SHADOW / max(1e-9, building.height * np.hypot(*length)))
     near, far = building.base * length, building.height * length
-    corners = np.array(form.exterior.coords)
-    swept = [
-        shapely.MultiPoint([a + near, b + near, a + far, b + far]).convex_hull
-        for a, b in zip(corners[:-1], corners[1:], strict=True)
-    ]
+    a = np.array(form.exterior.coords)
+    swept = shapely.polygons(np.stack([a[:-1] + near, a[1:] + near, a[1:] + far, a[:-1] + far], axis=1))
     ends = [shapely.affinity.translate(form, *near), shapely.affinity.translate(form, *far)]
-    return shapely.union_all([*ends, *(quad for quad in swept if quad.area > 0.0)])
+    return [*ends, *swept[shapely.area(swept) > 0.0]]
 
 
 # -- ground ----------------------------------------------------------------------------------------

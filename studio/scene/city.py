@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studio.road import marking
+from studio.road import kept, marking
 from studio.road import surface as roads
 from studio.road.network import Network
-from studio.scene import building, signal
+from studio.scene import building, signal, tree
 from studio.scene.colour import linear
 from studio.scene.glb import Material, glb
 from studio.scene.light import SKY_RADIUS, SUN, on_level_ground
@@ -26,6 +26,11 @@ COLOURS = {
     "road": "#55585c",
     "markings": "#eceae3",
 }
+DIGEST_LENGTH = 64  # of a map that was imported; one made by hand has no digest that tells of its content
+MAKERS = (
+    *("marking.py", "plane.py", "surface.py", "curve.py"),
+    *(f"../scene/{name}.py" for name in ("building", "city", "colour", "glb", "light", "shape", "signal", "tree", "upright")),
+)
 SPACE_MARGIN = 0.35  # [m] of ground around a space, to its neighbour and to the lane
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
 
@@ -39,13 +44,34 @@ class Layer:
     height: float = 0.0
 
 
+@dataclass(frozen=True, eq=False)
+class City:
+    """What never moves: the layers, each one draw call, and where trees stand, float64[2, n]."""
+
+    layers: list[Layer]
+    trees: np.ndarray
+
+
+def city(network: Network) -> City:
+    """The city of a map; that of an imported map is kept on disk, since a large one takes seconds to make."""
+    if len(network.digest) != DIGEST_LENGTH:
+        return City(layers(network), tree.places(network))
+    digest = kept.digest_of(network.digest, sources=MAKERS)
+    found = kept.recall("cities", digest)
+    if not isinstance(found, City):
+        found = City(layers(network), tree.places(network))
+        kept.keep("cities", digest, found)
+    return found
+
+
 def layers(network: Network) -> list[Layer]:
     """Everything of the city that never moves, from the ground up; each is one draw call."""
+    form = roads.road_form(network)
     return [
         Layer("ground", glb(ground(), Material(unlit=True)), GROUND),
         *_areas(network),
-        _flat("road", roads.road_mesh(network), ROAD),
-        _flat("markings", marking.marking_mesh(network), MARKING),
+        _flat("road", roads.road_mesh(form), ROAD),
+        _flat("markings", marking.marking_mesh(network, form), MARKING),
         *_buildings(network),
         *_uprights(network),
     ]

@@ -1,5 +1,7 @@
 """What stands upright beside the road, as plain solids: walls, fences, hedges, bollards, lamps and poles in one mesh."""
 
+from functools import cache
+
 import numpy as np
 
 from studio.road.network import Network, Post, Wall
@@ -38,14 +40,19 @@ def barrier(wall: Wall) -> Surface:
 
 
 def post(each: Post) -> Surface:
-    """A slim prism; a lamp has a head, a pole for wires a bar, a block is a cube."""
-    colour = POSTS[each.kind]
-    if each.kind == "block":
-        parts = [box((each.thickness, each.thickness, each.height), colour).moved(z=each.height / 2.0)]
-    else:
-        parts = [cylinder(each.thickness / 2.0, each.height, colour, segments=6)]
-    if each.kind == "lamp":
-        parts.append(box((0.5, 0.5, 0.25), LAMP).moved(z=each.height))
-    elif each.kind == "pole":
-        parts.append(box((0.15, 2.0, 0.15), colour).moved(z=each.height - 0.6))
-    return joined(parts).moved(x=each.x, y=each.y)
+    """A slim prism where it stands."""
+    return prototype(each.kind, each.height, each.thickness).moved(x=each.x, y=each.y)
+
+
+@cache
+def prototype(kind: str, height: float, thickness: float) -> Surface:
+    """A post about the origin; a lamp has a head, a pole for wires a bar, a block is a cuboid."""
+    colour = POSTS[kind]
+    if kind == "block":
+        return box((thickness, thickness, height), colour).moved(z=height / 2.0)
+    parts = [cylinder(thickness / 2.0, height, colour, segments=5)]
+    if kind == "lamp":
+        parts.append(box((0.5, 0.5, 0.25), LAMP).moved(z=height))
+    elif kind == "pole":
+        parts.append(box((0.15, 2.0, 0.15), colour).moved(z=height - 0.6))
+    return joined(parts)

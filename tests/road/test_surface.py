@@ -20,8 +20,8 @@ def flats(place):
         "ground": surface.ground_mesh(place),
         "green": areas["green"],
         "water": areas["water"],
-        "road": surface.road_mesh(place),
-        "marking": marking.marking_mesh(place),
+        "road": surface.road_mesh(surface.road_form(place)),
+        "marking": marking.marking_mesh(place, surface.road_form(place)),
         "shadow": surface.shadow_mesh(place),
     }
 
@@ -74,7 +74,7 @@ def test_every_car_drives_on_asphalt(place, paths):
 
 def test_markings_lie_on_the_road(place):
     bare = replace(place, scenery=replace(place.scenery, spaces=place.scenery.spaces[:, :0]))  # spaces lie beside it
-    mesh = marking.marking_mesh(bare)
+    mesh = marking.marking_mesh(bare, surface.road_form(bare))
     middles = mesh.vertices[mesh.faces].mean(axis=1)
     form = surface.road_form(place).buffer(0.2)
     shapely.prepare(form)
@@ -141,4 +141,4 @@ def test_a_part_in_the_air_throws_its_shadow_beside_itself():
 
 def test_a_place_without_scenery_has_empty_meshes(straight):
     assert len(surface.building_mesh(straight).faces) == len(surface.shadow_mesh(straight).faces) == 0
-    assert len(surface.road_mesh(straight).faces) > 0 and len(marking.marking_mesh(straight).faces) > 0
+    assert len(surface.road_mesh(surface.road_form(straight)).faces) > 0 and len(marking.marking_mesh(straight, surface.road_form(straight)).faces) > 0
