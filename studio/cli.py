@@ -26,6 +26,10 @@ app = typer.Typer(
 generate = typer.Typer(help="Makes a map.", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
 app.add_typer(generate, name="generate")
 
+generate = typer.Typer(help="Draws a map.", no_args_is_help=True, rich_markup_mode=None)
+app.add_typer(generate, name="generate")
+
+MapOut = Annotated[Path, typer.Option("--out", help="The map to write (.osm).")]
 Db = Annotated[Path, typer.Option("--db", help="The run database; made when there is none.")]
 Applications = Annotated[
     Path | None, typer.Option("--applications", help="A folder of Python files, each an application of your own.")
@@ -143,6 +147,7 @@ def import_(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="A map: .osm, .osm.gz, .osm.pbf, .json from an Overpass server, or OpenDRIVE (.xodr).")],
     out: Annotated[Path, typer.Option("--out", help="The folder to make; an earlier import there is replaced.")],
     bbox: Annotated[str | None, typer.Option("--bbox", metavar="W,S,E,N", help="The part to keep [deg]; default: the mapped place.")] = None,
+    parking_aisles: Annotated[bool, typer.Option("--parking-aisles", help="Build the aisles of parking places and the driveways to them.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Imports a map into a folder that a scenario can name, and reports what was found, guessed and skipped."""
@@ -150,10 +155,10 @@ def import_(
     from studio.road.report import rows
 
     folder.refuse_foreign(out)
-    network = load(file, bbox=bbox, progress=lambda text: print(text, file=sys.stderr))
-    folder.write(network, file, out, bbox=bbox)
+    network = load(file, bbox=bbox, parking_aisles=parking_aisles, progress=lambda text: print(text, file=sys.stderr))
+    folder.write(network, file, out, bbox=bbox, parking_aisles=parking_aisles)
     if as_json:
-        print_json(folder.report_json(network, file, bbox))
+        print_json(folder.report_json(network, file, bbox, parking_aisles=parking_aisles))
         return
     print_table(["what", "how many", "remark"], rows(network.report))
     print(f"{out}: {network.name}. {network.attribution}".rstrip())
@@ -177,6 +182,24 @@ def motorway(
         problem = Problem("--out", "cannot be written", str(out), remedy="name a file in a folder that exists")
         raise MapError(f"{out}: {error.strerror or error}", [problem]) from None
     print(f"{out}: a motorway of {length:g} m with {lanes} lanes each way")
+
+
+@generate.command("grid")
+def generate_grid(out: MapOut) -> None:
+    """Draws a town of 5 by 5 blocks: main streets with signals, quiet streets, a one-way pair, a roundabout, houses, parking."""
+    from studio.road.town import town
+
+    town().write(out)
+    print(f"{out}: a town of 5 by 5 blocks")
+
+
+@generate.command("deck")
+def generate_deck(out: MapOut) -> None:
+    """Draws a parking deck: one level, a one-way loop, sixty spaces, pillars and walls. Import it with --parking-aisles."""
+    from studio.road.deck import deck
+
+    deck().write(out)
+    print(f"{out}: a parking deck of 60 spaces")
 
 
 @app.command()

@@ -11,6 +11,7 @@ from studio.road.osm import Box, Survey, Way, spot_of
 from studio.road.priority import counts
 from studio.road.report import (
     BuildingCount,
+    CrossingCount,
     DriveSide,
     LimitCount,
     Notes,
@@ -19,6 +20,7 @@ from studio.road.report import (
     SignalCount,
     Spot,
     TurnCount,
+    UprightCount,
 )
 from studio.road.scenery import USUAL_HEIGHT, has_height, is_told_by_parts, shape_form
 from studio.road.surface import junction_form
@@ -49,7 +51,9 @@ def report(
         turn_lanes=turns,
         speed_limits=count_limits(raw, ways, notes),
         buildings=buildings,
-        parking=count_parking(found, box),
+        parking=count_parking(network, found, box),
+        crossings=count_crossings(network),
+        uprights=UprightCount(len(network.scenery.walls), len(network.scenery.posts), network.scenery.trees.shape[1]),
         guesses=tuple(notes.guesses),
         skipped=tuple(notes.skipped),
     )
@@ -130,11 +134,18 @@ def count_buildings(network: Network, found: Survey, box: Box, notes: Notes) -> 
     return BuildingCount(len(network.scenery.buildings), mapped, guessed)
 
 
-def count_parking(found: Survey, box: Box) -> ParkingCount:
+def count_parking(network: Network, found: Survey, box: Box) -> ParkingCount:
     """Parking areas and spaces in the box."""
     inside = [
         kind
         for kind, (longitude, latitude) in found.parking
         if box.west < longitude < box.east and box.south < latitude < box.north
     ]
-    return ParkingCount(inside.count("parking"), inside.count("parking_space"))
+    return ParkingCount(inside.count("parking"), inside.count("parking_space"), network.scenery.along_kerbs)
+
+
+def count_crossings(network: Network) -> CrossingCount:
+    """Crossings by what is painted and whether there are lights."""
+    crossings = network.scenery.crossings
+    marks = [crossing.marking for crossing in crossings]
+    return CrossingCount(len(crossings), marks.count("zebra"), sum(crossing.signalled for crossing in crossings), marks.count("none"))

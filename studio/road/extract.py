@@ -10,26 +10,31 @@ from studio.road.plan import Plan
 
 ENDINGS = tuple(osm.FORMATS)
 ATTRIBUTION = "© OpenStreetMap contributors"
+DRAWN = "Drawn by Cooperative ADAS Studio"  # no data of others
+GENERATED = f'generator="{osm.GENERATOR}"'.encode()
 LICENCE = "Open Database License (ODbL) 1.0"
 SHORTEST_RADIUS = 50.0  # [m]
 
 read = osm.read
-Part = tuple[float | None, osm.Box | None]  # radius, box
+Part = tuple[float | None, osm.Box | None, bool]  # radius, box, whether the aisles of parking places are built
 
 
 def attribution(path: Path) -> str:
-    """Who made the map."""
-    return ATTRIBUTION
+    """Who made the map: its mappers, or the studio itself."""
+    try:
+        return DRAWN if GENERATED in osm.head(path) else ATTRIBUTION
+    except OSError as error:
+        raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
 
 
-def part(path: Path, radius: float | None, bbox: str | None) -> Part:
+def part(path: Path, radius: float | None, bbox: str | None, *, parking_aisles: bool) -> Part:
     """The part that is asked for; raises MapError when it is none."""
     if radius is not None and not radius >= SHORTEST_RADIUS:
         raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
     box = None if bbox is None else osm.bounding_box(bbox)
     if box is not None and radius is not None:
         raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
-    return radius, box
+    return radius, box, parking_aisles
 
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
@@ -40,9 +45,11 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     from studio.road.priority import mapped_law
     from studio.road.scenery import scenery
     from studio.road.side import drive_side
+    from studio.road.site import Site
 
-    found = osm.survey(path, data)
-    box = clipped(path, found, *kept)
+    radius, bbox, parking_aisles = kept
+    found = osm.survey(path, data, parking_aisles=parking_aisles)
+    box = clipped(path, found, radius, bbox)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     cut = cut_ways(path, found, box, ids)
     country = country_at(*box.centre)
@@ -55,11 +62,11 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),
-        scenery=scenery(found, box),
+        scenery=scenery(found, Site(box, ways, net, left_hand)),
         origin=box.centre,
         bounds=box.bounds(),
-        attribution=ATTRIBUTION,
-        licence=LICENCE,
+        attribution=DRAWN if found.drawn_here else ATTRIBUTION,
+        licence="MIT" if found.drawn_here else LICENCE,
         law=mapped_law(net, ways, found.nodes, box, country=country.name, left_hand=left_hand),
         report=lambda network: audit.report(
             network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name

@@ -22,7 +22,7 @@ from studio.road.reader import ENDINGS, ending_of
 REPORT, NETWORK = "report.json", "network.json.gz"
 
 
-def write(network: Network, source: Path, out: Path, *, bbox: str | None) -> None:
+def write(network: Network, source: Path, out: Path, *, bbox: str | None, parking_aisles: bool = False) -> None:
     """Writes the folder beside its place and renames it, so that there is never half of one.
 
     Raises:
@@ -36,7 +36,7 @@ def write(network: Network, source: Path, out: Path, *, bbox: str | None) -> Non
             made.mkdir()
             shutil.copyfile(source, made / f"map{ending_of(source)}")
             (made / NETWORK).write_bytes(gzip.compress(as_text(network_json(network)), mtime=0))
-            (made / REPORT).write_bytes(as_text(report_json(network, source, bbox)))
+            (made / REPORT).write_bytes(as_text(report_json(network, source, bbox, parking_aisles=parking_aisles)))
             if out.exists():
                 os.rename(out, Path(beside, "old"))
             os.rename(made, out)
@@ -57,7 +57,7 @@ def as_text(value: Any) -> bytes:
     return json.dumps(value, ensure_ascii=False, indent=1).encode()
 
 
-def report_json(network: Network, source: Path, bbox: str | None) -> dict[str, Any]:
+def report_json(network: Network, source: Path, bbox: str | None, *, parking_aisles: bool = False) -> dict[str, Any]:
     """The report with what it is of."""
     latitude, longitude = network.origin
     return {
@@ -66,6 +66,7 @@ def report_json(network: Network, source: Path, bbox: str | None) -> dict[str, A
         "licence": network.licence,
         "source": source.name,
         "bbox": bbox,
+        "parking_aisles": parking_aisles,
         "origin": {"latitude": latitude, "longitude": longitude},
         "bounds_m": list(network.bounds),
         "digest": network.digest,
@@ -105,8 +106,8 @@ def points(line: np.ndarray) -> list[list[float]]:
     return np.round(line.T, 3).tolist()
 
 
-def opened(folder: Path) -> tuple[Path, str | None]:
-    """The map of an import's folder, and the part of it that was kept.
+def opened(folder: Path) -> tuple[Path, str | None, bool]:
+    """The map of an import's folder, the part of it that was kept, and whether parking aisles were built.
 
     Raises:
         MapError: the folder is no import.
@@ -114,7 +115,7 @@ def opened(folder: Path) -> tuple[Path, str | None]:
     try:
         text = json.loads((folder / REPORT).read_text(encoding="utf-8"))
         (source,) = [each for each in folder.iterdir() if each.name in {f"map{ending}" for ending in ENDINGS}]
-        bbox = text["bbox"]
+        bbox, parking_aisles = text["bbox"], bool(text.get("parking_aisles", False))
     except (OSError, ValueError, KeyError, TypeError):
         raise MapError(f"{folder}: the map file cannot be read: this folder is no import; make one with `studio import`") from None
-    return source, bbox
+    return source, bbox, parking_aisles

@@ -14,10 +14,10 @@ from studio.compiled import cache_root
 
 
 def digest_of(*parts: object, sources: tuple[str, ...]) -> str:
-    """Digest of what something is made of, and of the files of this folder that make it."""
+    """Digest of what something is made of, and of the files that make it: names in this folder, or paths from it."""
     digest = hashlib.sha256(repr([part for part in parts if not isinstance(part, bytes)]).encode())
     for name in sources:
-        digest.update(Path(__file__).with_name(name).read_bytes())
+        digest.update((Path(__file__).parent / name).read_bytes())
     for part in parts:
         if isinstance(part, bytes):
             digest.update(part)

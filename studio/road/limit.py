@@ -116,7 +116,8 @@ def usual(highway: str, rules: Rules) -> float:
         return rules.motorway
     if highway == "motorway_link":
         return min(80.0, rules.motorway)  # what ramps are built for
-    return {"residential": rules.residential, "living_street": rules.living_street}.get(highway, rules.town)
+    slow = rules.living_street
+    return {"residential": rules.residential, "living_street": slow, "service": slow}.get(highway, rules.town)
 
 
 def limited(way: Way, country: str, notes: Notes) -> Way:

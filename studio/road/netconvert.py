@@ -22,6 +22,9 @@ from studio.road.network import Connection, Lane, Net, Pair, Road
 NETCONVERT = Path(sumo.SUMO_HOME) / "bin" / "netconvert"
 PATIENCE = 120.0  # [s] after which an import is given up
 DEFAULT_LANE_WIDTH = 3.2  # [m] netconvert's own
+# netconvert's own kinds of ways, and service ways for cars too; which of them are built is decided before
+KINDS = Path(sumo.SUMO_HOME) / "data" / "typemap" / "osmNetconvert.typ.xml"
+SERVICE = '<types><type id="highway.service" numLanes="1" speed="2.78" priority="1" oneway="false" allow="passenger delivery"/></types>'
 OPTIONS = (
     *("--geometry.remove", "true", "--roundabouts.guess", "true", "--ramps.guess", "true"),
     *("--junctions.join", "true", "--junctions.corner-detail", "5", "--junctions.internal-link-detail", "12"),
@@ -57,6 +60,9 @@ def run(source: Path, target: Path, projection: str, *, left_hand: bool) -> None
     """Lets netconvert turn the file `source` into the network file `target`."""
     command = [str(NETCONVERT), "--osm-files", str(source), "-o", str(target), "--proj", projection, *OPTIONS]
     command += ["--lefthand", "true"] if left_hand else []
+    service = source.with_name("service.typ.xml")
+    service.write_text(SERVICE, encoding="utf-8")
+    command += ["--type-files", f"{KINDS},{service}"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=PATIENCE)
     except subprocess.TimeoutExpired:
@@ -127,6 +133,7 @@ def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Roa
         speed=max(lane.speed for lane in own),
         length=sum(lane.length for lane in own) / len(own),
         internal=internal,
+        kind=edge.get("type", "").split("|")[0].removeprefix("highway."),
     )
 
 

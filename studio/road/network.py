@@ -15,6 +15,8 @@ from studio.road.report import Report
 from studio.road.signals import Signals
 
 RIGHTS = ("signal", "priority", "yield", "stop", "all_way_stop", "right_before_left", "left_before_right", "roundabout", "zipper")
+SPACE_X, SPACE_Y, SPACE_HEADING, SPACE_LENGTH, SPACE_WIDTH = range(5)
+SPACE_ROWS = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +54,7 @@ class Road:
     speed: float  # [m/s]
     length: float  # [m]
     internal: bool
+    kind: str = ""  # as mapped, such as "residential"
 
 
 @dataclass(frozen=True)
@@ -107,7 +110,7 @@ class Building:
 
 @dataclass(frozen=True, eq=False)
 class Area:
-    """A patch of ground: kind is "green" or "water"; outline and holes float64[2, n]."""
+    """A patch of ground: kind is "green", "water", "sand", "square" or "parking"; outline and holes float64[2, n]."""
 
     kind: str
     outline: np.ndarray
@@ -115,12 +118,56 @@ class Area:
 
 
 @dataclass(frozen=True, eq=False)
+class Crossing:
+    """Where walkers cross a carriageway: a strip of this width [m] along `line` from edge to edge, float64[2, 2].
+
+    `marking` is "zebra", "lines" (two, as at lights) or "none"; `signalled` tells whether walkers have lights.
+    """
+
+    line: np.ndarray
+    width: float
+    marking: str
+    signalled: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Wall:
+    """Something upright along a line, float64[2, n]: kind is a "wall", "fence", "hedge" or another barrier."""
+
+    kind: str
+    line: np.ndarray
+    height: float  # [m]
+    thickness: float  # [m]
+
+
+@dataclass(frozen=True)
+class Post:
+    """Something slim and upright: kind is "bollard", "block", "lamp", "flagpole", "mast" or "pole"."""
+
+    kind: str
+    x: float  # [m]
+    y: float  # [m]
+    height: float  # [m]
+    thickness: float  # [m]
+
+
+@dataclass(frozen=True, eq=False)
 class Scenery:
-    """What stands beside the road. `trees` are positions, float64[2, n]."""
+    """What stands beside the road. `trees` are positions, float64[2, n].
+
+    `spaces` are single parking spaces, float64[SPACE_ROWS, n]: centre, heading in which one drives in from the aisle,
+    length and width. Along a kerb the heading is that of the traffic; the last `along_kerbs` of them are not mapped one
+    by one but laid there because the street allows parking.
+    """
 
     buildings: tuple[Building, ...]
     areas: tuple[Area, ...]
     trees: np.ndarray
+    spaces: np.ndarray = field(default_factory=lambda: np.empty((SPACE_ROWS, 0)))
+    along_kerbs: int = 0
+    crossings: tuple[Crossing, ...] = ()
+    walls: tuple[Wall, ...] = ()
+    posts: tuple[Post, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -69,7 +69,7 @@ def read(path: Path) -> bytes:
         raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
 
 
-def part(path: Path, radius: float | None, bbox: str | None) -> str:
+def part(path: Path, radius: float | None, bbox: str | None, *, parking_aisles: bool) -> str:
     """The whole map, whatever radius a scenario has; raises MapError when a box of it is asked for."""
     if bbox is not None:
         raise MapError(f"{path}: bbox {bbox!r}: an OpenDRIVE map is taken whole; leave the bbox out")

@@ -20,8 +20,10 @@ import pyproj
 
 from studio.errors import MapError
 from studio.road import overpass
+from studio.road.kind import OPENINGS, area_kind, hidden, line_kind, point_kind
 from studio.road.report import Notes, Spot
 
+GENERATOR = "Cooperative ADAS Studio"  # of maps that the studio has drawn itself
 FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf", ".json": "osm"}
 LARGEST_FILE = 100 * 2**20  # [B] on disk
 LARGEST = 512 * 2**20  # [B] unpacked, more than any city district; a bomb ends here
@@ -44,11 +46,6 @@ CAR_WAYS = {
 }
 ACCESS = ("motorcar", "motor_vehicle", "vehicle", "access")  # the more exact first
 SMALL_WAYS = {"service", "track", "road", "busway"}  # cars can drive there, but they are not built
-GREEN = {
-    "landuse": {"grass", "meadow", "forest", "village_green", "recreation_ground", "cemetery", "flowerbed"},
-    "leisure": {"park", "garden", "common", "pitch"},
-    "natural": {"wood", "scrub", "grassland", "heath"},
-}
 
 
 @dataclass(frozen=True)
@@ -127,6 +124,21 @@ class Shape:
     tags: dict[str, str]
 
 
+@dataclass(frozen=True)
+class Thing:
+    """A line or a point as mapped: its positions (longitude, latitude) [deg], its kind here, and its tags."""
+
+    points: list[tuple[float, float]]
+    kind: str
+    tags: dict[str, str]
+    name: str  # such as "node 12"
+
+    @property
+    def spot(self) -> Spot:
+        """Where to point at it."""
+        return Spot(self.name, *self.points[0][::-1])
+
+
 @dataclass
 class Survey:
     """Everything of a file that the studio uses."""
@@ -135,12 +147,18 @@ class Survey:
     nodes: dict[int, dict[str, str]] = field(default_factory=dict)
     restrictions: list[tuple[int, list[tuple[str, int, str]], dict[str, str]]] = field(default_factory=list)
     shapes: list[Shape] = field(default_factory=list)
-    trees: list[tuple[float, float]] = field(default_factory=list)
+    outlines: dict[int, str] = field(default_factory=dict)  # relations that shall be an area, and its kind
+    drawn: set[int] = field(default_factory=set)  # those of them that are one
+    service: list[Way] = field(default_factory=list)
+    lines: list[Thing] = field(default_factory=list)
+    points: list[Thing] = field(default_factory=list)
     places: list[tuple[float, float]] = field(default_factory=list)
     parking: list[tuple[str, tuple[float, float]]] = field(default_factory=list)
     small: Counter = field(default_factory=Counter)
+    barriers: Counter = field(default_factory=Counter)  # that are not drawn
     notes: Notes = field(default_factory=Notes)
     mapped: Box | None = None
+    drawn_here: bool = False  # by the studio, so that nobody else has a right in it
 
 
 # -- the file --------------------------------------------------------------------------------------
@@ -178,6 +196,13 @@ def read(path: Path) -> bytes:
     return data
 
 
+def head(path: Path) -> bytes:
+    """The beginning of the file, unpacked."""
+    opener = gzip.open if path.name.lower().endswith(".gz") else open
+    with opener(path, "rb") as file:
+        return file.read(512)
+
+
 def unpack(path: Path) -> bytes:
     """The content of the file, no more of it than `LARGEST`."""
     if path.stat().st_size > LARGEST_FILE:
@@ -205,21 +230,55 @@ def check_xml(path: Path, data: bytes) -> None:
 # -- the survey ------------------------------------------------------------------------------------
 
 
-def survey(path: Path, data: bytes) -> Survey:
-    """Goes once through the map and notes what is used of it."""
+def survey(path: Path, data: bytes, *, parking_aisles: bool = False) -> Survey:
+    """Goes once through the map and notes what is used of it; parking aisles become ways for cars if asked for."""
     try:
         found = surveyed(data, file_format(path))
         if not found.ways:
             found = surveyed(sorted_xml(data, file_format(path)), "osm")
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
+    if parking_aisles:
+        built = [way for way in aisles(found.service) if is_open(way, found.notes)]
+        found.ways += built
+        found.small["service"] -= len(built)
     if not found.ways:
         lacking = f"; of {len(found.notes.skipped)} the nodes are not in the file" if found.notes.skipped else ""
         raise MapError(f"{path}: there are no roads for cars in this map{lacking}")
-    for kind, count in sorted(found.small.items()):
-        spot = Spot("the whole map", *found.places[0][::-1])
-        found.notes.skip("small way", f"{count} ways with highway={kind}", spot, "only public roads are built")
+    note_counts(found)
     return found
+
+
+def aisles(service: list[Way]) -> list[Way]:
+    """The parking aisles among service ways, and the driveways by which one comes to them, in the file's order."""
+    chosen = {way.id for way in service if way.tags.get("service") == "parking_aisle"}
+    driveways = [way for way in service if way.tags.get("service", "driveway") == "driveway"]
+    reached = {node for way in service if way.id in chosen for node in way.nodes}
+    while more := [way for way in driveways if way.id not in chosen and not reached.isdisjoint(way.nodes)]:
+        chosen |= {way.id for way in more}
+        reached |= {node for way in more for node in way.nodes}
+    return [way for way in service if way.id in chosen]
+
+
+def is_open(way: Way, notes: Notes) -> bool:
+    """Whether everyone may drive a car on a way; if not, that is noted."""
+    reason = closed_to_cars(way.tags)
+    if reason:
+        notes.skip("closed way", f"highway={way.tags['highway']}", spot_of(way), reason)
+    return not reason
+
+
+def note_counts(found: Survey) -> None:
+    """Notes what is left out by kind, not one by one."""
+    spot = Spot("the whole map", *found.places[0][::-1])
+    for kind, count in sorted((+found.small).items()):
+        found.notes.skip("small way", f"{count} ways with highway={kind}", spot, "only public roads are built")
+    broken = Counter(kind for name, kind in found.outlines.items() if name not in found.drawn)
+    for kind, count in sorted(broken.items()):
+        found.notes.skip("outline", f"{count} {kind} relations", spot, "their outlines are not closed, or not whole in the file")
+    for kind, count in sorted(found.barriers.items()):
+        reason = "an opening" if kind in OPENINGS else "not drawn, or below the ground"
+        found.notes.skip("barrier", f"{count} with barrier={kind}", spot, reason)
 
 
 def surveyed(data: bytes, form: str) -> Survey:
@@ -227,6 +286,7 @@ def surveyed(data: bytes, form: str) -> Survey:
     found = Survey()
     file = osmium.FileProcessor(osmium.io.FileBuffer(data, form))
     found.mapped = mapped_box(file.header.box())
+    found.drawn_here = file.header.get("generator", "") == GENERATOR
     tagged = osmium.filter.EmptyTagFilter()
     for thing in file.with_locations().with_areas().with_filter(tagged):
         note(found, thing)
@@ -262,10 +322,12 @@ def note(found: Survey, thing) -> None:
     elif thing.is_relation() and thing.tags.get("type") == "restriction":
         members = [(member.type, member.ref, member.role) for member in thing.members]
         found.restrictions.append((thing.id, members, dict(thing.tags)))
+    elif thing.is_relation() and thing.tags.get("type") == "multipolygon" and (kind := area_kind(thing.tags)):
+        found.outlines[thing.id] = kind
 
 
 def note_node(found: Survey, node) -> None:
-    """Notes a tagged node: signals, trees and parking."""
+    """Notes a tagged node: signals, trees, posts, crossings and parking."""
     if not node.location.valid():
         found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0), "lies outside the world")
         return
@@ -273,8 +335,10 @@ def note_node(found: Survey, node) -> None:
     found.places.append(place)
     note_parking(found, node.tags, place)
     found.nodes[node.id] = dict(node.tags)
-    if node.tags.get("natural") == "tree":
-        found.trees.append(place)
+    if kind := point_kind(node.tags):
+        found.points.append(Thing([place], kind, found.nodes[node.id], f"node {node.id}"))
+    elif barrier := node.tags.get("barrier"):
+        note_barrier(found, barrier)
 
 
 def note_way(found: Survey, way) -> None:
@@ -284,8 +348,15 @@ def note_way(found: Survey, way) -> None:
     place = (nodes[known[0]].lon, nodes[known[0]].lat) if known else (0.0, 0.0)
     if known:
         found.places.append(place)
+    if kind := line_kind(way.tags) if len(known) > 1 else "":
+        line = [(nodes[i].lon, nodes[i].lat) for i in known]
+        found.lines.append(Thing(line, kind, dict(way.tags), f"way {way.id}"))
+    elif barrier := way.tags.get("barrier"):
+        note_barrier(found, barrier)
     if way.tags.get("highway") in SMALL_WAYS:
         found.small[way.tags["highway"]] += 1
+        if way.tags["highway"] == "service" and len(known) > 1:
+            found.service.append(way_of(way, nodes, known))
     if way.tags.get("highway") not in CAR_WAYS:
         return
     spot = Spot(f"way {way.id}", *place[::-1])
@@ -296,9 +367,19 @@ def note_way(found: Survey, way) -> None:
         lacking = f"{len(nodes) - len(known)} of {len(nodes)} nodes"
         found.notes.skip("missing nodes", lacking, spot, "they are not in the file, or lie outside the world")
     if len(known) > 1:
-        points = [(nodes[i].lon, nodes[i].lat) for i in known]
-        gaps = frozenset(k for k, (i, j) in enumerate(zip(known, known[1:], strict=False)) if j > i + 1)
-        found.ways.append(Way(way.id, [nodes[i].ref for i in known], points, dict(way.tags), gaps))
+        found.ways.append(way_of(way, nodes, known))
+
+
+def way_of(way, nodes: list, known: list[int]) -> Way:
+    """A way with those of its nodes that are known."""
+    points = [(nodes[i].lon, nodes[i].lat) for i in known]
+    gaps = frozenset(k for k, (i, j) in enumerate(zip(known, known[1:], strict=False)) if j > i + 1)
+    return Way(way.id, [nodes[i].ref for i in known], points, dict(way.tags), gaps)
+
+
+def note_barrier(found: Survey, barrier: str) -> None:
+    """Counts a barrier that is not drawn."""
+    found.barriers[barrier if barrier.isascii() else "other"] += 1
 
 
 def closed_to_cars(tags) -> str:
@@ -324,21 +405,15 @@ def note_area(found: Survey, area) -> None:
         first = next((node for ring in area.outer_rings() for node in ring), None)
         if first is not None:
             note_parking(found, area.tags, (first.lon, first.lat))
+        if area.tags["amenity"] in ("parking", "parking_space") and (reason := hidden(area.tags)):
+            spot = Spot(f"parking {area.orig_id()}", first.lat, first.lon) if first is not None else Spot("parking", 0.0, 0.0)
+            found.notes.skip("parking", area.tags.get("name", "") or "parking", spot, reason)
     if area_kind(area.tags):
+        if not area.from_way():
+            found.drawn.add(area.orig_id())
         for ring in area.outer_rings():
             rings = [ring, *area.inner_rings(ring)]
             found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags)))
-
-
-def area_kind(tags) -> str:
-    """What a mapped area is here: "building", "part", "green", "water" or "" for what is not drawn."""
-    if tags.get("building:part", "no") != "no":
-        return "part"
-    if tags.get("building", "no") != "no":
-        return "building"
-    if tags.get("natural") == "water" or tags.get("waterway") == "riverbank":
-        return "water"
-    return "green" if any(tags.get(key) in kinds for key, kinds in GREEN.items()) else ""
 
 
 # -- the part to keep ------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ IMPORTER = (
     *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "elevation.py", "extract.py"),
     *("lane_graph.py", "limit.py", "netconvert.py", "network.py", "opendrive.py", "osm.py", "overpass.py", "place.py", "plan.py"),
     *("priority.py", "reader.py", "reference_line.py", "report.py", "restriction.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py", "xodr.py"),
+    *("crossing.py", "kind.py", "parking.py", "plane.py", "site.py"),
 )
 
 
@@ -26,6 +27,7 @@ def load(
     *,
     radius: float | None = None,
     bbox: str | None = None,
+    parking_aisles: bool = False,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
     """The roads and the scenery of a map: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json from Overpass) or OpenDRIVE (.xodr).
@@ -35,6 +37,7 @@ def load(
         bbox: the part to keep, "west,south,east,north" [deg]; OpenDRIVE is taken whole.
         radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms. OpenDRIVE is
             taken whole.
+        parking_aisles: whether the aisles of parking places are built too, with the driveways that lead to them.
         progress: is told what is being done.
 
     Raises:
@@ -42,11 +45,12 @@ def load(
     """
     path = Path(path)
     if path.is_dir():
-        source, kept_part = folder.opened(path)
-        network = load(source, radius=radius, bbox=bbox or (None if radius else kept_part), progress=progress)
+        source, kept_part, with_aisles = folder.opened(path)
+        part = bbox or (None if radius else kept_part)
+        network = load(source, radius=radius, bbox=part, parking_aisles=parking_aisles or with_aisles, progress=progress)
         return replace(network, name=path.name)
     reader = reader_of(path)
-    part = reader.part(path, radius, bbox)
+    part = reader.part(path, radius, bbox, parking_aisles=parking_aisles)
     data = reader.read(path)
     digest = digest_of(data, part)
     network = recall(digest)

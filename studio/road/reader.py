@@ -3,7 +3,7 @@
     ENDINGS                            of its files
     attribution(path)                  who made the map
     read(path)                         the content of a file, checked
-    part(path, radius, bbox)           the part that is asked for, by its value
+    part(path, radius, bbox, *, parking_aisles)   the part that is asked for, by its value
     plan(path, data, part, progress)   lanes, scenery and signals of that part
 """
 

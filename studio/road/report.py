@@ -82,10 +82,30 @@ class BuildingCount:
 
 @dataclass(frozen=True)
 class ParkingCount:
-    """Parking areas and single spaces in the part kept."""
+    """Parking areas and single spaces mapped in the part kept; spaces laid along kerbs because tags of streets tell of them."""
 
     areas: int = 0
     spaces: int = 0
+    along_kerbs: int = 0
+
+
+@dataclass(frozen=True)
+class CrossingCount:
+    """Pedestrian crossings over built roads: all, with stripes, with lights, and without any paint."""
+
+    placed: int = 0
+    zebra: int = 0
+    signalled: int = 0
+    unmarked: int = 0
+
+
+@dataclass(frozen=True)
+class UprightCount:
+    """Stretches of walls, fences and hedges, posts and poles, and mapped trees."""
+
+    walls: int = 0
+    posts: int = 0
+    trees: int = 0
 
 
 @dataclass(frozen=True)
@@ -102,6 +122,8 @@ class Report:
     speed_limits: LimitCount = LimitCount()
     buildings: BuildingCount = BuildingCount()
     parking: ParkingCount = ParkingCount()
+    crossings: CrossingCount = CrossingCount()
+    uprights: UprightCount = UprightCount()
     guesses: tuple[Guess, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     seconds: float = 0.0
@@ -139,6 +161,7 @@ class Spot:
 def rows(report: Report) -> list[list[str]]:
     """The report for people: what, how many, remarks."""
     signals, turns, limits = report.signals, report.turn_lanes, report.speed_limits
+    crossings, uprights = report.crossings, report.uprights
     return [
         ["drive side", report.drive_side.side, report.drive_side.why],
         ["lanes", f"{report.lane_km:.3f} km", ""],
@@ -148,7 +171,9 @@ def rows(report: Report) -> list[list[str]]:
         ["turn lanes", f"{turns.matching} of {turns.tagged_lanes}", "lanes lead where their tag says"],
         ["speed limits", f"{limits.mapped_ways} ways", f"{limits.guessed_ways} more guessed; {by_limit(limits)}"],
         ["buildings", str(report.buildings.placed), f"{report.buildings.height_guessed} heights guessed"],
-        ["parking", f"{report.parking.areas} areas", f"{report.parking.spaces} single spaces"],
+        ["parking", f"{report.parking.areas} areas", f"{report.parking.spaces} single spaces; {report.parking.along_kerbs} more along kerbs"],
+        ["crossings", str(crossings.placed), f"{crossings.zebra} zebra, {crossings.signalled} with lights, {crossings.unmarked} unmarked"],
+        ["upright", f"{uprights.walls} walls", f"{uprights.posts} posts and poles, {uprights.trees} trees"],
         *counted("guessed", report.guesses, lambda guess: f"from {guess.source}"),
         *counted("skipped", report.skipped, lambda skipped: skipped.reason),
         ["time", f"{report.seconds:.1f} s", ""],

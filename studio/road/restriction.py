@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from studio.road.netconvert import Net
+from studio.road.network import Net
 from studio.road.network import Connection
 from studio.road.osm import Box, Way
 from studio.road.report import Notes, Spot

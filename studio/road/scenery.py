@@ -1,4 +1,4 @@
-"""What stands beside the road: buildings with their parts, green and water, trees."""
+"""What lies and stands beside the road: buildings with their parts, ground, trees, walls, posts, crossings, parking."""
 
 import re
 from collections.abc import Iterator
@@ -6,13 +6,21 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
-from studio.road.network import Area, Building, Scenery
-from studio.road.osm import Box, Shape, Survey, area_kind
+from studio.road import parking
+from studio.road.crossing import crossings
+from studio.road.kind import BARRIERS, POSTS, area_kind, metres
+from studio.road.network import Area, Building, Post, Scenery, Wall
+from studio.road.osm import Box, Shape, Survey
+from studio.road.plane import lines, polygons, rings
+from studio.road.site import Site
 
 LEVEL = 3.0  # [m] one floor
 USUAL_HEIGHT = 9.0  # [m] three floors, where nothing is mapped
+GROUNDS = ("sand", "square", "parking", "green", "water")  # from below
+TREE_SPACING = 9.0  # [m] in a row
+BOLLARD_SPACING = 1.8  # [m] in a line
+KERB = 0.3  # [m] between the road and a wall
 LARGEST_HEIGHT = 900.0  # [m] above this the tag is a slip
-FEET = 0.3048  # [m]
 COLOURS = {
     **{"white": "#f4f4f2", "grey": "#9a9a98", "gray": "#9a9a98", "black": "#303030", "brown": "#8a6a4f"},
     **{"red": "#a8483c", "yellow": "#d9c27a", "beige": "#d8cbb0", "green": "#6f8a62", "blue": "#5f7d9c"},
@@ -20,15 +28,22 @@ COLOURS = {
 }
 
 
-def scenery(found: Survey, box: Box) -> Scenery:
-    """Buildings, ground areas and trees within the box."""
-    bounds = shapely.box(*box.bounds())
-    shapes = [(shape, shape_form(shape, box)) for shape in found.shapes]
-    shapes = [(shape, form) for shape, form in shapes if not form.is_empty and form.intersects(bounds)]
+def scenery(found: Survey, site: Site) -> Scenery:
+    """Everything beside the roads of a site; what is guessed or skipped is noted."""
+    shapes = [(shape, shape_form(shape, site.box)) for shape in found.shapes]
+    shapes = [(shape, form) for shape, form in shapes if not form.is_empty and form.intersects(site.bounds)]
+    standing, ground = tuple(buildings(shapes, site.bounds)), tuple(areas(shapes, site.bounds))
+    crossed, planted, spaces = tuple(crossings(found, site)), trees(found, site), parking.mapped(found, site, shapes)
+    beside = parking.along_kerbs(found, site, parking.taken_by(ground, standing, crossed, spaces, planted))
     return Scenery(
-        buildings=tuple(buildings(shapes, bounds)),
-        areas=tuple(areas(shapes, bounds)),
-        trees=trees(found, box),
+        buildings=standing,
+        areas=ground,
+        trees=planted,
+        spaces=np.concatenate([spaces, beside], axis=1),
+        along_kerbs=beside.shape[1],
+        crossings=crossed,
+        walls=tuple(walls(found, site)),
+        posts=tuple(posts(found, site)),
     )
 
 
@@ -41,25 +56,6 @@ def shape_form(shape: Shape, box: Box) -> shapely.Geometry:
         else None
     )
     return shapely.make_valid(form) if form is not None else shapely.Polygon()
-
-
-def polygons(form: shapely.Geometry) -> Iterator[shapely.Polygon]:
-    """The polygons of a geometry, whatever it has become, outline counter-clockwise."""
-    for part in shapely.get_parts(form):
-        if part.geom_type == "Polygon" and part.area > 0.01:
-            yield shapely.geometry.polygon.orient(part)
-        elif part.geom_type in ("MultiPolygon", "GeometryCollection"):
-            yield from polygons(part)
-
-
-def ring(coordinates) -> np.ndarray:
-    """An open ring, float64[2, n]."""
-    return np.array(coordinates, dtype=float)[:-1, :2].T.copy()
-
-
-def rings(form: shapely.Polygon) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
-    """Outline and holes of a polygon."""
-    return ring(form.exterior.coords), tuple(ring(hole.coords) for hole in form.interiors)
 
 
 # -- buildings -------------------------------------------------------------------------------------
@@ -102,19 +98,6 @@ def has_height(tags: dict[str, str]) -> bool:
     return bool(metres(tags.get("height", "")) or levels(tags.get("building:levels", "")))
 
 
-def metres(text: str) -> float:
-    """A mapped length [m]: "12", "12.5 m", "12,5" or "40'"; 0 for what cannot be read.
-
-    >>> metres("12,5 m"), metres("10'"), metres("tall")
-    (12.5, 3.048, 0.0)
-    """
-    found = re.match(r"\s*(\d+(?:[.,]\d+)?)\s*(m|ft|feet|')?", text)
-    if not found:
-        return 0.0
-    value = float(found[1].replace(",", "."))
-    return round(value * FEET, 6) if found[2] in ("ft", "feet", "'") else value
-
-
 def levels(text: str) -> float:
     """Height of a mapped number of floors [m]."""
     return metres(text) * LEVEL
@@ -134,19 +117,50 @@ def colour(tags: dict[str, str]) -> str:
 
 
 def areas(shapes, bounds) -> Iterator[Area]:
-    """Green and water, cut at the bounds."""
+    """Ground of another colour, cut at the bounds."""
     for shape, form in shapes:
         kind = area_kind(shape.tags)
-        if kind in ("green", "water"):
+        if kind in GROUNDS:
             for one in polygons(form.intersection(bounds)):
                 yield Area(kind, *rings(one))
 
 
-def trees(found: Survey, box: Box) -> np.ndarray:
-    """Positions of the trees within the box, float64[2, n]."""
-    if not found.trees:
-        return np.empty((2, 0))
-    x0, y0, x1, y1 = box.bounds()
-    x, y = box.local(*np.array(found.trees).T[::-1])
-    inside = (x0 < x) & (x < x1) & (y0 < y) & (y < y1)
-    return np.array([x[inside], y[inside]])
+# -- what stands upright ---------------------------------------------------------------------------
+
+
+def trees(found: Survey, site: Site) -> np.ndarray:
+    """Positions of the trees of a site, float64[2, n]; a row of trees has one every `TREE_SPACING`."""
+    single = [site.place(thing) for thing in found.points if thing.kind == "tree"]
+    rows = [spaced(site.line(thing), TREE_SPACING) for thing in found.lines if thing.kind == "tree_row"]
+    places = np.concatenate([np.reshape(single, (-1, 2)).T, *rows], axis=1)
+    return places[:, shapely.contains_xy(site.bounds, *places)]
+
+
+def spaced(line: np.ndarray, spacing: float) -> np.ndarray:
+    """Points along a line from its start to its end, about `spacing` [m] apart, float64[2, n]."""
+    form = shapely.LineString(line.T)
+    count = max(1, round(form.length / spacing))
+    return shapely.get_coordinates(shapely.line_interpolate_point(form, np.linspace(0.0, form.length, count + 1))).T
+
+
+def walls(found: Survey, site: Site) -> Iterator[Wall]:
+    """Walls, fences and hedges of a site; none stands on the road."""
+    free = site.bounds.difference(site.road.buffer(KERB))
+    shapely.prepare(free)
+    for thing in found.lines:
+        if thing.kind in BARRIERS:
+            height, thickness = BARRIERS[thing.kind]
+            form = shapely.LineString(site.line(thing).T)
+            for line in lines(form if free.contains(form) else form.intersection(free)):
+                yield Wall(thing.kind, line, metres(thing.tags.get("height", "")) or height, thickness)
+
+
+def posts(found: Survey, site: Site) -> Iterator[Post]:
+    """Lamps, poles and bollards of a site; none stands on the road."""
+    things = [(thing, site.line(thing)) for thing in found.points if thing.kind in POSTS]
+    things += [(thing, spaced(site.line(thing), BOLLARD_SPACING)) for thing in found.lines if thing.kind in POSTS]
+    for thing, places in things:
+        height, thickness = POSTS[thing.kind]
+        free = shapely.contains_xy(site.bounds, *places) & ~shapely.contains_xy(site.road, *places)
+        for x, y in places[:, free].T.tolist():
+            yield Post(thing.kind, x, y, metres(thing.tags.get("height", "")) or height, thickness)

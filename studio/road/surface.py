@@ -3,6 +3,7 @@
 Flat things lie in layers that are far enough apart not to flicker when seen from afar.
 """
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -12,16 +13,9 @@ import shapely
 
 from studio.road import curve
 from studio.road.network import Building, Lane, Network
-from studio.road.scenery import polygons
+from studio.road.plane import polygon, polygons
 
-GROUND, GREEN, WATER, ROAD, MARKING, SHADOW = (
-    -0.18,
-    -0.12,
-    -0.06,
-    0.0,
-    0.06,
-    0.12,
-)  # [m] heights of the layers
+GROUND, AREA, ROAD, MARKING, SHADOW = -0.12, -0.06, 0.0, 0.06, 0.12  # [m] heights of the layers
 SUN = (-0.45, 0.35, -0.82)  # the direction its light goes: a forenoon sun in the south-east, 55° high
 GROUND_MARGIN = 400.0  # [m] of ground around the map
 LINE_WIDTH = 0.12  # [m] of lane markings in town (RMS: 0.12)
@@ -113,20 +107,9 @@ def strip(centre: np.ndarray, width: float) -> shapely.Geometry:
     )
 
 
-def road_mesh(network: Network) -> Mesh:
-    """The carriageway."""
-    return flat(road_form(network), ROAD)
-
-
-def marking_mesh(network: Network) -> Mesh:
-    """Lines between lanes (dashed), between directions and along edges (solid), and stop lines where signals stand."""
-    roads = [road.id for road in network.roads.values() if not road.internal]
-    form, junctions = road_form(network), junction_form(network)
-    lines = [line for road in roads for line in road_lines(network, road)]
-    middles = shapely.union_all([middle_line(network, road) for road in roads])
-    middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junctions)
-    stops = [stop_line(network, link) for link in range(len(network.signals))]
-    return flat(shapely.union_all([*lines, *stops, middles, edge_lines(network, form)]), MARKING)
+def road_mesh(form: shapely.Geometry) -> Mesh:
+    """The carriageway of this plane shape."""
+    return flat(form, ROAD)
 
 
 def beside(lane: Lane, offset: float) -> shapely.LineString:
@@ -245,27 +228,26 @@ def shadow_mesh(network: Network, sun: tuple[float, float, float] = SUN) -> Mesh
         network: the map.
         sun: the direction that light travels, a unit vector that points down.
     """
-    footprints = [footprint(building) for building in network.scenery.buildings]
-    casts = [
-        cast(form, building, sun)
-        for form, building in zip(footprints, network.scenery.buildings, strict=True)
-    ]
-    standing = [form for form, b in zip(footprints, network.scenery.buildings, strict=True) if b.base == 0.0]
-    return flat(shapely.union_all(casts).difference(shapely.union_all(standing)), SHADOW)
+    buildings = network.scenery.buildings
+    pieces = [piece for building in buildings for piece in cast_pieces(footprint(building), building, sun)]
+    standing = [footprint(building) for building in buildings if building.base == 0.0]
+    return flat(shapely.union_all(pieces).difference(shapely.union_all(standing)), SHADOW)
 
 
 def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> shapely.Geometry:
+    """The shadow of a prism."""
+    return shapely.union_all(cast_pieces(form, building, sun))
+
+
+def cast_pieces(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> list[shapely.Geometry]:
     """The shadow of a prism: its footprint swept from the underside's shadow to the roof's, edge by edge."""
     length = np.array([sun[0], sun[1]]) / -sun[2]
     length *= min(1.0, LONGEST_SHADOW / max(1e-9, building.height * np.hypot(*length)))
     near, far = building.base * length, building.height * length
-    corners = np.array(form.exterior.coords)
-    swept = [
-        shapely.MultiPoint([a + near, b + near, a + far, b + far]).convex_hull
-        for a, b in zip(corners[:-1], corners[1:], strict=True)
-    ]
+    a = np.array(form.exterior.coords)
+    swept = shapely.polygons(np.stack([a[:-1] + near, a[1:] + near, a[1:] + far, a[:-1] + far], axis=1))
     ends = [shapely.affinity.translate(form, *near), shapely.affinity.translate(form, *far)]
-    return shapely.union_all([*ends, *(quad for quad in swept if quad.area > 0.0)])
+    return [*ends, *swept[shapely.area(swept) > 0.0]]
 
 
 # -- ground ----------------------------------------------------------------------------------------
@@ -280,13 +262,21 @@ def ground_mesh(network: Network) -> Mesh:
 
 
 def area_meshes(network: Network) -> dict[str, Mesh]:
-    """Green and water, each as one mesh by its kind; water lies on the green."""
-    return {kind: flat(area_form(network, kind), z) for kind, z in (("green", GREEN), ("water", WATER))}
+    """Ground of other colours, each kind as one mesh; none lies on another."""
+    forms = area_forms(network)
+    return {kind: flat(form, AREA) for kind, form in forms.items()}
 
 
-def area_form(network: Network, kind: str) -> shapely.Geometry:
-    """All areas of a kind as one shape."""
-    areas = [area for area in network.scenery.areas if area.kind == kind]
-    return shapely.union_all(
-        [shapely.Polygon(area.outline.T, [hole.T for hole in area.holes]) for area in areas]
-    )
+def area_forms(network: Network) -> dict[str, shapely.Geometry]:
+    """All areas by kind, cut where they overlap: the smaller one lies on the larger one, a pond in its park."""
+    areas = network.scenery.areas
+    forms = np.array([polygon(area) for area in areas])
+    tree = shapely.STRtree(forms)
+    size = shapely.area(forms) if len(forms) else np.empty(0)
+    rank = np.empty(len(forms))
+    rank[np.argsort(-size, kind="stable")] = np.arange(len(forms))
+    shown = defaultdict(list)
+    for i, (area, form) in enumerate(zip(areas, forms, strict=True)):
+        above = [forms[j] for j in tree.query(form, predicate="intersects") if rank[j] > rank[i]]
+        shown[area.kind].append(form.difference(shapely.union_all(above)) if above else form)
+    return {kind: shapely.union_all(pieces) for kind, pieces in shown.items()}

@@ -4,23 +4,34 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from studio.road import kept, marking
 from studio.road import surface as roads
 from studio.road.network import Network
-from studio.scene import building, signal
+from studio.scene import building, signal, tree
 from studio.scene.colour import linear
 from studio.scene.glb import Material, glb
 from studio.scene.light import SKY_RADIUS, SUN, on_level_ground
-from studio.scene.shape import Surface, surface
+from studio.scene.shape import Surface, joined, surface
+from studio.scene.upright import uprights
 
 # Flat layers lie some centimetres apart, so that they do not flicker through each other from afar [m].
-GROUND, WATER, GREEN, ROAD, MARKING, SHADOW, TREE_SHADOW = -0.16, -0.13, -0.10, 0.0, 0.03, 0.05, 0.06
+GROUND, AREA, SPACE, ROAD, MARKING, SHADOW, TREE_SHADOW = -0.16, -0.12, -0.06, 0.0, 0.03, 0.06, 0.08
 COLOURS = {
     "ground": "#9ba18a",
-    "water": "#6f9db3",
+    "sand": "#d3c49b",
+    "square": "#b3aba0",
+    "parking": "#6a6c6e",
     "green": "#84995f",
+    "water": "#6f9db3",
     "road": "#55585c",
     "markings": "#eceae3",
 }
+DIGEST_LENGTH = 64  # of a map that was imported; one made by hand has no digest that tells of its content
+MAKERS = (
+    *("marking.py", "plane.py", "surface.py", "curve.py"),
+    *(f"../scene/{name}.py" for name in ("building", "city", "colour", "glb", "light", "shape", "signal", "tree", "upright")),
+)
+SPACE_MARGIN = 0.35  # [m] of ground around a space, to its neighbour and to the lane
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
 
 
@@ -33,15 +44,36 @@ class Layer:
     height: float = 0.0
 
 
+@dataclass(frozen=True, eq=False)
+class City:
+    """What never moves: the layers, each one draw call, and where trees stand, float64[2, n]."""
+
+    layers: list[Layer]
+    trees: np.ndarray
+
+
+def city(network: Network) -> City:
+    """The city of a map; that of an imported map is kept on disk, since a large one takes seconds to make."""
+    if len(network.digest) != DIGEST_LENGTH:
+        return City(layers(network), tree.places(network))
+    digest = kept.digest_of(network.digest, sources=MAKERS)
+    found = kept.recall("cities", digest)
+    if not isinstance(found, City):
+        found = City(layers(network), tree.places(network))
+        kept.keep("cities", digest, found)
+    return found
+
+
 def layers(network: Network) -> list[Layer]:
-    """Everything of the city that never moves, from the ground up."""
+    """Everything of the city that never moves, from the ground up; each is one draw call."""
+    form = roads.road_form(network)
     return [
         Layer("ground", glb(ground(), Material(unlit=True)), GROUND),
         *_areas(network),
-        _flat("road", roads.road_mesh(network), ROAD),
-        _flat("markings", roads.marking_mesh(network), MARKING),
+        _flat("road", roads.road_mesh(form), ROAD),
+        _flat("markings", marking.marking_mesh(network, form), MARKING),
         *_buildings(network),
-        *_masts(network),
+        *_uprights(network),
     ]
 
 
@@ -60,23 +92,22 @@ def ground(*, radius: float = SKY_RADIUS) -> Surface:
 
 
 def _flat(name: str, mesh: roads.Mesh, height: float) -> Layer:
-    flat = surface(_level(mesh.vertices), mesh.faces, on_level_ground(COLOURS[name]))
-    return Layer(name, glb(flat, Material(unlit=True)), height)
+    return Layer(name, glb(_level(mesh, name), Material(unlit=True)), height)
 
 
-def _level(vertices: np.ndarray) -> np.ndarray:
+def _level(mesh: roads.Mesh, name: str, height: float = 0.0) -> Surface:
     # the layers' heights are ours: shadows must lie low, or they climb up the wheels
-    return vertices * np.float32([1.0, 1.0, 0.0])
+    vertices = mesh.vertices * np.float32([1.0, 1.0, 0.0]) + np.float32([0.0, 0.0, height])
+    return surface(vertices, mesh.faces, on_level_ground(COLOURS[name]))
 
 
 def _areas(network: Network) -> list[Layer]:
-    heights = {"green": GREEN, "water": WATER}
-    meshes = roads.area_meshes(network)
-    return [
-        _flat(kind, meshes[kind], heights[kind])
-        for kind in heights
-        if kind in meshes and len(meshes[kind].faces)
-    ]
+    meshes = {kind: mesh for kind, mesh in roads.area_meshes(network).items() if len(mesh.faces)}
+    flats = [_level(mesh, kind, AREA) for kind, mesh in meshes.items()]
+    spaces = network.scenery.spaces
+    if spaces.size:
+        flats.append(_level(marking.space_ground(spaces, 0.0, margin=SPACE_MARGIN), "parking", SPACE))
+    return [Layer("areas", glb(joined(flats), Material(unlit=True)))] if flats else []
 
 
 def _buildings(network: Network) -> list[Layer]:
@@ -93,10 +124,10 @@ def _buildings(network: Network) -> list[Layer]:
 def shade(network: Network) -> Surface:
     """The shadow of all buildings on the ground, one see-through sheet."""
     mesh = roads.shadow_mesh(network, sun=tuple(-SUN))
-    return surface(_level(mesh.vertices), mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
+    flat = mesh.vertices * np.float32([1.0, 1.0, 0.0])
+    return surface(flat, mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
 
 
-def _masts(network: Network) -> list[Layer]:
-    if len(network.signals) == 0:
-        return []
-    return [Layer("masts", glb(signal.masts(network), Material(roughness=0.6)))]
+def _uprights(network: Network) -> list[Layer]:
+    solids = [*uprights(network), *([signal.masts(network)] if len(network.signals) else [])]
+    return [Layer("uprights", glb(joined(solids), Material(roughness=0.7)))] if solids else []

@@ -40,11 +40,11 @@ class Scene:
 
     def show_city(self, network: Network) -> None:
         """Show this map instead of the one before."""
-        layers = city.layers(network)
+        made = city.city(network)
         with self._lock, self._server.atomic():
             self._clear_city()
-            self._city = [self._add(layer) for layer in layers]
-            self._city += tree.plant(self._server, network, foot=city.GREEN, shade=city.TREE_SHADOW)
+            self._city = [self._add(layer) for layer in made.layers]
+            self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._look_at(reach=_reach(network))
 

@@ -23,13 +23,8 @@ HIDDEN = np.float32([0.0, 0.0, -500.0])
 
 
 def masts(network: Network) -> Surface:
-    """Masts, arms and heads of all signals as one mesh."""
-    signals = network.signals
-    heads = [
-        _head().turned(h).moved(x=x, y=y)
-        for x, y, h in zip(*head_places(network), signals.link_heading, strict=True)
-    ]
-    return joined([*heads, *(_mast(network, links) for links in _approaches(network).values())])
+    """Masts and arms of all signals as one mesh."""
+    return joined([_mast(network, links) for links in _approaches(network).values()])
 
 
 def head_places(network: Network) -> tuple[np.ndarray, np.ndarray]:
@@ -73,20 +68,22 @@ def _head() -> Surface:
 
 
 class Lamps:
-    """The lit lamps on a viser server: one batch per colour; what is not lit is hidden."""
+    """Heads and lit lamps on a viser server: a batch of heads, and one per colour; what is not lit is hidden."""
 
     def __init__(self, server: viser.ViserServer, network: Network) -> None:
         x, y = head_places(network)
         heading = network.signals.link_heading
+        turns = np.stack([np.cos(heading / 2), 0 * heading, 0 * heading, np.sin(heading / 2)], 1).astype(np.float32)
+        heads = np.stack([x, y, 0 * x], 1).astype(np.float32)
+        self._heads = server.scene.add_batched_glb(
+            "/signals/heads", glb(_head(), Material(roughness=0.6)), turns, heads, lod="off", cast_shadow=False, receive_shadow=False
+        )
         before = 0.14 + PROUD
         x, y = x - before * np.cos(heading), y - before * np.sin(heading)
         self._places = {
             name: np.stack([x, y, np.full(len(x), z)], 1).astype(np.float32)
             for name, z in LAMP_HEIGHTS.items()
         }
-        turns = np.stack([np.cos(heading / 2), 0 * heading, 0 * heading, np.sin(heading / 2)], 1).astype(
-            np.float32
-        )
         self._nodes = {name: self._add(server, name, turns) for name in LAMP_HEIGHTS}
         self._shown = np.full(len(x), -1)
 
@@ -109,5 +106,5 @@ class Lamps:
 
     def remove(self) -> None:
         """Take the lamps off the server."""
-        for node in self._nodes.values():
+        for node in (self._heads, *self._nodes.values()):
             node.remove()

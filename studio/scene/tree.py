@@ -5,6 +5,8 @@ import shapely
 import viser
 
 from studio.road.network import Network
+from studio.road.plane import polygon, polygons, rectangles
+from studio.road.surface import area_forms, strip
 from studio.scene.colour import linear
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN
@@ -40,38 +42,37 @@ def shadow(*, darkness: float = 0.34) -> Surface:
 
 def places(network: Network) -> np.ndarray:
     """Where trees stand, float64[2, n] [m]: mapped ones first, then a jittered grid over the green."""
-    region = _plantable(network)
-    planted = _grid(region)
-    mapped = network.scenery.trees
-    if len(mapped.T) and len(planted.T):
-        near = shapely.MultiPoint(mapped.T).buffer(0.5 * SPACING)
-        planted = planted[:, ~shapely.contains_xy(near, *planted)]
-    free = ~shapely.contains_xy(_lanes(network, 0.6), *mapped) if len(mapped.T) else np.zeros(0, bool)
-    return np.concatenate([mapped[:, free], planted], axis=1)
+    mapped, lanes = network.scenery.trees, _lanes(network)
+    mapped = mapped[:, _clear(mapped, lanes, 0.6)]
+    planted = _planted(network, lanes)
+    return np.concatenate([mapped, planted[:, _clear(planted, [shapely.Point(at) for at in mapped.T], 0.5 * SPACING)]], axis=1)
 
 
-def _plantable(network: Network) -> shapely.Geometry:
-    areas = network.scenery.areas
-    green = shapely.union_all([_polygon(area) for area in areas if area.kind == "green"])
-    taken = [_polygon(area).buffer(2.0) for area in areas if area.kind != "green"]
-    taken += [_polygon(building).buffer(3.5) for building in network.scenery.buildings]
-    taken += [
-        shapely.Polygon(junction.T).buffer(CLEARANCE)
-        for junction in network.junctions
-        if junction.shape[1] > 2
-    ]
-    return green.difference(shapely.union_all([*taken, _lanes(network, CLEARANCE)]))
+def _planted(network: Network, lanes: list[shapely.Geometry]) -> np.ndarray:
+    """The trees of the green, clear of lanes, junctions, houses, and of other ground."""
+    forms = area_forms(network)
+    spots = _grid(forms.pop("green", shapely.Polygon()))
+    junctions = [shapely.Polygon(junction.T) for junction in network.junctions if junction.shape[1] > 2]
+    for things, distance in (
+        ([part for form in forms.values() for part in polygons(form)], 2.0),
+        ([polygon(building) for building in network.scenery.buildings], 3.5),
+        ([*lanes, *junctions], CLEARANCE),
+        (list(rectangles(*network.scenery.spaces)), 1.0),
+    ):
+        spots = spots[:, _clear(spots, things, distance)]
+    return spots
 
 
-def _polygon(thing) -> shapely.Geometry:
-    return shapely.make_valid(shapely.Polygon(thing.outline.T, [hole.T for hole in thing.holes]))
+def _clear(spots: np.ndarray, things: list[shapely.Geometry], distance: float) -> np.ndarray:
+    """Which spots lie farther than this [m] from all things."""
+    clear = np.ones(spots.shape[1], dtype=bool)
+    near, _ = shapely.STRtree(things).query(shapely.points(spots.T), predicate="dwithin", distance=distance)
+    clear[near] = False
+    return clear
 
 
-def _lanes(network: Network, clearance: float) -> shapely.Geometry:
-    strips = [
-        shapely.LineString(lane.centre.T).buffer(lane.width / 2.0 + clearance) for lane in network.lanes
-    ]
-    return shapely.union_all(strips)
+def _lanes(network: Network) -> list[shapely.Geometry]:
+    return [strip(lane.centre, lane.width) for lane in network.lanes]
 
 
 def _grid(region: shapely.Geometry) -> np.ndarray:
@@ -83,6 +84,7 @@ def _grid(region: shapely.Geometry) -> np.ndarray:
     # a fixed seed: the same map has the same trees
     shift = np.random.default_rng(7).uniform(-0.42, 0.42, (2, len(x))) * spacing
     x, y = x + shift[0], y + shift[1]
+    shapely.prepare(region)
     inside = shapely.contains_xy(region, x, y)
     return np.stack([x[inside], y[inside]])
 
@@ -97,10 +99,10 @@ def sizes(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def plant(
-    server: viser.ViserServer, network: Network, *, foot: float, shade: float
+    server: viser.ViserServer, places: np.ndarray, *, foot: float, shade: float
 ) -> list[viser.SceneNodeHandle]:
-    """Put the trees of a network and their shadows on the server, at the heights `foot` and `shade` [m]."""
-    spots = places(network).T
+    """Put trees at these places, float64[2, n], and their shadows on the server, at the heights `foot` and `shade` [m]."""
+    spots = places.T
     if len(spots) == 0:
         return []
     scales, turns = sizes(len(spots))

@@ -127,7 +127,7 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
             f"The map of {where} is missing.",
             [Problem(f"{where}: map.file", "does not exist", scenario.map.file, remedy=nearest(file.name, others))],
         )
-    return road.load(file, radius=scenario.map.radius)
+    return road.load(file, radius=scenario.map.radius, parking_aisles=scenario.map.parking_aisles)
 
 
 def check_names(scenario: Scenario, where: str) -> None:

@@ -74,6 +74,7 @@ def test_the_file_holds_what_was_put_in():
     (mesh,) = scene.geometry.values()
     np.testing.assert_allclose(mesh.vertices, shape.vertices, atol=1e-6)
     np.testing.assert_array_equal(mesh.faces, shape.faces)
+    # normals are kept to half a degree, colours to 16 bits
     document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
     look = document["materials"][0]["pbrMetallicRoughness"]
     assert look == {"metallicFactor": 0.0, "roughnessFactor": 0.28}
@@ -180,7 +181,7 @@ def test_shadows_fall_away_from_the_sun(town):
 def test_layers_are_few_and_lie_apart(town):
     layers = city.layers(town)
     assert len({layer.name for layer in layers}) == len(layers) <= 12
-    heights = sorted([city.GROUND, city.WATER, city.GREEN, city.ROAD, city.MARKING, city.SHADOW])
+    heights = sorted([city.GROUND, city.AREA, city.SPACE, city.ROAD, city.MARKING, city.SHADOW])
     assert np.diff(heights).min() > 0.015
 
 
