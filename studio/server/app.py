@@ -13,7 +13,7 @@ from fastapi.exceptions import RequestValidationError
 from starlette.responses import Response
 
 from studio.errors import Problem, ServerError, StoreError, StudioError, UnknownError
-from studio.server import relay, routes
+from studio.server import map_routes, relay, routes
 from studio.server.desk import Desk
 
 TITLE = "Cooperative ADAS Studio"
@@ -26,6 +26,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.add_exception_handler(StudioError, refused)
     app.add_exception_handler(RequestValidationError, misread)
     app.include_router(routes.router)
+    app.include_router(map_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.port))
     app.add_route("/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE"], include_in_schema=False)
     return app
