@@ -34,7 +34,10 @@ class Lane:
 
 @dataclass(frozen=True)
 class Road:
-    """Parallel lanes in one direction from one junction to the next; `lanes` are lane ids, the kerb lane first."""
+    """Parallel lanes in one direction from one junction to the next; `lanes` are lane ids, the kerb lane first.
+
+    `ways` are the ids of the mapped ways that it is made of, along it.
+    """
 
     id: str
     name: str
@@ -44,6 +47,7 @@ class Road:
     speed: float  # [m/s]
     length: float  # [m]
     internal: bool
+    ways: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ import pyproj
 
 from studio.errors import MapError
 from studio.road import overpass
+from studio.road.correction import Corrections, Corrector, element_of
 from studio.road.report import Notes, Spot
 
 FORMATS = {".osm": "osm", ".osm.gz": "osm", ".osm.pbf": "pbf", ".json": "osm"}
@@ -106,6 +107,12 @@ class Way:
     points: list[tuple[float, float]]
     tags: dict[str, str]
     gaps: frozenset[int] = frozenset()  # after these nodes the file lacks some
+    part_of: int = 0  # the id of the mapped way that this is a piece of
+
+    @property
+    def mapped(self) -> int:
+        """The id that the way has in the map."""
+        return self.part_of or self.id
 
     def with_tags(self, text: dict[str, str]) -> "Way":
         """The same way with other tags."""
@@ -116,15 +123,16 @@ def spot_of(way: Way) -> Spot:
     """A way as something that one can point at, in its middle."""
     longitude, latitude = way.points[len(way.points) // 2]
     name = way.tags.get("name", "")
-    return Spot(f"way {way.id}" + (f" ({name})" if name else ""), latitude, longitude)
+    return Spot(f"way {way.mapped}" + (f" ({name})" if name else ""), latitude, longitude, f"way {way.mapped}")
 
 
 @dataclass(frozen=True)
 class Shape:
-    """An area or building as mapped: rings of (longitude, latitude) [deg], the outer one first, and its tags."""
+    """An area or building as mapped: rings of (longitude, latitude) [deg], the outer one first, its tags, its name there."""
 
     rings: list[list[tuple[float, float]]]
     tags: dict[str, str]
+    element: str = ""
 
 
 @dataclass
@@ -205,12 +213,12 @@ def check_xml(path: Path, data: bytes) -> None:
 # -- the survey ------------------------------------------------------------------------------------
 
 
-def survey(path: Path, data: bytes) -> Survey:
-    """Goes once through the map and notes what is used of it."""
+def survey(path: Path, data: bytes, corrections: Corrections = ()) -> Survey:
+    """Goes once through the map and notes what is used of it, as corrected."""
     try:
-        found = surveyed(data, file_format(path))
+        found = surveyed(data, file_format(path), corrections)
         if not found.ways:
-            found = surveyed(sorted_xml(data, file_format(path)), "osm")
+            found = surveyed(sorted_xml(data, file_format(path)), "osm", corrections)
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
     if not found.ways:
@@ -222,14 +230,17 @@ def survey(path: Path, data: bytes) -> Survey:
     return found
 
 
-def surveyed(data: bytes, form: str) -> Survey:
+def surveyed(data: bytes, form: str, corrections: Corrections) -> Survey:
     """What is used of a map whose nodes come before its ways."""
     found = Survey()
+    corrector = Corrector(corrections, found.notes)
     file = osmium.FileProcessor(osmium.io.FileBuffer(data, form))
     found.mapped = mapped_box(file.header.box())
     tagged = osmium.filter.EmptyTagFilter()
     for thing in file.with_locations().with_areas().with_filter(tagged):
-        note(found, thing)
+        note(found, corrector.seen(thing))
+    found.nodes |= corrector.bare_nodes(found.ways)
+    corrector.finish(found.places[0] if found.places else (0.0, 0.0))
     return found
 
 
@@ -267,7 +278,7 @@ def note(found: Survey, thing) -> None:
 def note_node(found: Survey, node) -> None:
     """Notes a tagged node: signals, trees and parking."""
     if not node.location.valid():
-        found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0), "lies outside the world")
+        found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0, f"node {node.id}"), "lies outside the world")
         return
     place = (node.lon, node.lat)
     found.places.append(place)
@@ -288,7 +299,7 @@ def note_way(found: Survey, way) -> None:
         found.small[way.tags["highway"]] += 1
     if way.tags.get("highway") not in CAR_WAYS:
         return
-    spot = Spot(f"way {way.id}", *place[::-1])
+    spot = Spot(f"way {way.id}", *place[::-1], f"way {way.id}")
     if reason := closed_to_cars(way.tags):
         found.notes.skip("closed way", f"highway={way.tags['highway']}", spot, reason)
         return
@@ -327,7 +338,7 @@ def note_area(found: Survey, area) -> None:
     if area_kind(area.tags):
         for ring in area.outer_rings():
             rings = [ring, *area.inner_rings(ring)]
-            found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags)))
+            found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags), element_of(area)))
 
 
 def area_kind(tags) -> str:
@@ -417,7 +428,8 @@ def cut(way: Way, box: Box, new_id: Iterable[int]) -> list[Way]:
     if nodes:
         pieces.append((nodes, points))
     ids = [way.id, *(next(new_id) for _ in pieces[1:])]
-    return [Way(name, nodes, points, way.tags) for name, (nodes, points) in zip(ids, pieces, strict=False)]
+    parts = [way.part_of, *(way.mapped for _ in pieces[1:])]
+    return [Way(name, *piece, way.tags, part_of=part) for name, part, piece in zip(ids, parts, pieces, strict=False)]
 
 
 def visible(a: tuple[float, float], b: tuple[float, float], box: Box) -> tuple[float, float] | None:

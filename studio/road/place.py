@@ -10,11 +10,12 @@ from pathlib import Path
 
 from studio.errors import MapError
 from studio.road import folder, kept, osm
-from studio.road.network import ATTRIBUTION, Connection, Network
+from studio.road.correction import Corrections
+from studio.road.network import ATTRIBUTION, Connection, Network, Road
 from studio.road.signals import Signals, dead_ends, signals
 
 IMPORTER = (
-    *("audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
+    *("audit.py", "bend.py", "correction.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "limit.py", "netconvert.py"),
     *("network.py", "osm.py", "overpass.py", "place.py", "report.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py"),
 )
 SHORTEST_RADIUS = 50.0  # [m]
@@ -25,6 +26,7 @@ def load(
     *,
     radius: float | None = None,
     bbox: str | None = None,
+    corrections: Corrections = (),
     progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
     """The roads and the scenery of a map file (.osm, .osm.gz, .osm.pbf, or .json from an Overpass server).
@@ -33,6 +35,7 @@ def load(
         path: the map file, or the folder that `studio import` made of one.
         bbox: the part to keep, "west,south,east,north" [deg].
         radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms.
+        corrections: what is known better than a map file says; an import's folder has its own.
         progress: is told what is being done.
 
     Raises:
@@ -40,8 +43,9 @@ def load(
     """
     path = Path(path)
     if path.is_dir():
-        source, kept_part = folder.opened(path)
-        network = load(source, radius=radius, bbox=bbox or (None if radius else kept_part), progress=progress)
+        found = folder.opened(path)
+        part = bbox or (None if radius else found.bbox)
+        network = load(found.map, radius=radius, bbox=part, corrections=found.corrections, progress=progress)
         return replace(network, name=path.name)
     if radius is not None and not radius >= SHORTEST_RADIUS:
         raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
@@ -49,10 +53,10 @@ def load(
     if box is not None and radius is not None:
         raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
     data = osm.read(path)
-    digest = digest_of(data, radius, box)
+    digest = digest_of(data, radius, box, corrections)
     network = recall(digest)
     if network is None:
-        network = imported(path, data, digest, radius=radius, bbox=box, progress=progress)
+        network = imported(path, data, digest, radius=radius, bbox=box, corrections=corrections, progress=progress)
         kept.keep("maps", digest, network)
     return replace(network, name=name_of(path))
 
@@ -68,12 +72,14 @@ def name_of(path: Path) -> str:
     return path.name.split(".osm")[0].removesuffix(".json")
 
 
-def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None) -> str:
-    """Digest of the map's content, the options and everything that turns them into a Network."""
-    return kept.digest_of(radius, bbox, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
+def digest_of(data: bytes, radius: float | None, bbox: osm.Box | None, corrections: Corrections) -> str:
+    """Digest of the map's content, the options, the corrections and everything that turns them into a Network."""
+    return kept.digest_of(radius, bbox, corrections, version("eclipse-sumo"), version("osmium"), data, sources=IMPORTER)
 
 
-def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, progress) -> Network:
+def imported(
+    path: Path, data: bytes, digest: str, *, radius: float | None, bbox: osm.Box | None, corrections: Corrections, progress
+) -> Network:
     """The network, made anew. What is needed only here is imported only here: a kept map opens at once."""
     from studio.road import audit, turn
     from studio.road.country import country_at
@@ -82,7 +88,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
 
     began = time.perf_counter()
     progress(f"reading {path.name}")
-    found = osm.survey(path, data)
+    found = osm.survey(path, data, corrections)
     box = clipped(path, found, radius, bbox)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     cut = cut_ways(path, found, box, ids)
@@ -101,7 +107,7 @@ def imported(path: Path, data: bytes, digest: str, *, radius: float | None, bbox
         bounds=box.bounds(),
         digest=digest,
         lanes=net.lanes,
-        roads=net.roads,
+        roads=of_ways(net.roads, net.origins, ways),
         connections=linked(net.connections, lights),
         junctions=net.junctions,
         signals=lights,
@@ -151,6 +157,13 @@ def lights_of(found, ways: list, box, net) -> Signals:
     """The signals of the network, those at the map's edge too."""
     mapped = list(osm.mapped_signals(found, ways, box).values())
     return signals(net.lanes, net.roads, net.connections, net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped))
+
+
+def of_ways(roads: dict[str, Road], origins: dict[str, tuple[int, ...]], ways: list) -> dict[str, Road]:
+    """The roads with the mapped ways that they are made of."""
+    mapped = {way.id: way.mapped for way in ways}
+    names = {road: dict.fromkeys(mapped[way] for way in origins.get(road, ()) if way in mapped) for road in roads}
+    return {name: replace(road, ways=tuple(names[name])) for name, road in roads.items()}
 
 
 def linked(connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:
