@@ -150,6 +150,25 @@ def import_(
 
 
 @app.command()
+def download(
+    out: Annotated[Path, typer.Option("--out", help="The folder to make; an earlier import there is replaced, its corrections are kept.")],
+    place: Annotated[str | None, typer.Argument(metavar="PLACE", help="Name of the place, with its city where there are several.")] = None,
+    bbox: Annotated[str | None, typer.Option("--bbox", metavar="W,S,E,N", help="The place as a box [deg] instead.")] = None,
+    overpass: Annotated[str | None, typer.Option("--overpass", metavar="URL", envvar="STUDIO_OVERPASS", help="The Overpass server to ask.")] = None,
+    search: Annotated[str | None, typer.Option("--search", metavar="URL", envvar="STUDIO_NOMINATIM", help="The Nominatim server to ask for names.")] = None,
+    as_json: AsJson = False,
+) -> None:  # fmt: skip
+    """Downloads a place from OpenStreetMap and imports it, as `studio import` does."""
+    from studio.errors import MapError
+    from studio.road import intake, osm
+
+    if (place is None) == (bbox is None):
+        raise MapError("What shall be downloaded?", [Problem("PLACE, --bbox", "are none or both given", remedy="give one of them")])
+    wanted = osm.bounding_box(bbox) if bbox else place
+    print_import(out, intake.fetch(wanted, out, overpass=overpass, search=search, progress=told), as_json)
+
+
+@app.command()
 def correct(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of an import.")],
     element: Annotated[str, typer.Argument(metavar="ELEMENT", help='An element of the map: "way 4711", "node 7", "relation 5".')],

@@ -3,11 +3,12 @@
 Corrections that an earlier import of the same folder has are kept and applied to the new map.
 """
 
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 from studio.errors import MapError, Problem, nearest
-from studio.road import folder
+from studio.road import folder, osm
 from studio.road.correction import Correction, Corrections, added
 from studio.road.network import Network
 from studio.road.place import load
@@ -40,6 +41,42 @@ def take(
     commit()
     folder.write(network, source, out, bbox=bbox, corrections=corrections)
     return network
+
+
+def fetch(
+    place: str | osm.Box,
+    out: Path,
+    *,
+    overpass: str | None = None,
+    search: str | None = None,
+    progress: Callable[[str], None] = lambda text: None,
+    commit: Callable[[], None] = lambda: None,
+) -> Network:
+    """Downloads a place, a name or a box, and imports it into a folder, which keeps the answer as its map.
+
+    Args:
+        place: the name or the box.
+        out: the folder.
+        overpass: address of an Overpass server; left out, that of the environment's STUDIO_OVERPASS, or the public one.
+        search: address of a Nominatim server; left out, that of STUDIO_NOMINATIM, or the public one.
+        progress: is told what is being done.
+        commit: as for `take`.
+
+    Raises:
+        MapError: nothing or several places have this name, a server does not answer, or as for `take`.
+    """
+    from studio.road import download
+
+    folder.refuse_foreign(out)
+    by = download.servers(overpass, search)
+    with tempfile.TemporaryDirectory(prefix="studio-map-") as beside:
+        source = Path(beside, f"{out.name}.json")
+        box = place if isinstance(place, osm.Box) else download.find(place, by=by, target=source, progress=progress).box
+        download.download(box, source, by=by, progress=progress)
+        try:
+            return take(source, out, bbox=download.text(box), progress=progress, commit=commit)
+        except MapError as error:
+            raise MapError(error.message.replace(str(source), source.name), error.problems) from None
 
 
 def correct(
