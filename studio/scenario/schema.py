@@ -31,8 +31,11 @@ class Part(BaseModel):
 class Map(Part):
     """The place."""
 
-    file: str = Field(..., max_length=300, title="Map file", description="relative to the scenario file: .osm or .osm.gz")
-    radius: float = number(800.0, unit="m", title="Radius", description="what lies farther from the centre is cut off", ge=100, le=5000)
+    file: str = Field(..., max_length=300, title="Map file", description="a map file, or the folder of an import, relative to the scenario file")
+    radius: float | None = number(
+        None, unit="m", title="Radius", ge=100, le=5000,
+        description="what lies farther from the centre is cut off; left out: 800 m for a file, and an import keeps its own part",
+    )
     signal_start: float = number(0.0, unit="s", title="Signals at the start", description="how far into their programmes the lights are", ge=0, le=600)
 
 

@@ -12,7 +12,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.responses import Response
 
-from studio.errors import Problem, ServerError, StoreError, StudioError, UnknownError
+from studio.errors import Problem, ServerError, SizeError, StoreError, StudioError, UnknownError
 from studio.server import map_routes, relay, routes
 from studio.server.desk import Desk
 
@@ -40,6 +40,7 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     yield
     await ready
     await asyncio.to_thread(desk.lives.close)
+    await asyncio.to_thread(desk.map_jobs.close)
     await asyncio.to_thread(desk.stage.scene.stop)
 
 
@@ -55,6 +56,8 @@ def status_of(error: StudioError) -> int:
         return 404
     if isinstance(error, StoreError):
         return 500
+    if isinstance(error, SizeError):
+        return 413
     return 409 if isinstance(error, ServerError) and "is over" in error.message else 422
 
 

@@ -39,7 +39,9 @@ def map_plan(map: str, desk: AtDesk) -> answer.MapPlan:
 @router.post("/maps", status_code=202, openapi_extra=BODY)
 async def upload(request: Request, desk: AtDesk, name: Name, bbox: Box = None, replace: Replace = False) -> answer.MapJob:
     """Imports the map file that is the body, at most 100 MiB of it."""
-    return await desk.map_jobs.upload(request, name, bbox, replace=replace)
+    said = request.headers.get("content-length", "")
+    size = int(said) if said.isdigit() else 0
+    return await desk.map_jobs.upload(request.stream(), name=name, size=size, bbox=bbox, replace=replace)
 
 
 @router.post("/maps/download", status_code=202)
@@ -87,4 +89,4 @@ def drive(map: str, desk: AtDesk) -> answer.Driven:
 @router.delete("/maps/{map}", status_code=204)
 def delete(map: str, desk: AtDesk) -> None:
     """Removes an import that no scenario of the folder names."""
-    desk.maps.delete(map)
+    desk.map_jobs.delete(map)
