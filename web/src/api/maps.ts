@@ -1,6 +1,6 @@
 /** The maps: what the page reads of them, and what it asks the server to do with them. */
 
-import { queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
+import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import type { MapDetail, MapJob, MapRow, Plan, Tags } from "../model/map";
 import { answer, client, refusal, Unreachable } from "./client";
 
@@ -22,6 +22,8 @@ export const plan = (id: string, digest: string | undefined) =>
     queryKey: ["plan", id, digest],
     queryFn: () => answer<Plan>(client.GET("/api/maps/{map}/plan", { params: { path: { map: id } } })),
     enabled: digest !== undefined,
+    // After a correction the old plan stays until the new one is there.
+    placeholderData: keepPreviousData,
     staleTime: Number.POSITIVE_INFINITY,
     // Looked at again soon, as after a correction; but large.
     gcTime: 60_000,

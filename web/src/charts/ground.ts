@@ -79,6 +79,7 @@ const SQUARE = 250;
 export function groundOf(plan: Plan): Ground {
   const lanes = plan.lanes.filter(({ centre }) => centre.length > 1);
   const outside = lanes.filter(({ internal }) => !internal);
+  const junctions = batched(plan.junctions, boundsOf, addRing);
   const { between, middle } = markings(outside, plan.drive_side);
   const kinds = [...new Set(plan.areas.map(({ kind }) => kind))].sort();
   const layers: Layer[] = [
@@ -90,7 +91,9 @@ export function groundOf(plan: Plan): Ground {
     { colour: "wall", thin: 1, from: 0.4, batches: batched(plan.buildings, outlineBounds, addOutline) },
     ...stripes(outside, "edge", 0.8),
     ...stripes(lanes.filter(({ open }) => open), "asphalt", 0),
-    { colour: "asphalt", batches: batched(plan.junctions, boundsOf, addRing) },
+    { colour: "asphalt", batches: junctions },
+    // Over the seam between a junction and its lanes.
+    { colour: "asphalt", width: 0.5, batches: junctions },
     ...stripes(outside.filter(({ open }) => !open), "closed", 0),
     { colour: "marking", width: 0.15, from: 2.2, batches: batched(between, boundsOf, addDashes) },
     { colour: "marking", width: 0.15, from: 2.2, batches: batched(middle, boundsOf, addLine) },

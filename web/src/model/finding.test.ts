@@ -22,12 +22,16 @@ const NOTHING = { kinds: new Set<string>(), marks: new Set<Finding["mark"]>() };
 describe("findings", () => {
   it("are the guesses by how sure, what was skipped, and what was corrected", () => {
     expect(all.map(({ id, mark }) => [id, mark])).toEqual([
-      ["1", "medium"],
-      ["2", "low"],
-      ["3", "high"],
-      ["4", "skipped"],
-      ["5", "corrected"],
+      ["f1", "medium"],
+      ["f2", "low"],
+      ["f3", "high"],
+      ["f4", "skipped"],
+      ["f5", "corrected"],
     ]);
+  });
+
+  it("are called by the name of the road where it has one", () => {
+    expect(all.map(({ where }) => where)).toEqual(["Kastanienallee", "building", "Kastanienallee", "node 5", "way 6"]);
   });
 
   it("say what a correction changes, and what the map says", () => {
@@ -38,10 +42,10 @@ describe("findings", () => {
 
   it("are filtered by kind, by mark and by every word", () => {
     const ids = (filter: typeof NOTHING, query = "") => shown(all, filter, query).map(({ id }) => id);
-    expect(ids(NOTHING)).toEqual(["1", "2", "3", "4", "5"]);
-    expect(ids({ ...NOTHING, kinds: new Set(["height", "signal"]) })).toEqual(["1", "3", "5"]);
-    expect(ids({ ...NOTHING, marks: new Set(["high" as const, "corrected" as const]) })).toEqual(["1", "2", "4"]);
-    expect(ids(NOTHING, "KASTANIEN limit")).toEqual(["3"]);
+    expect(ids(NOTHING)).toEqual(["f1", "f2", "f3", "f4", "f5"]);
+    expect(ids({ ...NOTHING, kinds: new Set(["height", "signal"]) })).toEqual(["f1", "f3", "f5"]);
+    expect(ids({ ...NOTHING, marks: new Set(["high" as const, "corrected" as const]) })).toEqual(["f1", "f2", "f4"]);
+    expect(ids(NOTHING, "KASTANIEN limit")).toEqual(["f3"]);
   });
 
   it("are counted, the most frequent first", () => {
@@ -77,7 +81,7 @@ describe("after another import", () => {
 
   it("a correction that was taken back is the guess again", () => {
     const corrected = { ...(all[4] as Finding), element: "way 8" };
-    expect(again(corrected, all.slice(0, 4))?.id).toBe("2");
+    expect(again(corrected, all.slice(0, 4))?.id).toBe("f2");
   });
 
   it("what is gone is gone", () => expect(again(all[3] as Finding, all.slice(0, 3))).toBeUndefined());

@@ -36,11 +36,18 @@ export const MARK_NAMES: Record<Mark, string> = {
 /** Everything that the report points at. */
 export function findings({ guesses, skipped, corrected }: Report): Finding[] {
   return [
-    ...guesses.map(({ number, sure, source, ...guess }) => ({ ...guess, id: idOf(number), mark: sure, why: source })),
+    ...guesses.map(({ number, sure, source, ...guess }) => ({
+      ...guess,
+      id: idOf(number),
+      mark: sure,
+      where: named(guess.where),
+      why: source,
+    })),
     ...skipped.map(({ number, reason, ...thing }) => ({
       ...thing,
       id: idOf(number),
       mark: "skipped" as const,
+      where: named(thing.where),
       why: reason,
       key: "",
     })),
@@ -48,6 +55,7 @@ export function findings({ guesses, skipped, corrected }: Report): Finding[] {
       ...thing,
       id: idOf(number),
       mark: "corrected" as const,
+      where: named(thing.where),
       kind: "corrected",
       what: changeText(tags, removed),
       why: `the map says ${tagText(before)}`,
@@ -56,7 +64,11 @@ export function findings({ guesses, skipped, corrected }: Report): Finding[] {
   ];
 }
 
-const idOf = (number: number): string => String(number);
+/** `way 4711 (High Street)` by its name; the element stands elsewhere. */
+const named = (where: string): string => /^(?:way|node|relation) \d+ \((.+)\)$/.exec(where)?.[1] ?? where;
+
+/** With a letter, because an address would put a mere number in quotes. */
+const idOf = (number: number): string => `f${number}`;
 
 /** What a correction says, in one line: `lanes = 3, no maxspeed`. */
 export const changeText = (tags: Tags, removed: readonly string[]): string =>

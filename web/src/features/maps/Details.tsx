@@ -17,6 +17,8 @@ interface Shared {
   map: string;
   plan: Plan;
   corrections: readonly Correction[];
+  /** Which import this is: the forms of another one begin anew. */
+  digest: string;
   /** Whether the map can be corrected at all. */
   editable: boolean;
   onClose: () => void;
@@ -24,13 +26,13 @@ interface Shared {
 
 export function FindingDetails({ finding, ...shared }: { finding: Finding } & Shared) {
   const { mark, kind, what, where, why, element, latitude, longitude } = finding;
-  const { map, plan, corrections, editable, onClose } = shared;
+  const { map, plan, digest, corrections, editable, onClose } = shared;
   return (
     <Card title={words(kind)} mark={<MarkIcon mark={mark} title={MARK_NAMES[mark]} />} onClose={onClose}>
       <dl className={classes.facts}>
         <Fact name={mark === "skipped" ? "Left out" : mark === "corrected" ? "Now" : "Taken"}>{what}</Fact>
         <Fact name="Where">
-          {element ? <Source element={element} /> : null} {element ? where.replace(element, "") : where}
+          {where === element ? null : where} {element ? <Source element={element} /> : null}
         </Fact>
         <Fact name={mark === "skipped" ? "Because" : mark === "corrected" ? "Instead" : "From"}>{why}</Fact>
         {mark === "skipped" || mark === "corrected" ? null : <Fact name="How sure">{mark}</Fact>}
@@ -39,15 +41,15 @@ export function FindingDetails({ finding, ...shared }: { finding: Finding } & Sh
         </Fact>
       </dl>
       {editable && mark !== "corrected" ? (
-        <FindingEditor key={`${finding.id} ${element}`} map={map} plan={plan} finding={finding} />
+        <FindingEditor key={`${digest} ${finding.id}`} map={map} plan={plan} finding={finding} />
       ) : null}
-      {editable ? <TakeBack map={map} element={element} corrections={corrections} /> : null}
+      {editable ? <TakeBack map={map} element={element} corrections={corrections} /> : <NotEditable />}
     </Card>
   );
 }
 
 export function RoadDetails({ road, ...shared }: { road: PlanRoad } & Shared) {
-  const { map, plan, corrections, editable, onClose } = shared;
+  const { map, plan, digest, corrections, editable, onClose } = shared;
   const [chosen, setChosen] = useState<number>();
   const lanes = lanesOf(plan, road);
   const [first] = lanes;
@@ -79,10 +81,11 @@ export function RoadDetails({ road, ...shared }: { road: PlanRoad } & Shared) {
       </dl>
       {editable && way !== undefined ? (
         <>
-          <WayEditor key={`${road.id} ${way}`} map={map} plan={plan} road={road} way={way} parts={ALL_PARTS} />
+          <WayEditor key={`${digest} ${road.id} ${way}`} map={map} plan={plan} road={road} way={way} parts={ALL_PARTS} />
           <TakeBack map={map} element={wayElement(way)} corrections={corrections} />
         </>
       ) : null}
+      {editable ? null : <NotEditable />}
     </Card>
   );
 }
@@ -134,6 +137,12 @@ function Source({ element }: { element: string }) {
     </Anchor>
   );
 }
+
+const NotEditable = () => (
+  <Text size="xs" c="dimmed" mt={8}>
+    This is a plain map file. To correct it, import it: drop it on this page.
+  </Text>
+);
 
 interface TakeBackProps {
   map: string;

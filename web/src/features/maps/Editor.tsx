@@ -23,8 +23,10 @@ import {
 } from "../../model/correction";
 import type { Finding } from "../../model/finding";
 import type { Plan, PlanRoad } from "../../model/map";
+import type { Problem } from "../../model/run";
 import { words } from "../../model/units";
 import { ProblemList } from "../../ui/Problems";
+import { useJobs } from "./imports";
 import classes from "./Maps.module.css";
 
 /** What of a way is asked for. */
@@ -78,7 +80,6 @@ export function WayEditor({ map, plan, road, way, parts }: WayEditorProps) {
       correction={{ element: wayElement(way), tags: tagsOf(change, before), remove: [] }}
       ready={isChanged(change) && problem === ""}
       problem={problem}
-      onSent={() => setChange(UNCHANGED)}
     >
       {parts.includes("lanes") ? <LaneFields before={before} change={change} update={update} /> : null}
       {parts.includes("speed") ? (
@@ -224,7 +225,7 @@ interface ElementEditorProps {
 function SignalEditor({ map, element }: ElementEditorProps) {
   const [there, setThere] = useState(true);
   return (
-    <Form map={map} correction={{ element, ...signalTags(there) }} ready={!there} problem="" onSent={() => {}}>
+    <Form map={map} correction={{ element, ...signalTags(there) }} ready={!there} problem="">
       <Switch
         size="xs"
         label="There is a traffic signal"
@@ -245,7 +246,6 @@ function HeightEditor({ map, element }: ElementEditorProps) {
       correction={{ element, tags: { height: String(height) }, remove: [] }}
       ready={ready}
       problem={ready || Number.isNaN(height) ? "" : `Height: ${least} to ${most} m`}
-      onSent={() => setHeight(Number.NaN)}
     >
       <NumberField label="Height" {...LIMITS.height} step={0.5} value={height} onChange={setHeight} />
     </Form>
@@ -262,7 +262,6 @@ function TagEditor({ map, element, name }: ElementEditorProps & { name: string }
       correction={{ element, tags: { [name]: text }, remove: [] }}
       ready={text !== ""}
       problem=""
-      onSent={() => setValue("")}
     >
       <TextInput
         size="xs"
@@ -280,17 +279,18 @@ interface FormProps {
   correction: NewCorrection;
   ready: boolean;
   problem: string;
-  onSent: () => void;
   children: ReactNode;
 }
 
-/** What was typed stays when it is refused. */
-function Form({ map, correction, ready, problem, onSent, children }: FormProps) {
+/** What was typed stays while the map is imported again, and when that is refused. */
+function Form({ map, correction, ready, problem, children }: FormProps) {
   const correct = useCorrect(map);
-  const error = correct.error as (Error & { problems?: [] }) | null;
+  const going = useJobs().some((job) => job.map === map && job.status === "running");
+  const sent = going && JSON.stringify(correct.variables) === JSON.stringify(correction);
+  const error = correct.error as (Error & { problems?: Problem[] }) | null;
   const submit = (event: FormEvent) => {
     event.preventDefault();
-    if (ready) correct.mutate(correction, { onSuccess: onSent });
+    if (ready && !sent) correct.mutate(correction);
   };
   return (
     <form className={classes.editor} onSubmit={submit} data-testid="correction">
@@ -301,8 +301,8 @@ function Form({ map, correction, ready, problem, onSent, children }: FormProps) 
           <ProblemList problems={error?.problems ?? []} />
         </div>
       ) : null}
-      <Button type="submit" size="xs" disabled={!ready} loading={correct.isPending} data-testid="correct">
-        Correct it
+      <Button type="submit" size="xs" disabled={!ready || sent} loading={correct.isPending} data-testid="correct">
+        {sent ? "Being imported again …" : "Correct it"}
       </Button>
     </form>
   );

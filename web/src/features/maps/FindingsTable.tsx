@@ -39,10 +39,11 @@ export function FindingsTable({ findings, selected, sort, onSort, onSelect }: Pr
     overscan: 10,
   });
   const at = selected ? findings.indexOf(selected) : -1;
-  // The row of a mark that was clicked comes into sight.
+  // The row of a mark that was clicked comes into sight, and stays there when the details take room.
+  const height = virtual.scrollRect?.height;
   useEffect(() => {
     if (at >= 0) virtual.scrollToIndex(at, { align: "auto" });
-  }, [at, virtual]);
+  }, [at, height, virtual]);
   const { onKey, focusFirst } = useRowKeys(scroller, findings, at, onSelect);
   useShortcuts({ j: focusFirst, k: focusFirst, ArrowDown: focusFirst, ArrowUp: focusFirst });
 

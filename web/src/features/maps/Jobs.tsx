@@ -32,7 +32,12 @@ export function Jobs({ map }: Props) {
         <Sending key={upload.key} upload={upload} />
       ))}
       {shown.map((job) => (
-        <Going key={job.id} job={job} upload={uploads.find((upload) => upload.job === job.id)} />
+        <Going
+          key={job.id}
+          job={job}
+          failure={map === undefined ? `${job.map} was not imported` : "The map stays as it was"}
+          upload={uploads.find((upload) => upload.job === job.id)}
+        />
       ))}
     </div>
   );
@@ -58,12 +63,18 @@ function Sending({ upload }: { upload: Upload }) {
   );
 }
 
-function Going({ job, upload }: { job: MapJob; upload: Upload | undefined }) {
+interface GoingProps {
+  job: MapJob;
+  failure: string;
+  upload: Upload | undefined;
+}
+
+function Going({ job, failure, upload }: GoingProps) {
   const cancel = useCancel();
   if (job.status === "failed") {
     return (
       <Failed
-        title={`${job.map} was not imported`}
+        title={failure}
         message={job.problem?.message ?? "The import has failed."}
         problems={job.problem?.problems ?? []}
         upload={upload}

@@ -25,7 +25,7 @@ import { Summary } from "./Summary";
 
 /** What the address says: what is selected, what is hidden, searched for, and the order of the table. */
 export interface MapView {
-  /** The number of a finding. */
+  /** The id of a finding. */
   at?: string | undefined;
   road?: string | undefined;
   /** Kinds, and marks with a tilde before them. */
@@ -158,6 +158,7 @@ function Desk({ map, plan, view, onView }: DeskProps) {
   const details = {
     map: map.id,
     plan,
+    digest: map.digest,
     corrections: map.corrections,
     editable: map.kind === "import",
     onClose: () => onView({ ...view, at: undefined, road: undefined }),
