@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 from tests.browser.browser import browser, pixels
 from tests.server.server import served
 
-PATIENCE = 120_000  # [ms] the first import compiles
+PATIENCE = 180_000  # [ms] the first import and the first run compile
 SIZE = {"width": 1280, "height": 760}
 REFERENCE = Path(__file__).parents[1] / "reference" / "maps"
 SEATTLE, PERTH = "seattle_triangle_small", "perth_peanut_roundabout_lht"

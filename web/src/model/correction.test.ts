@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { type Arrow, isChanged, numberOf, profileOf, roadOf, signalTags, tagsOf, turnText, UNCHANGED, wrong } from "./correction";
+import { type Arrow, isChanged, numberOf, profileOf, roadOf, settled, signalTags, tagsOf, turnText, UNCHANGED, wrong } from "./correction";
 import type { Plan } from "./map";
 
 const lane = (id: number, road: string, index: number) => ({
@@ -71,6 +71,19 @@ describe("the tags of a change", () => {
   });
 });
 
+describe("a guess that is right", () => {
+  it("is confirmed by the tags that say what was taken", () => {
+    expect(tagsOf(settled(UNCHANGED, oneWay, ["lanes"]), oneWay)).toEqual({ lanes: "2" });
+    expect(tagsOf(settled(UNCHANGED, twoWay, ["lanes"]), twoWay)).toEqual({
+      lanes: "3",
+      "lanes:forward": "2",
+      "lanes:backward": "1",
+    });
+    expect(tagsOf(settled(UNCHANGED, twoWay, ["speed"]), twoWay)).toEqual({ maxspeed: "50" });
+    expect(tagsOf(settled({ ...UNCHANGED, laneWidth: 3 }, oneWay, ["width"]), oneWay)).toEqual({ width: "6" });
+  });
+});
+
 describe("arrows", () => {
   it("stand in the order of directions, whatever was pressed first; a lane may have none", () => {
     expect(turnText([["through", "left"], [], ["slight_right"]])).toBe("left;through||slight_right");
@@ -88,7 +101,7 @@ describe("what cannot be sent", () => {
   it.each([
     [{ forward: 0 }, "Lanes: 1 to 16"],
     [{ forward: 1.5 }, "Lanes: a whole number"],
-    [{ backward: 99 }, "Lanes the other way: 1 to 16"],
+    [{ backward: 99 }, "Lanes: 1 to 16"],
     [{ speed: Number.NaN }, "Speed limit: 5 to 250 km/h"],
     [{ laneWidth: 9 }, "Lane width: 2.5 to 4.5 m"],
   ])("%o is told", (part, text) => expect(wrong({ ...UNCHANGED, ...part })).toBe(text));

@@ -40,6 +40,11 @@ export interface Change {
   turns: Arrow[][] | null;
 }
 
+/** What of a way is asked for. */
+export type Part = "lanes" | "speed" | "width" | "turns";
+
+export const ALL_PARTS: readonly Part[] = ["lanes", "speed", "width", "turns"];
+
 export const UNCHANGED: Change = { forward: null, backward: null, speed: null, laneWidth: null, turns: null };
 
 /** What is allowed, with units; the width of a lane as the import takes it. */
@@ -107,6 +112,15 @@ export function tagsOf(change: Change, before: Profile): Tags {
   return tags;
 }
 
+/** The same, with what was not changed as it is taken to be: a guess may also be confirmed. */
+export const settled = (change: Change, before: Profile, parts: readonly Part[]): Change => ({
+  forward: change.forward ?? (parts.includes("lanes") ? before.forward : null),
+  backward: change.backward ?? (parts.includes("lanes") ? before.backward : null),
+  speed: change.speed ?? (parts.includes("speed") ? before.speed : null),
+  laneWidth: change.laneWidth ?? (parts.includes("width") ? before.laneWidth : null),
+  turns: change.turns,
+});
+
 /** A two-way way has arrows for each direction. */
 const turnKey = ({ along }: Profile, forward: number, backward: number): string =>
   forward > 0 && backward > 0 ? `turn:lanes:${along ? "forward" : "backward"}` : "turn:lanes";
@@ -127,7 +141,7 @@ export function wrong(change: Change): string {
   const { forward, backward, speed, laneWidth } = change;
   for (const [value, { least, most, unit }, name] of [
     [forward, LIMITS.lanes, "Lanes"],
-    [backward, LIMITS.lanes, "Lanes the other way"],
+    [backward, LIMITS.lanes, "Lanes"],
     [speed, LIMITS.speed, "Speed limit"],
     [laneWidth, LIMITS.laneWidth, "Lane width"],
   ] as const) {

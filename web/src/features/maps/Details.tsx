@@ -3,13 +3,13 @@
 import { ActionIcon, Anchor, Button, NativeSelect, Text, Tooltip } from "@mantine/core";
 import { type ReactNode, useState } from "react";
 import { useTakeBack } from "../../api/maps";
-import { lanesOf, wayElement } from "../../model/correction";
+import { ALL_PARTS, lanesOf, wayElement } from "../../model/correction";
 import { changeText, type Finding, MARK_NAMES } from "../../model/finding";
 import type { Correction, Plan, PlanRoad } from "../../model/map";
 import { words } from "../../model/units";
 import { Icon } from "../../ui/Icon";
 import { notifyError } from "../../ui/notify";
-import { ALL_PARTS, FindingEditor, WayEditor } from "./Editor";
+import { FindingEditor, WayEditor } from "./Editor";
 import classes from "./Maps.module.css";
 import { MarkIcon } from "./MarkIcon";
 
@@ -43,7 +43,11 @@ export function FindingDetails({ finding, ...shared }: { finding: Finding } & Sh
       {editable && mark !== "corrected" ? (
         <FindingEditor key={`${digest} ${finding.id}`} map={map} plan={plan} finding={finding} />
       ) : null}
-      {editable ? <TakeBack map={map} element={element} corrections={corrections} /> : <NotEditable />}
+      {editable ? (
+        <TakeBack map={map} element={element} corrections={corrections} told={mark === "corrected"} />
+      ) : (
+        <NotEditable />
+      )}
     </Card>
   );
 }
@@ -148,18 +152,18 @@ interface TakeBackProps {
   map: string;
   element: string;
   corrections: readonly Correction[];
+  /** Whether what was corrected stands above already. */
+  told?: boolean;
 }
 
 /** The way back from a correction. */
-function TakeBack({ map, element, corrections }: TakeBackProps) {
+function TakeBack({ map, element, corrections, told = false }: TakeBackProps) {
   const takeBack = useTakeBack(map);
   const own = corrections.find((correction) => correction.element === element);
   if (!own) return null;
   return (
     <div className={classes.undo}>
-      <Text size="xs">
-        Corrected: <b>{changeText(own.tags, own.removed)}</b>
-      </Text>
+      <Text size="xs">{told ? "" : `Corrected: ${changeText(own.tags, own.removed)}`}</Text>
       <Button
         size="compact-xs"
         variant="default"

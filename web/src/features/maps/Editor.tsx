@@ -4,6 +4,7 @@ import { Button, NumberInput, Switch, Text, TextInput, UnstyledButton } from "@m
 import { type FormEvent, type ReactNode, useId, useState } from "react";
 import { type NewCorrection, useCorrect } from "../../api/maps";
 import {
+  ALL_PARTS,
   ARROW_SIGNS,
   ARROWS,
   type Arrow,
@@ -12,9 +13,11 @@ import {
   LIMITS,
   lanesOf,
   numberOf,
+  type Part,
   profileOf,
   type Profile,
   roadOf,
+  settled,
   signalTags,
   tagsOf,
   UNCHANGED,
@@ -29,11 +32,6 @@ import { ProblemList } from "../../ui/Problems";
 import { useJobs } from "./imports";
 import classes from "./Maps.module.css";
 
-/** What of a way is asked for. */
-export type Part = "lanes" | "speed" | "width" | "turns";
-
-export const ALL_PARTS: readonly Part[] = ["lanes", "speed", "width", "turns"];
-
 interface FindingEditorProps {
   map: string;
   plan: Plan;
@@ -42,13 +40,15 @@ interface FindingEditorProps {
 
 /** The form for the tag that settles a guess. */
 export function FindingEditor({ map, plan, finding }: FindingEditorProps) {
-  const { element, key, kind } = finding;
+  const { element, key, kind, mark, what } = finding;
   const way = numberOf(element, "way");
   const road = way === undefined ? undefined : roadOf(plan, way);
   const part = partOf(key);
-  if (way !== undefined && road && part) return <WayEditor map={map} plan={plan} road={road} way={way} parts={[part]} />;
+  const parts = part ? [part] : mark === "skipped" ? ALL_PARTS : [];
+  if (way !== undefined && road && parts.length > 0)
+    return <WayEditor map={map} plan={plan} road={road} way={way} parts={parts} guessed={part !== undefined} />;
   if (kind === "signal" && numberOf(element, "node") !== undefined) return <SignalEditor map={map} element={element} />;
-  if (key === "height") return <HeightEditor map={map} element={element} />;
+  if (key === "height") return <HeightEditor map={map} element={element} taken={Number.parseFloat(what)} />;
   return key ? <TagEditor map={map} element={element} name={key} /> : null;
 }
 
@@ -67,19 +67,23 @@ interface WayEditorProps {
   road: PlanRoad;
   way: number;
   parts: readonly Part[];
+  /** Whether it is only guessed, and may be confirmed. */
+  guessed?: boolean;
 }
 
-export function WayEditor({ map, plan, road, way, parts }: WayEditorProps) {
+export function WayEditor({ map, plan, road, way, parts, guessed = false }: WayEditorProps) {
   const before = profileOf(plan, road, way);
   const [change, setChange] = useState<Change>(UNCHANGED);
   const update = (part: Partial<Change>) => setChange({ ...change, ...part });
   const problem = wrong(change);
+  const tags = tagsOf(guessed ? settled(change, before, parts) : change, before);
   return (
     <Form
       map={map}
-      correction={{ element: wayElement(way), tags: tagsOf(change, before), remove: [] }}
-      ready={isChanged(change) && problem === ""}
+      correction={{ element: wayElement(way), tags, remove: [] }}
+      ready={Object.keys(tags).length > 0 && problem === ""}
       problem={problem}
+      confirms={!isChanged(change)}
     >
       {parts.includes("lanes") ? <LaneFields before={before} change={change} update={update} /> : null}
       {parts.includes("speed") ? (
@@ -236,8 +240,8 @@ function SignalEditor({ map, element }: ElementEditorProps) {
   );
 }
 
-function HeightEditor({ map, element }: ElementEditorProps) {
-  const [height, setHeight] = useState(Number.NaN);
+function HeightEditor({ map, element, taken }: ElementEditorProps & { taken: number }) {
+  const [height, setHeight] = useState(taken);
   const { least, most } = LIMITS.height;
   const ready = height >= least && height <= most;
   return (
@@ -245,7 +249,8 @@ function HeightEditor({ map, element }: ElementEditorProps) {
       map={map}
       correction={{ element, tags: { height: String(height) }, remove: [] }}
       ready={ready}
-      problem={ready || Number.isNaN(height) ? "" : `Height: ${least} to ${most} m`}
+      problem={ready ? "" : `Height: ${least} to ${most} m`}
+      confirms={height === taken}
     >
       <NumberField label="Height" {...LIMITS.height} step={0.5} value={height} onChange={setHeight} />
     </Form>
@@ -279,11 +284,13 @@ interface FormProps {
   correction: NewCorrection;
   ready: boolean;
   problem: string;
+  /** Whether what is sent is what was taken. */
+  confirms?: boolean;
   children: ReactNode;
 }
 
 /** What was typed stays while the map is imported again, and when that is refused. */
-function Form({ map, correction, ready, problem, children }: FormProps) {
+function Form({ map, correction, ready, problem, confirms = false, children }: FormProps) {
   const correct = useCorrect(map);
   const going = useJobs().some((job) => job.map === map && job.status === "running");
   const sent = going && JSON.stringify(correct.variables) === JSON.stringify(correction);
@@ -302,7 +309,7 @@ function Form({ map, correction, ready, problem, children }: FormProps) {
         </div>
       ) : null}
       <Button type="submit" size="xs" disabled={!ready || sent} loading={correct.isPending} data-testid="correct">
-        {sent ? "Being imported again …" : "Correct it"}
+        {sent ? "Being imported again …" : confirms && ready ? "It is right so" : "Correct it"}
       </Button>
     </form>
   );

@@ -52,7 +52,7 @@ export function FindingsTable({ findings, selected, sort, onSort, onSelect }: Pr
   const below = virtual.getTotalSize() - (items.at(-1)?.end ?? 0);
   return (
     <div ref={scroller} className={classes.scroller}>
-      <table className={classes.findings} data-testid="findings" aria-rowcount={findings.length + 1}>
+      <table className={classes.findings} role="grid" aria-label="Findings" data-testid="findings" aria-rowcount={findings.length + 1}>
         <thead>
           <tr>
             {COLUMNS.map(({ key, title, name }) => (

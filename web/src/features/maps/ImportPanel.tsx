@@ -5,8 +5,9 @@ import { type FormEvent, type RefObject, useState } from "react";
 import { useDownload } from "../../api/maps";
 import type { MapJob } from "../../model/map";
 import { placeOrBox } from "../../model/place";
+import type { Problem } from "../../model/run";
 import { Icon } from "../../ui/Icon";
-import { Failure } from "../../ui/State";
+import { ProblemList } from "../../ui/Problems";
 import classes from "./Maps.module.css";
 
 /** What is asked of an import besides its source. */
@@ -111,7 +112,12 @@ function DownloadForm({ wishes, onStarted, field }: DownloadProps) {
           </span>
         </Tooltip>
       </div>
-      {download.error ? <Failure error={download.error} /> : null}
+      {download.error ? (
+        <div role="alert" className={classes.problem}>
+          {download.error.message}
+          <ProblemList problems={(download.error as { problems?: Problem[] }).problems ?? []} />
+        </div>
+      ) : null}
     </form>
   );
 }

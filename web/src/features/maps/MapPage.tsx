@@ -127,15 +127,8 @@ interface DeskProps {
 /** The plan and the report, linked both ways. */
 function Desk({ map, plan, view, onView }: DeskProps) {
   const picture = useRef<PlanPicture>(undefined);
-  const search = useRef<HTMLInputElement>(null);
-  const all = useMemo(() => findings(map.report), [map.report]);
-  const filter = useMemo(() => readFilter(view.hide ?? hiddenAtFirst(all)), [view.hide, all]);
-  const sort = readSort(view.sort);
-  const listed = useMemo(
-    () => ordered(shown(all, filter, view.q), sort.key, sort.descending),
-    [all, filter, view.q, sort.key, sort.descending],
-  );
-  const selected = view.at === undefined ? undefined : all.find(({ id }) => id === view.at);
+  const report = useReport(map, view);
+  const { all, listed, selected } = report;
   const road = view.road === undefined ? undefined : plan.roads.find(({ id }) => id === view.road);
 
   const select = (finding: Finding | undefined) => onView({ ...view, at: finding?.id, road: undefined });
@@ -149,65 +142,76 @@ function Desk({ map, plan, view, onView }: DeskProps) {
     else if (first) select(first);
     else onView({ ...view, at: undefined, road: lane?.road });
   };
+  const close = () => select(undefined);
   useFollowing(map.digest, selected, all, select);
   useFirstLook(selected, picture);
-  useShortcuts({
-    "/": () => search.current?.focus(),
-    Escape: () => onView({ ...view, at: undefined, road: undefined }),
-  });
-  const details = {
-    map: map.id,
-    plan,
-    digest: map.digest,
-    corrections: map.corrections,
-    editable: map.kind === "import",
-    onClose: () => onView({ ...view, at: undefined, road: undefined }),
-  };
+  useShortcuts({ Escape: close });
+  const { id, digest, corrections } = map;
+  const details = { map: id, plan, corrections, digest, editable: map.kind === "import", onClose: close };
   return (
     <div className={classes.desk}>
       <Summary report={map.report} />
       <Plan plan={plan} findings={listed} selected={selected} road={road?.id} picture={picture} onPick={pick} />
       <aside className={classes.panel} aria-label="What the import found and guessed">
-        <Jobs map={map.id} />
-        <Filters
-          findings={all}
-          filter={filter}
-          onFilter={(next) => onView({ ...view, hide: writeFilter(next) })}
-        />
-        <TextInput
-          ref={search}
-          size="xs"
-          className={classes.search}
-          placeholder="Search the findings (/)"
-          aria-label="Search the findings"
-          leftSection={<Icon name="search" size={14} />}
-          rightSection={
-            view.q ? (
-              <CloseButton
-                size="xs"
-                aria-label="Clear the search"
-                onClick={() => onView({ ...view, q: undefined })}
-              />
-            ) : null
-          }
-          value={view.q ?? ""}
-          onChange={(event) => onView({ ...view, q: event.currentTarget.value || undefined })}
-        />
-        {listed.length > 0 ? (
-          <FindingsTable
-            findings={listed}
-            selected={selected}
-            sort={sort}
-            onSort={(next) => onView({ ...view, sort: writeSort(next) })}
-            onSelect={show}
-          />
-        ) : (
-          <Nothing any={all.length > 0} onAll={() => onView({ ...view, hide: "", q: undefined })} />
-        )}
+        <Jobs map={id} />
+        <Findings {...report} view={view} onView={onView} onSelect={show} />
         {selected ? <FindingDetails finding={selected} {...details} /> : null}
         {road && !selected ? <RoadDetails road={road} {...details} /> : null}
       </aside>
     </div>
+  );
+}
+
+/** The findings of a map: all, those that the address lets through, in its order, and the one that it names. */
+function useReport({ report }: MapDetail, { at, hide, q, sort: order }: MapView) {
+  const all = useMemo(() => findings(report), [report]);
+  const filter = useMemo(() => readFilter(hide ?? hiddenAtFirst(all)), [hide, all]);
+  const sort = readSort(order);
+  const { key, descending } = sort;
+  const listed = useMemo(() => ordered(shown(all, filter, q), key, descending), [all, filter, q, key, descending]);
+  const selected = at === undefined ? undefined : all.find(({ id }) => id === at);
+  return { all, filter, sort, listed, selected };
+}
+
+interface FindingsProps extends ReturnType<typeof useReport> {
+  view: MapView;
+  onView: (view: MapView) => void;
+  onSelect: (finding: Finding) => void;
+}
+
+/** The table with what chooses its rows. */
+function Findings({ all, filter, sort, listed, selected, view, onView, onSelect }: FindingsProps) {
+  const search = useRef<HTMLInputElement>(null);
+  useShortcuts({ "/": () => search.current?.focus() });
+  const find = (q: string) => onView({ ...view, q: q || undefined });
+  return (
+    <>
+      <Filters findings={all} filter={filter} onFilter={(next) => onView({ ...view, hide: writeFilter(next) })} />
+      <TextInput
+        ref={search}
+        size="xs"
+        className={classes.search}
+        placeholder="Search the findings (/)"
+        aria-label="Search the findings"
+        leftSection={<Icon name="search" size={14} />}
+        rightSection={
+          view.q ? <CloseButton size="xs" aria-label="Clear the search" onClick={() => find("")} /> : null
+        }
+        value={view.q ?? ""}
+        onChange={(event) => find(event.currentTarget.value)}
+      />
+      {listed.length > 0 ? (
+        <FindingsTable
+          findings={listed}
+          selected={selected}
+          sort={sort}
+          onSort={(next) => onView({ ...view, sort: writeSort(next) })}
+          onSelect={onSelect}
+        />
+      ) : (
+        <Nothing any={all.length > 0} onAll={() => onView({ ...view, hide: "", q: undefined })} />
+      )}
+    </>
   );
 }
 

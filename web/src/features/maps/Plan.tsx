@@ -63,7 +63,6 @@ export function Plan({ plan, findings, selected, road, picture, onPick }: Props)
   };
   return (
     <div className={classes.plan}>
-      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: the arrow keys move it */}
       <canvas
         ref={canvas}
         className={classes.canvas}
