@@ -216,8 +216,8 @@ def check_xml(path: Path, data: bytes) -> None:
 def survey(path: Path, data: bytes, corrections: Corrections = ()) -> Survey:
     """Goes once through the map and notes what is used of it, as corrected."""
     try:
-        found = surveyed(data, file_format(path), corrections)
-        if not found.ways:
+        found = in_order(data, file_format(path), corrections)
+        if found is None or not found.ways:
             found = surveyed(sorted_xml(data, file_format(path)), "osm", corrections)
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
@@ -228,6 +228,16 @@ def survey(path: Path, data: bytes, corrections: Corrections = ()) -> Survey:
         spot = Spot("the whole map", *found.places[0][::-1])
         found.notes.skip("small way", f"{count} ways with highway={kind}", spot, "only public roads are built")
     return found
+
+
+def in_order(data: bytes, form: str, corrections: Corrections) -> Survey | None:
+    """The survey of a map whose elements are in order; None when they are not."""
+    try:
+        return surveyed(data, form, corrections)
+    except RuntimeError as error:
+        if "out of order" in str(error):
+            return None
+        raise
 
 
 def surveyed(data: bytes, form: str, corrections: Corrections) -> Survey:
