@@ -246,7 +246,21 @@ def test_b_a_broken_file_is_told_and_nothing_is_lost(page, tmp_path):
     expect(failed).to_have_count(0)
 
 
-def test_c_it_is_dark_when_the_page_is(page):
+def test_c_an_upload_is_cancelled(page):
+    """How much is sent is told; cancelled, nothing of it is there, and the same file can be chosen again."""
+    line = page.context.new_cdp_session(page)
+    slow = {"offline": False, "latency": 0, "downloadThroughput": -1, "uploadThroughput": 4000}
+    line.send("Network.emulateNetworkConditions", slow)
+    for _ in range(2):
+        page.get_by_test_id("file-input").set_input_files(REFERENCE / f"{SEATTLE}.osm.gz")
+        expect(page.get_by_test_id("map-job-stage")).to_contain_text(re.compile(r"sending \d+ %"))
+        page.get_by_test_id("cancel-import").click()
+        expect(page.get_by_test_id("map-job")).to_have_count(0)
+    line.send("Network.emulateNetworkConditions", slow | {"uploadThroughput": -1})
+    expect(page.get_by_test_id("map-row")).to_have_count(2)
+
+
+def test_d_it_is_dark_when_the_page_is(page):
     page.keyboard.press("g")
     page.keyboard.press("m")
     page.get_by_role("link", name=SEATTLE).click()
@@ -255,7 +269,7 @@ def test_c_it_is_dark_when_the_page_is(page):
     assert plan(page).mean() < 90 < 180 < light
 
 
-def test_d_one_drives_there(page):
+def test_e_one_drives_there(page):
     """The studio opens with a scenario on this map, which can be run."""
     page.get_by_test_id("drive-here").click()
     page.wait_for_url(f"**/studio/{SEATTLE}*")

@@ -1,7 +1,7 @@
 /** The ways to a new map: a file, or the name or the box of a place. */
 
 import { Button, FileButton, Text, TextInput, Tooltip } from "@mantine/core";
-import { type FormEvent, type RefObject, useState } from "react";
+import { type FormEvent, type RefObject, useRef, useState } from "react";
 import { useDownload } from "../../api/maps";
 import type { MapJob } from "../../model/map";
 import { placeOrBox } from "../../model/place";
@@ -26,6 +26,12 @@ interface Props {
 }
 
 export function ImportPanel({ wishes, onWishes, onFiles, onStarted, field }: Props) {
+  // The same file may be chosen again, which a browser would not tell otherwise.
+  const reset = useRef<() => void>(null);
+  const take = (files: File[]) => {
+    onFiles(files);
+    reset.current?.();
+  };
   return (
     <section className={classes.importing} aria-label="Make a new map">
       <div className={classes.way}>
@@ -34,7 +40,7 @@ export function ImportPanel({ wishes, onWishes, onFiles, onStarted, field }: Pro
           OpenStreetMap data: .osm, .osm.gz, .osm.pbf, or .json from an Overpass server. Drop it anywhere on this
           page, or choose it:
         </Text>
-        <FileButton onChange={onFiles} multiple inputProps={INPUT}>
+        <FileButton onChange={take} resetRef={reset} multiple inputProps={INPUT}>
           {(props) => (
             <Button {...props} size="xs" data-testid="choose-file" leftSection={<Icon name="upload" size={14} />}>
               Choose a map file
