@@ -151,17 +151,50 @@ def import_(
     as_json: AsJson = False,
 ) -> None:
     """Imports a map into a folder that a scenario can name, and reports what was found, guessed and skipped."""
-    from studio.road import folder, load
-    from studio.road.report import rows
+    from studio.road import intake
 
-    folder.refuse_foreign(out)
-    network = load(file, bbox=bbox, parking_aisles=parking_aisles, progress=lambda text: print(text, file=sys.stderr))
-    folder.write(network, file, out, bbox=bbox, parking_aisles=parking_aisles)
-    if as_json:
-        print_json(folder.report_json(network, file, bbox, parking_aisles=parking_aisles))
-        return
-    print_table(["what", "how many", "remark"], rows(network.report))
-    print(f"{out}: {network.name}. {network.attribution}".rstrip())
+    print_import(out, intake.take(file, out, bbox=bbox, parking_aisles=parking_aisles, progress=told), as_json)
+
+
+@app.command()
+def download(
+    out: Annotated[Path, typer.Option("--out", help="The folder to make; an earlier import there is replaced, its corrections are kept.")],
+    place: Annotated[str | None, typer.Argument(metavar="PLACE", help="Name of the place, with its city where there are several.")] = None,
+    bbox: Annotated[str | None, typer.Option("--bbox", metavar="W,S,E,N", help="The place as a box [deg] instead.")] = None,
+    overpass: Annotated[str | None, typer.Option("--overpass", metavar="URL", envvar="STUDIO_OVERPASS", help="The Overpass server to ask.")] = None,
+    search: Annotated[str | None, typer.Option("--search", metavar="URL", envvar="STUDIO_NOMINATIM", help="The Nominatim server to ask for names.")] = None,
+    as_json: AsJson = False,
+) -> None:  # fmt: skip
+    """Downloads a place from OpenStreetMap and imports it, as `studio import` does."""
+    from studio.errors import MapError
+    from studio.road import intake, osm
+
+    if (place is None) == (bbox is None):
+        raise MapError("What shall be downloaded?", [Problem("PLACE, --bbox", "are none or both given", remedy="give one of them")])
+    wanted = osm.bounding_box(bbox) if bbox else place
+    print_import(out, intake.fetch(wanted, out, overpass=overpass, search=search, progress=told), as_json)
+
+
+@app.command()
+def correct(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of an import.")],
+    element: Annotated[str, typer.Argument(metavar="ELEMENT", help='An element of the map: "way 4711", "node 7", "relation 5".')],
+    tags: Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE", help="Tags to set: lanes=2 maxspeed=30.")] = None,
+    remove: Annotated[list[str] | None, typer.Option("--remove", metavar="KEY", help="A tag to take away; can be repeated.")] = None,
+    undo: Annotated[bool, typer.Option("--undo", help="Take all corrections of this element back.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Corrects tags of a map element and imports the map again; the correction is kept for later imports into the folder."""
+    from studio.errors import MapError
+    from studio.road import intake, tag
+
+    if undo and (tags or remove):
+        raise MapError("--undo takes all corrections of the element back.", [Problem("--undo", "stands alone", remedy="leave the tags out")])
+    if undo:
+        network = intake.undo(folder, element, progress=told)
+    else:
+        network = intake.correct(folder, tag.correction(element, assigned(tags), remove or ()), progress=told)
+    print_import(folder, network, as_json)
 
 
 @generate.command()
@@ -352,6 +385,16 @@ def changes(assignments: list[str] | None) -> dict[str, Any]:
     return dict(parse_assignment(each) for each in assignments or [])
 
 
+def assigned(assignments: list[str] | None) -> dict[str, str]:
+    """KEY=VALUE arguments as tags; raises MapError."""
+    from studio.errors import MapError
+
+    for each in assignments or []:
+        if "=" not in each:
+            raise MapError("The correction cannot be made.", [Problem("KEY=VALUE", "is not a tag", each, "such as lanes=2")])
+    return dict(each.split("=", 1) for each in assignments or [])
+
+
 def load_applications(folder: Path | None) -> None:
     """Registers the user's own applications."""
     if folder:
@@ -393,6 +436,23 @@ def first_start(title: str) -> str:
     from studio.compiled import is_warm
 
     return title if is_warm() else f"{title} (compiling once, about half a minute)"
+
+
+def told(text: str) -> None:
+    """Progress of an import, a line for every step."""
+    print(text, file=sys.stderr)
+
+
+def print_import(out: Path, network, as_json: bool) -> None:
+    """The report of an import, as it stands in its folder or for people."""
+    from studio.road import folder
+    from studio.road.report import rows
+
+    if as_json:
+        print_json(json.loads((out / folder.REPORT).read_text(encoding="utf-8")))
+        return
+    print_table(["what", "how many", "remark"], rows(network.report))
+    print(f"{out}: {network.name}. {network.attribution}")
 
 
 def run_json(row) -> dict[str, Any]:

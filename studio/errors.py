@@ -8,6 +8,7 @@
     ├── RunError            a state is not finite any more
     ├── StoreError          runs.db cannot be opened or written
     ├── UnknownError        a run, scenario or channel that does not exist
+    ├── SizeError           more was sent than is taken
     └── ServerError         the server cannot start
 
 Every error carries a list of problems; each says where, what, which value, what is allowed, and the remedy.
@@ -83,6 +84,10 @@ class StoreError(StudioError):
 
 class UnknownError(StudioError):
     """A run, scenario or channel that does not exist."""
+
+
+class SizeError(StudioError):
+    """More was sent than is taken."""
 
 
 class ServerError(StudioError):

@@ -17,8 +17,8 @@ LOW, HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
 
 # Streams: one per purpose, so that switching noise on in one place changes nothing elsewhere.
 (
-    RANGE_NOISE, RATE_NOISE, MESSAGE_LOSS, MESSAGE_DELAY, TRAFFIC_ROUTE, TRAFFIC_PLACE, TRAFFIC_STYLE, GPS_DRIFT, GPS_NOISE,
-) = range(9)  # fmt: skip
+    RANGE_NOISE, RATE_NOISE, MESSAGE_LOSS, MESSAGE_DELAY, TRAFFIC_ROUTE, TRAFFIC_PLACE, TRAFFIC_STYLE, GPS_DRIFT, GPS_NOISE, TRIP,
+) = range(10)  # fmt: skip
 
 
 @compiled

@@ -56,6 +56,7 @@ def report(
         uprights=UprightCount(len(network.scenery.walls), len(network.scenery.posts), network.scenery.trees.shape[1]),
         guesses=tuple(notes.guesses),
         skipped=tuple(notes.skipped),
+        corrected=tuple(notes.corrected),
     )
 
 
@@ -70,7 +71,7 @@ def note_lanes(network: Network, ways: list[Way], origins: dict[str, tuple[int, 
             there, back = built[way.id, False], built[way.id, True]
             what = f"{there} lanes" if not back else f"{there} lanes one way, {back} the other"
             if there or back:
-                notes.guess("lanes", what, spot_of(way), source=f"highway={way.tags['highway']}", sure="medium")
+                notes.guess("lanes", what, spot_of(way), source=f"highway={way.tags['highway']}", sure="medium", key="lanes")
 
 
 def note_closed(network: Network, ways: list[Way], origins: dict[str, tuple[int, ...]], notes: Notes) -> None:
@@ -97,7 +98,7 @@ def count_signals(network: Network, found: Survey, ways: list[Way], box: Box, no
             longitude, latitude = box.degrees(np.array([[x], [y]]))[0]
             inside = junctions.distance(shapely.Point(x, y)) < INSIDE
             reason = f"stands inside a junction; the nearest stop line is {away:.0f} m away" if inside else "no lane leads to it"
-            notes.skip("signal", "traffic signal", Spot(f"node {node}", latitude, longitude), reason)
+            notes.skip("signal", "traffic signal", Spot(f"node {node}", latitude, longitude, f"node {node}"), reason)
     return SignalCount(len(mapped), int(placed), len(set(links.programme.tolist())))
 
 
@@ -129,8 +130,8 @@ def count_buildings(network: Network, found: Survey, box: Box, notes: Notes) -> 
         elif osm.area_kind(shape.tags) == "part" or not is_told_by_parts(form, parts):
             guessed += 1
             longitude, latitude = shape.rings[0][0]
-            spot = Spot(shape.tags.get("name", "") or "building", latitude, longitude)
-            notes.guess("height", f"{USUAL_HEIGHT:g} m", spot, source="no height or levels", sure="low")
+            spot = Spot(shape.tags.get("name", "") or "building", latitude, longitude, shape.element)
+            notes.guess("height", f"{USUAL_HEIGHT:g} m", spot, source="no height or levels", sure="low", key="height")
     return BuildingCount(len(network.scenery.buildings), mapped, guessed)
 
 

@@ -33,7 +33,8 @@ def with_width(way: Way, notes: Notes) -> Way:
     width = float(found[1].replace(",", ".")) / lanes
     taken = min(WIDEST_LANE, max(NARROWEST, width))
     if taken != width:
-        notes.guess("lane width", f"{taken:g} m", spot_of(way), source=f"width={text} for {lanes} lanes", sure="medium")
+        source = f"width={text} for {lanes} lanes"
+        notes.guess("lane width", f"{taken:g} m", spot_of(way), source=source, sure="medium", key="width")
     return way.with_tags({**others, "width": f"{taken * lanes:.2f}"})
 
 
@@ -50,6 +51,6 @@ def with_bus_lanes(way: Way, notes: Notes, *, left_hand: bool) -> Way:
     at_times = any(f"{key}:conditional" in way.tags for key in BUS_COUNTS)
     if not 0 < count < lanes or at_times or not is_one_way(way) or any(key in way.tags for key in PER_LANE):
         return way
-    notes.guess("bus lane", f"{count} at the kerb", spot_of(way), source="lanes:bus or lanes:psv", sure="high")
+    notes.guess("bus lane", f"{count} at the kerb", spot_of(way), source="lanes:bus or lanes:psv", sure="high", key="bus:lanes")
     marks = [*("yes",) * (lanes - count), *("designated",) * count]
     return way.with_tags({**way.tags, "bus:lanes": "|".join(reversed(marks) if left_hand else marks)})

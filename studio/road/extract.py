@@ -2,11 +2,15 @@
 
 import itertools
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 from studio.errors import MapError
 from studio.road import osm
-from studio.road.plan import Plan
+from studio.road.correction import Corrections
+from studio.road.network import Net
+from studio.road.plan import Plan, Wish
 
 ENDINGS = tuple(osm.FORMATS)
 ATTRIBUTION = "© OpenStreetMap contributors"
@@ -16,7 +20,15 @@ LICENCE = "Open Database License (ODbL) 1.0"
 SHORTEST_RADIUS = 50.0  # [m]
 
 read = osm.read
-Part = tuple[float | None, osm.Box | None, bool]  # radius, box, whether the aisles of parking places are built
+
+
+class Part(NamedTuple):
+    """A wish that can be met."""
+
+    radius: float | None
+    box: osm.Box | None
+    parking_aisles: bool
+    corrections: Corrections
 
 
 def attribution(path: Path) -> str:
@@ -27,14 +39,19 @@ def attribution(path: Path) -> str:
         raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
 
 
-def part(path: Path, radius: float | None, bbox: str | None, *, parking_aisles: bool) -> Part:
+def licence(path: Path) -> str:
+    """What others may do with the map."""
+    return "MIT" if attribution(path) == DRAWN else LICENCE
+
+
+def part(path: Path, wish: Wish) -> Part:
     """The part that is asked for; raises MapError when it is none."""
-    if radius is not None and not radius >= SHORTEST_RADIUS:
-        raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {radius!r})")
-    box = None if bbox is None else osm.bounding_box(bbox)
-    if box is not None and radius is not None:
+    if wish.radius is not None and not wish.radius >= SHORTEST_RADIUS:
+        raise MapError(f"{path}: radius must be at least {SHORTEST_RADIUS:g} m (got {wish.radius!r})")
+    box = None if wish.bbox is None else osm.bounding_box(wish.bbox)
+    if box is not None and wish.radius is not None:
         raise MapError(f"{path}: a radius and a bbox exclude each other; give one of them")
-    return radius, box, parking_aisles
+    return Part(wish.radius, box, wish.parking_aisles, wish.corrections)
 
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
@@ -47,9 +64,8 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     from studio.road.side import drive_side
     from studio.road.site import Site
 
-    radius, bbox, parking_aisles = kept
-    found = osm.survey(path, data, parking_aisles=parking_aisles)
-    box = clipped(path, found, radius, bbox)
+    found = osm.survey(path, data, parking_aisles=kept.parking_aisles, corrections=kept.corrections)
+    box = clipped(path, found, kept.radius, kept.box)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     cut = cut_ways(path, found, box, ids)
     country = country_at(*box.centre)
@@ -58,7 +74,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
-    net = elevation.raised(aligned(raw), found, cut, box)
+    net = of_ways(elevation.raised(aligned(raw), found, cut, box), ways)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),
@@ -118,3 +134,10 @@ def signalled(found, ways: list, box, net) -> frozenset[int]:
 
     mapped = list(osm.mapped_signals(found, ways, box).values())
     return net.signalled | dead_ends(net.lanes, net.roads, net.connections, mapped)
+
+
+def of_ways(net: Net, ways: list) -> Net:
+    """The network whose roads know the mapped ways that they are made of."""
+    mapped = {way.id: way.mapped for way in ways}
+    names = {road: dict.fromkeys(mapped[way] for way in net.origins.get(road, ()) if way in mapped) for road in net.roads}
+    return replace(net, roads={name: replace(road, ways=tuple(names[name])) for name, road in net.roads.items()})

@@ -144,7 +144,7 @@ def readable(way: Way, notes: Notes) -> Iterator[tuple[str, float]]:
         elif text:
             notes.skip("speed limit", f"{key}={text}", spot_of(way), "names no speed")
         if text == "none":
-            notes.guess("no limit", f"{NO_LIMIT:.0f} km/h", spot_of(way), source=f"{key}=none", sure="medium")
+            notes.guess("no limit", f"{NO_LIMIT:.0f} km/h", spot_of(way), source=f"{key}=none", sure="medium", key=key)
 
 
 def guessed(way: Way, country: str, notes: Notes) -> float:
@@ -153,5 +153,5 @@ def guessed(way: Way, country: str, notes: Notes) -> float:
     limit = usual(highway, RULES.get(country, ELSEWHERE))
     known = country if country in RULES else f"{country}, whose rules are not known"
     sure = "low" if country not in RULES else "high" if highway in ("motorway", "living_street") else "medium"
-    notes.guess("speed limit", f"{limit:.0f} km/h", spot_of(way), source=f"highway={highway} in {known}", sure=sure)
+    notes.guess("speed limit", f"{limit:.0f} km/h", spot_of(way), source=f"highway={highway} in {known}", sure=sure, key="maxspeed")
     return limit

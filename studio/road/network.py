@@ -44,7 +44,10 @@ class Lane:
 
 @dataclass(frozen=True)
 class Road:
-    """Parallel lanes in one direction from one junction to the next; `lanes` are lane ids, the kerb lane first."""
+    """Parallel lanes in one direction from one junction to the next; `lanes` are lane ids, the kerb lane first.
+
+    `ways` are the ids of the mapped ways that it is made of, along it.
+    """
 
     id: str
     name: str
@@ -55,6 +58,7 @@ class Road:
     length: float  # [m]
     internal: bool
     kind: str = ""  # as mapped, such as "residential"
+    ways: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from studio.errors import MapError
 from studio.road import limit as limits
 from studio.road import osm
 from studio.road.network import Net, Network, Scenery
-from studio.road.plan import Plan
+from studio.road.plan import Plan, Wish
 from studio.road.priority import counts, law_by_limits
 from studio.road.report import DriveSide, LimitCount, Notes, Report, SignalCount, Spot
 from studio.road.xodr import Document, Header, XRoad, document, read_header
@@ -43,9 +43,19 @@ ALPHA_3 = {  # ISO 3166-1, of the countries whose rules are known
 
 def attribution(path: Path) -> str:
     """Who made the map, by its header; "" where it does not say."""
+    return credit(header_of(path))
+
+
+def licence(path: Path) -> str:
+    """What others may do with the map, by its header; "" where it does not say."""
+    return header_of(path).licence
+
+
+def header_of(path: Path) -> Header:
+    """The header of a file; raises MapError."""
     try:
         with path.open("rb") as file:
-            return credit(read_header(file.read(HEAD)))
+            return read_header(file.read(HEAD))
     except OSError as error:
         raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
 
@@ -69,10 +79,12 @@ def read(path: Path) -> bytes:
         raise MapError(f"{path}: the map file cannot be read ({error.strerror or error})") from None
 
 
-def part(path: Path, radius: float | None, bbox: str | None, *, parking_aisles: bool) -> str:
+def part(path: Path, wish: Wish) -> str:
     """The whole map, whatever radius a scenario has; raises MapError when a box of it is asked for."""
-    if bbox is not None:
-        raise MapError(f"{path}: bbox {bbox!r}: an OpenDRIVE map is taken whole; leave the bbox out")
+    if wish.corrections:
+        raise MapError(f"{path}: corrections change tags of OpenStreetMap, and OpenDRIVE has none; change the document itself")
+    if wish.bbox is not None:
+        raise MapError(f"{path}: bbox {wish.bbox!r}: an OpenDRIVE map is taken whole; leave the bbox out")
     return "whole"
 
 

@@ -20,6 +20,7 @@ import pyproj
 
 from studio.errors import MapError
 from studio.road import overpass
+from studio.road.correction import Corrections, Corrector, element_of
 from studio.road.kind import OPENINGS, area_kind, hidden, line_kind, point_kind
 from studio.road.report import Notes, Spot
 
@@ -103,6 +104,12 @@ class Way:
     points: list[tuple[float, float]]
     tags: dict[str, str]
     gaps: frozenset[int] = frozenset()  # after these nodes the file lacks some
+    part_of: int = 0  # the id of the mapped way that this is a piece of
+
+    @property
+    def mapped(self) -> int:
+        """The id that the way has in the map."""
+        return self.part_of or self.id
 
     def with_tags(self, text: dict[str, str]) -> "Way":
         """The same way with other tags."""
@@ -113,15 +120,16 @@ def spot_of(way: Way) -> Spot:
     """A way as something that one can point at, in its middle."""
     longitude, latitude = way.points[len(way.points) // 2]
     name = way.tags.get("name", "")
-    return Spot(f"way {way.id}" + (f" ({name})" if name else ""), latitude, longitude)
+    return Spot(f"way {way.mapped}" + (f" ({name})" if name else ""), latitude, longitude, f"way {way.mapped}")
 
 
 @dataclass(frozen=True)
 class Shape:
-    """An area or building as mapped: rings of (longitude, latitude) [deg], the outer one first, and its tags."""
+    """An area or building as mapped: rings of (longitude, latitude) [deg], the outer one first, its tags, its name there."""
 
     rings: list[list[tuple[float, float]]]
     tags: dict[str, str]
+    element: str = ""
 
 
 @dataclass(frozen=True)
@@ -230,12 +238,12 @@ def check_xml(path: Path, data: bytes) -> None:
 # -- the survey ------------------------------------------------------------------------------------
 
 
-def survey(path: Path, data: bytes, *, parking_aisles: bool = False) -> Survey:
-    """Goes once through the map and notes what is used of it; parking aisles become ways for cars if asked for."""
+def survey(path: Path, data: bytes, *, parking_aisles: bool = False, corrections: Corrections = ()) -> Survey:
+    """Goes once through the map and notes what is used of it, as corrected; parking aisles become ways for cars if asked for."""
     try:
-        found = surveyed(data, file_format(path))
-        if not found.ways:
-            found = surveyed(sorted_xml(data, file_format(path)), "osm")
+        found = in_order(data, file_format(path), corrections)
+        if found is None or not found.ways:
+            found = surveyed(sorted_xml(data, file_format(path)), "osm", corrections)
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
     if parking_aisles:
@@ -281,15 +289,28 @@ def note_counts(found: Survey) -> None:
         found.notes.skip("barrier", f"{count} with barrier={kind}", spot, reason)
 
 
-def surveyed(data: bytes, form: str) -> Survey:
+def in_order(data: bytes, form: str, corrections: Corrections) -> Survey | None:
+    """The survey of a map whose elements are in order; None when they are not."""
+    try:
+        return surveyed(data, form, corrections)
+    except RuntimeError as error:
+        if "out of order" in str(error):
+            return None
+        raise
+
+
+def surveyed(data: bytes, form: str, corrections: Corrections) -> Survey:
     """What is used of a map whose nodes come before its ways."""
     found = Survey()
+    corrector = Corrector(corrections, found.notes)
     file = osmium.FileProcessor(osmium.io.FileBuffer(data, form))
     found.mapped = mapped_box(file.header.box())
     found.drawn_here = file.header.get("generator", "") == GENERATOR
     tagged = osmium.filter.EmptyTagFilter()
     for thing in file.with_locations().with_areas().with_filter(tagged):
-        note(found, thing)
+        note(found, corrector.seen(thing))
+    found.nodes |= corrector.bare_nodes(found.ways)
+    corrector.finish(found.places[0] if found.places else (0.0, 0.0))
     return found
 
 
@@ -329,7 +350,7 @@ def note(found: Survey, thing) -> None:
 def note_node(found: Survey, node) -> None:
     """Notes a tagged node: signals, trees, posts, crossings and parking."""
     if not node.location.valid():
-        found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0), "lies outside the world")
+        found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0, f"node {node.id}"), "lies outside the world")
         return
     place = (node.lon, node.lat)
     found.places.append(place)
@@ -359,7 +380,7 @@ def note_way(found: Survey, way) -> None:
             found.service.append(way_of(way, nodes, known))
     if way.tags.get("highway") not in CAR_WAYS:
         return
-    spot = Spot(f"way {way.id}", *place[::-1])
+    spot = Spot(f"way {way.id}", *place[::-1], f"way {way.id}")
     if reason := closed_to_cars(way.tags):
         found.notes.skip("closed way", f"highway={way.tags['highway']}", spot, reason)
         return
@@ -413,7 +434,7 @@ def note_area(found: Survey, area) -> None:
             found.drawn.add(area.orig_id())
         for ring in area.outer_rings():
             rings = [ring, *area.inner_rings(ring)]
-            found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags)))
+            found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags), element_of(area)))
 
 
 # -- the part to keep ------------------------------------------------------------------------------
@@ -492,7 +513,8 @@ def cut(way: Way, box: Box, new_id: Iterable[int]) -> list[Way]:
     if nodes:
         pieces.append((nodes, points))
     ids = [way.id, *(next(new_id) for _ in pieces[1:])]
-    return [Way(name, nodes, points, way.tags) for name, (nodes, points) in zip(ids, pieces, strict=False)]
+    parts = [way.part_of, *(way.mapped for _ in pieces[1:])]
+    return [Way(name, *piece, way.tags, part_of=part) for name, part, piece in zip(ids, parts, pieces, strict=False)]
 
 
 def visible(a: tuple[float, float], b: tuple[float, float], box: Box) -> tuple[float, float] | None:

@@ -10,7 +10,9 @@ from typing import Any
 
 from studio.errors import MapError
 from studio.road import folder, kept
+from studio.road.correction import Corrections
 from studio.road.network import Connection, Net, Network
+from studio.road.plan import Wish
 from studio.road.reader import ending_of, reader_of
 from studio.road.signals import Signals, signals
 
@@ -18,7 +20,7 @@ IMPORTER = (
     *("alignment.py", "audit.py", "bend.py", "country.py", "cross_section.py", "curve.py", "countries.json.gz", "elevation.py", "extract.py"),
     *("lane_graph.py", "limit.py", "netconvert.py", "network.py", "opendrive.py", "osm.py", "overpass.py", "place.py", "plan.py"),
     *("priority.py", "reader.py", "reference_line.py", "report.py", "restriction.py", "scenery.py", "side.py", "signals.py", "surface.py", "turn.py", "xodr.py"),
-    *("crossing.py", "kind.py", "parking.py", "plane.py", "site.py"),
+    *("correction.py", "crossing.py", "kind.py", "parking.py", "plane.py", "site.py"),
 )
 
 
@@ -28,6 +30,7 @@ def load(
     radius: float | None = None,
     bbox: str | None = None,
     parking_aisles: bool = False,
+    corrections: Corrections = (),
     progress: Callable[[str], None] = lambda text: None,
 ) -> Network:
     """The roads and the scenery of a map: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json from Overpass) or OpenDRIVE (.xodr).
@@ -38,6 +41,7 @@ def load(
         radius: how far the map reaches to each side of its centre [m]; left out, the mapped place and its arms. OpenDRIVE is
             taken whole.
         parking_aisles: whether the aisles of parking places are built too, with the driveways that lead to them.
+        corrections: what is known better than a map file says; an import's folder has its own.
         progress: is told what is being done.
 
     Raises:
@@ -45,12 +49,14 @@ def load(
     """
     path = Path(path)
     if path.is_dir():
-        source, kept_part, with_aisles = folder.opened(path)
-        part = bbox or (None if radius else kept_part)
-        network = load(source, radius=radius, bbox=part, parking_aisles=parking_aisles or with_aisles, progress=progress)
+        found = folder.opened(path)
+        network = load(
+            found.map, radius=radius, bbox=bbox or (None if radius else found.bbox), corrections=found.corrections,
+            parking_aisles=parking_aisles or found.parking_aisles, progress=progress,
+        )  # fmt: skip
         return replace(network, name=path.name)
     reader = reader_of(path)
-    part = reader.part(path, radius, bbox, parking_aisles=parking_aisles)
+    part = reader.part(path, Wish(radius, bbox, parking_aisles, corrections))
     data = reader.read(path)
     digest = digest_of(data, part)
     network = recall(digest)
@@ -66,9 +72,19 @@ def attribution(path: str | os.PathLike) -> str:
     Raises:
         MapError: the file is of an unknown kind, or the folder is no import.
     """
-    path = Path(path)
-    source = folder.opened(path)[0] if path.is_dir() else path
+    source = source_of(Path(path))
     return reader_of(source).attribution(source)
+
+
+def licence(path: str | os.PathLike) -> str:
+    """What others may do with a map; "" where it does not say. Raises MapError as `attribution` does."""
+    source = source_of(Path(path))
+    return reader_of(source).licence(source)
+
+
+def source_of(path: Path) -> Path:
+    """The map file itself, also of an import's folder."""
+    return folder.opened(path).map if path.is_dir() else path
 
 
 def recall(digest: str) -> Network | None:

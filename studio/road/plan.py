@@ -2,10 +2,21 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from studio.road.correction import Corrections
 from studio.road.network import Net, Network, Scenery
 from studio.road.priority import Law
 from studio.road.report import Report
+
+
+class Wish(NamedTuple):
+    """Which part of a map is wanted, and how: as the arguments of `load`."""
+
+    radius: float | None
+    bbox: str | None
+    parking_aisles: bool
+    corrections: Corrections
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,7 @@
 
     guess      what the map does not say and a road needs all the same: what was taken, where, from what, how sure it is
     skipped    what the map says and the network does not have, with the reason
+    corrected  what a user knew better than the map (correction.py), and what the map says
 """
 
 from collections.abc import Callable
@@ -11,7 +12,10 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Guess:
-    """Something taken without being mapped; `kind` groups guesses, `sure` is "high", "medium" or "low"."""
+    """Something taken without being mapped; `kind` groups guesses, `sure` is "high", "medium" or "low".
+
+    The tag `key` of the map's `element` would settle it; both are "" where there is none.
+    """
 
     kind: str
     what: str
@@ -20,6 +24,8 @@ class Guess:
     longitude: float  # [deg]
     source: str
     sure: str
+    key: str = ""
+    element: str = ""
 
 
 @dataclass(frozen=True)
@@ -32,6 +38,20 @@ class Skipped:
     latitude: float  # [deg]
     longitude: float  # [deg]
     reason: str
+    element: str = ""
+
+
+@dataclass(frozen=True)
+class Corrected:
+    """A correction that was applied: tags set and taken away, and what the map says of them ("" where it says nothing)."""
+
+    element: str
+    where: str
+    latitude: float  # [deg]
+    longitude: float  # [deg]
+    tags: dict[str, str]
+    removed: tuple[str, ...]
+    before: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -126,6 +146,7 @@ class Report:
     uprights: UprightCount = UprightCount()
     guesses: tuple[Guess, ...] = ()
     skipped: tuple[Skipped, ...] = ()
+    corrected: tuple[Corrected, ...] = ()
     seconds: float = 0.0
 
     def as_json(self) -> dict[str, Any]:
@@ -139,23 +160,30 @@ class Notes:
 
     guesses: list[Guess] = field(default_factory=list)
     skipped: list[Skipped] = field(default_factory=list)
+    corrected: list[Corrected] = field(default_factory=list)
 
-    def guess(self, kind: str, what: str, at: "Spot", *, source: str, sure: str) -> None:
-        """Notes a guess."""
-        self.guesses.append(Guess(kind, what, at.name, at.latitude, at.longitude, source, sure))
+    def guess(self, kind: str, what: str, at: "Spot", *, source: str, sure: str, key: str = "") -> None:
+        """Notes a guess; `key` is the tag that would settle it."""
+        element = at.element if key else ""
+        self.guesses.append(Guess(kind, what, at.name, at.latitude, at.longitude, source, sure, key if element else "", element))
 
     def skip(self, kind: str, what: str, at: "Spot", reason: str) -> None:
         """Notes something that is left out."""
-        self.skipped.append(Skipped(kind, what, at.name, at.latitude, at.longitude, reason))
+        self.skipped.append(Skipped(kind, what, at.name, at.latitude, at.longitude, reason, at.element))
+
+    def correct(self, at: "Spot", *, tags: dict[str, str], removed: tuple[str, ...], before: dict[str, str]) -> None:
+        """Notes a correction that was applied."""
+        self.corrected.append(Corrected(at.element, at.name, at.latitude, at.longitude, tags, removed, before))
 
 
 @dataclass(frozen=True)
 class Spot:
-    """A thing of the map with a position that one can point at [deg]."""
+    """A thing of the map with a position that one can point at [deg]; `element` is its name there, "way 4711"."""
 
     name: str
     latitude: float
     longitude: float
+    element: str = ""
 
 
 def rows(report: Report) -> list[list[str]]:
@@ -176,6 +204,7 @@ def rows(report: Report) -> list[list[str]]:
         ["upright", f"{uprights.walls} walls", f"{uprights.posts} posts and poles, {uprights.trees} trees"],
         *counted("guessed", report.guesses, lambda guess: f"from {guess.source}"),
         *counted("skipped", report.skipped, lambda skipped: skipped.reason),
+        *corrections(report.corrected),
         ["time", f"{report.seconds:.1f} s", ""],
     ]
 
@@ -192,3 +221,13 @@ def counted(word: str, things: tuple, remark: Callable[[Any], str]) -> list[list
         [f"{word}: {kind}", str(sum(thing.kind == kind for thing in things)), f"e.g. {first.where}: {first.what}; {remark(first)}"]
         for kind, first in sorted(kinds.items())
     ]
+
+
+def corrections(things: tuple[Corrected, ...]) -> list[list[str]]:
+    """A row for the corrections, with the first one and what the map says instead."""
+    if not things:
+        return []
+    first = things[0]
+    now = [*(f"{key}={value}" for key, value in first.tags.items()), *(f"no {key}" for key in first.removed)]
+    before = ", ".join(f"{key}={value}" if value else f"no {key}" for key, value in first.before.items())
+    return [["corrected", str(len(things)), f"e.g. {first.where}: {', '.join(now)}; the map says {before}"]]

@@ -151,7 +151,8 @@ def forks(net: Net, ways: list[Way], box: Box, notes: Notes, *, left_hand: bool)
         if len(after[road]) < 2:
             continue
         if len(tags) + 1 == len(net.roads[road].lanes) and way.tags["highway"] in RAMPED:
-            notes.guess("ramp lane", "one more lane at the kerb", spot_of(way), source="a ramp leaves the motorway", sure="low")
+            source = "a ramp leaves the motorway"
+            notes.guess("ramp lane", "one more lane at the kerb", spot_of(way), source=source, sure="low", key="turn:lanes")
             tags = (frozenset(), *tags)
         if len(tags) != len(net.roads[road].lanes):
             what = f"arrows for {len(tags)} lanes, {len(net.roads[road].lanes)} are built"

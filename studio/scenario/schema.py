@@ -32,7 +32,10 @@ class Map(Part):
     """The place."""
 
     file: str = Field(..., max_length=300, title="Map file", description="relative to the scenario file: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json), OpenDRIVE (.xodr), or the folder of an import")
-    radius: float = number(800.0, unit="m", title="Radius", description="what lies farther from the centre is cut off; OpenDRIVE is taken whole", ge=100, le=5000)
+    radius: float | None = number(
+        None, unit="m", title="Radius", ge=100, le=5000,
+        description="what lies farther from the centre is cut off; left out: 800 m for a file, and an import keeps its own part; OpenDRIVE is taken whole",
+    )  # fmt: skip
     parking_aisles: bool = Field(False, title="Parking aisles", description="build the aisles of parking places and the driveways that lead to them")
     signal_start: float = number(0.0, unit="s", title="Signals at the start", description="how far into their programmes the lights are", ge=0, le=600)
 

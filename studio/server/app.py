@@ -12,8 +12,8 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.responses import Response
 
-from studio.errors import Problem, ServerError, StoreError, StudioError, UnknownError
-from studio.server import relay, routes
+from studio.errors import Problem, ServerError, SizeError, StoreError, StudioError, UnknownError
+from studio.server import map_routes, relay, routes
 from studio.server.desk import Desk
 
 TITLE = "Cooperative ADAS Studio"
@@ -26,6 +26,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.add_exception_handler(StudioError, refused)
     app.add_exception_handler(RequestValidationError, misread)
     app.include_router(routes.router)
+    app.include_router(map_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.port))
     app.add_route("/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE"], include_in_schema=False)
     return app
@@ -39,6 +40,7 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     yield
     await ready
     await asyncio.to_thread(desk.lives.close)
+    await asyncio.to_thread(desk.map_jobs.close)
     await asyncio.to_thread(desk.stage.scene.stop)
 
 
@@ -54,6 +56,8 @@ def status_of(error: StudioError) -> int:
         return 404
     if isinstance(error, StoreError):
         return 500
+    if isinstance(error, SizeError):
+        return 413
     return 409 if isinstance(error, ServerError) and "is over" in error.message else 422
 
 

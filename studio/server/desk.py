@@ -1,4 +1,4 @@
-"""What the routes work with: where scenarios and runs are, the live runs, the stage."""
+"""What the routes work with: where scenarios, maps and runs are, the live runs, the imports, the stage."""
 
 import threading
 from dataclasses import dataclass
@@ -11,6 +11,8 @@ from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road import place
 from studio.server.live import Lives, LiveRun
+from studio.server.map_job import MapJobs
+from studio.server.maps import Maps
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
 from studio.store.runs import Runs, reopen_runs
@@ -18,7 +20,7 @@ from studio.store.runs import Runs, reopen_runs
 
 @dataclass
 class Desk:
-    """One server's work: paths, live runs, stage."""
+    """One server's work: paths, live runs, maps and their imports, stage."""
 
     db: Path
     scenarios: Path
@@ -27,6 +29,8 @@ class Desk:
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)
         self.lives = Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
+        self.maps = Maps(self.scenarios)
+        self.map_jobs = MapJobs(self.maps)
         self._stage: Stage | None = None
         self._lock = threading.Lock()
 

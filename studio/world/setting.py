@@ -25,6 +25,7 @@ from studio.world.channel import BY_NAME
 from studio.world.fleet import check_step
 from studio.world.state import RING
 
+USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
 CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
 TRIES = 200  # to place one traffic car
 END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
@@ -122,12 +123,13 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
     """The map of a scenario."""
     file = folder / scenario.map.file
     if not os.path.exists(file):
-        others = [path.name for path in file.parent.iterdir() if path.name.lower().endswith(ENDINGS)] if file.parent.is_dir() else []
+        others = [path.name for path in file.parent.iterdir() if path.name[0] != "."] if file.parent.is_dir() else []
         raise MapError(
             f"The map of {where} is missing.",
             [Problem(f"{where}: map.file", "does not exist", scenario.map.file, remedy=nearest(file.name, others))],
         )
-    return road.load(file, radius=scenario.map.radius, parking_aisles=scenario.map.parking_aisles)
+    usual = None if file.is_dir() else USUAL_RADIUS
+    return road.load(file, radius=scenario.map.radius or usual, parking_aisles=scenario.map.parking_aisles)
 
 
 def check_names(scenario: Scenario, where: str) -> None:

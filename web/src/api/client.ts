@@ -46,7 +46,7 @@ export async function answer<Page>(outcome: Promise<Outcome>): Promise<Page> {
 }
 
 /** Read the error body of the contract; anything else is told by its status. */
-function refusal(body: unknown, status: number): Error {
+export function refusal(body: unknown, status: number): Error {
   const { message, problems } = (typeof body === "object" && body !== null ? body : {}) as Partial<Refusal>;
   // A development proxy answers 502 or 504 when the server behind it is gone.
   if (message === undefined && status >= 502) return new Unreachable();

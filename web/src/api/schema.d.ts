@@ -352,6 +352,198 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/maps": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Maps
+         * @description The imports and map files of the folder of maps.
+         */
+        get: operations["maps_api_maps_get"];
+        put?: never;
+        /**
+         * Upload
+         * @description Imports the map file that is the body, at most 100 MiB of it.
+         */
+        post: operations["upload_api_maps_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/maps/{map}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Map Detail
+         * @description A map with the report of its import and its corrections.
+         */
+        get: operations["map_detail_api_maps__map__get"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete
+         * @description Removes an import that no scenario of the folder names.
+         */
+        delete: operations["delete_api_maps__map__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/maps/{map}/plan": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Map Plan
+         * @description A map from above.
+         */
+        get: operations["map_plan_api_maps__map__plan_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/maps/download": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Download
+         * @description Downloads a place from the Overpass server of this studio, and imports it.
+         */
+        post: operations["download_api_maps_download_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/map-jobs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Map Jobs
+         * @description The imports of this server, newest first.
+         */
+        get: operations["map_jobs_api_map_jobs_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/map-jobs/{job}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Map Job
+         * @description An import now.
+         */
+        get: operations["map_job_api_map_jobs__job__get"];
+        put?: never;
+        post?: never;
+        /**
+         * Cancel
+         * @description Cancels an import: its process ends, and nothing of it stays. One that is over stays as it is.
+         */
+        delete: operations["cancel_api_map_jobs__job__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/maps/{map}/corrections": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Correct
+         * @description Corrects an element of the map and imports it again; if that fails, map and corrections stay as they were.
+         */
+        put: operations["correct_api_maps__map__corrections_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/maps/{map}/corrections/{element}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Take Back
+         * @description Takes the corrections of an element back and imports the map again.
+         */
+        delete: operations["take_back_api_maps__map__corrections__element__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/maps/{map}/drive": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Drive
+         * @description Writes a scenario with one car on this map, to be opened at once.
+         */
+        post: operations["drive_api_maps__map__drive_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -371,6 +563,20 @@ export interface components {
             parameters: {
                 [key: string]: unknown;
             };
+        };
+        /**
+         * BuildingCount
+         * @description Buildings in the part kept; of the mapped ones those whose height is mapped and guessed.
+         */
+        BuildingCount: {
+            /** Placed */
+            placed: number;
+            /** Height Mapped */
+            height_mapped: number;
+            /** Height Guessed */
+            height_guessed: number;
+        } & {
+            [key: string]: unknown;
         };
         /**
          * Changes
@@ -424,6 +630,14 @@ export interface components {
             metrics: components["schemas"]["MetricDifference"][];
         };
         /**
+         * Driven
+         * @description The scenario that was written.
+         */
+        Driven: {
+            /** Scenario */
+            scenario: string;
+        };
+        /**
          * Event
          * @description Something that happened in a run.
          */
@@ -450,6 +664,20 @@ export interface components {
             scenarios_folder: string;
         };
         /**
+         * LimitCount
+         * @description Car ways with and without a limit that can be read, and lane kilometres by limit [km/h].
+         */
+        LimitCount: {
+            /** Mapped Ways */
+            mapped_ways: number;
+            /** Guessed Ways */
+            guessed_ways: number;
+            /** Lane Km */
+            lane_km: {
+                [key: string]: number;
+            };
+        };
+        /**
          * Live
          * @description A live run now.
          */
@@ -469,6 +697,397 @@ export interface components {
             pace: number | "fast";
             /** Duration S */
             duration_s: number;
+        };
+        /**
+         * MapCorrected
+         * @description A correction that was applied; `before` are the values of its keys in the map, "" for a tag that was not there.
+         */
+        MapCorrected: {
+            /**
+             * Number
+             * @description unique among guesses, gaps and corrections for as long as this import stands
+             */
+            number: number;
+            /** Element */
+            element: string;
+            /** Where */
+            where: string;
+            /** Tags */
+            tags: {
+                [key: string]: string;
+            };
+            /** Removed */
+            removed: string[];
+            /** Before */
+            before: {
+                [key: string]: string;
+            };
+            /**
+             * Latitude
+             * @description [deg]
+             */
+            latitude: number;
+            /**
+             * Longitude
+             * @description [deg]
+             */
+            longitude: number;
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+        };
+        /**
+         * MapCorrection
+         * @description A change of the tags of a map element: `tags` are set, `removed` are taken away.
+         */
+        MapCorrection: {
+            /**
+             * Element
+             * @description "way 4711", "node 7" or "relation 5"
+             */
+            element: string;
+            /** Tags */
+            tags: {
+                [key: string]: string;
+            };
+            /** Removed */
+            removed: string[];
+        };
+        /**
+         * MapDetail
+         * @description A map with the report of its import and its corrections.
+         */
+        MapDetail: {
+            /**
+             * Id
+             * @description name of its folder or file; a scenario names it as maps/<id>
+             */
+            id: string;
+            /** Title */
+            title: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "import" | "file";
+            /**
+             * Source
+             * @description name of the file that it was made of
+             */
+            source: string;
+            /** Attribution */
+            attribution: string;
+            /** Licence */
+            licence: string;
+            /**
+             * Drive Side
+             * @description null for a file that has not been imported
+             */
+            drive_side: ("left" | "right") | null;
+            /**
+             * Lane Km
+             * @description length of all lanes [km]; null for a file that has not been imported
+             */
+            lane_km: number | null;
+            /**
+             * Bytes
+             * @description size on disk [B]
+             */
+            bytes: number;
+            /** Problem */
+            problem: string | null;
+            /**
+             * Bbox
+             * @description the part that was kept, west,south,east,north [deg]; null: the mapped place
+             */
+            bbox: string | null;
+            /**
+             * Origin
+             * @description latitude and longitude of x = y = 0 [deg]
+             */
+            origin: [
+                number,
+                number
+            ];
+            /**
+             * Bounds M
+             * @description x0, y0, x1, y1 of the part that was kept [m]
+             */
+            bounds_m: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /** Digest */
+            digest: string;
+            report: components["schemas"]["MapReport"];
+            /** Corrections */
+            corrections: components["schemas"]["MapCorrection"][];
+        };
+        /**
+         * MapGuess
+         * @description Something taken without being mapped; a tag `key` of `element` would settle it, "" where none does.
+         */
+        MapGuess: {
+            /**
+             * Number
+             * @description unique among guesses, gaps and corrections for as long as this import stands
+             */
+            number: number;
+            /** Kind */
+            kind: string;
+            /** What */
+            what: string;
+            /** Where */
+            where: string;
+            /**
+             * Element
+             * @description "way 4711", "node 7", "relation 5"; "" where it is none
+             */
+            element: string;
+            /** Key */
+            key: string;
+            /**
+             * Latitude
+             * @description [deg]
+             */
+            latitude: number;
+            /**
+             * Longitude
+             * @description [deg]
+             */
+            longitude: number;
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /**
+             * Source
+             * @description what it was taken from
+             */
+            source: string;
+            /**
+             * Sure
+             * @enum {string}
+             */
+            sure: "high" | "medium" | "low";
+        };
+        /**
+         * MapJob
+         * @description An import that is going on or over, in a process of its own.
+         */
+        MapJob: {
+            /** Id */
+            id: number;
+            /**
+             * Map
+             * @description id of the map that it makes
+             */
+            map: string;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "running" | "done" | "failed" | "cancelled";
+            /**
+             * Stage
+             * @description what is being done; may be waiting for others
+             */
+            stage: string;
+            /**
+             * Share
+             * @description of the work that is done, 0 to 1; null where nobody knows
+             */
+            share: number | null;
+            /**
+             * Seconds
+             * @description since it was asked for, until its end [s]
+             */
+            seconds: number;
+            problem: components["schemas"]["Refusal"] | null;
+        };
+        /**
+         * MapPlan
+         * @description A map from above; lengths in metres from its centre, x east, y north.
+         */
+        MapPlan: {
+            /**
+             * Bounds M
+             * @description x0, y0, x1, y1 [m]
+             */
+            bounds_m: [
+                number,
+                number,
+                number,
+                number
+            ];
+            /**
+             * Drive Side
+             * @enum {string}
+             */
+            drive_side: "left" | "right";
+            /** Attribution */
+            attribution: string;
+            /** Lanes */
+            lanes: components["schemas"]["PlanLane"][];
+            /** Roads */
+            roads: components["schemas"]["PlanRoad"][];
+            /** Junctions */
+            junctions: [
+                number,
+                number
+            ][][];
+            /** Buildings */
+            buildings: components["schemas"]["PlanSolid"][];
+            /** Areas */
+            areas: components["schemas"]["PlanArea"][];
+            /** Signals */
+            signals: components["schemas"]["PlanSignal"][];
+            /** Guesses */
+            guesses: components["schemas"]["PlanMark"][];
+            /** Skipped */
+            skipped: components["schemas"]["PlanMark"][];
+            /** Corrected */
+            corrected: components["schemas"]["PlanMark"][];
+        };
+        /**
+         * MapReport
+         * @description What became of a map, as in its report.json; counts are of the part that was kept.
+         */
+        MapReport: {
+            /**
+             * Drive Side
+             * @enum {string}
+             */
+            drive_side: "left" | "right";
+            /** Drive Side Why */
+            drive_side_why: string;
+            /** Country */
+            country: string;
+            /**
+             * Lane Km
+             * @description length of all lanes [km]
+             */
+            lane_km: number;
+            /** Junctions */
+            junctions: number;
+            signals: components["schemas"]["SignalCount"];
+            turn_lanes: components["schemas"]["TurnCount"];
+            speed_limits: components["schemas"]["LimitCount"];
+            buildings: components["schemas"]["BuildingCount"];
+            parking: components["schemas"]["ParkingCount"];
+            /** Guesses */
+            guesses: components["schemas"]["MapGuess"][];
+            /** Skipped */
+            skipped: components["schemas"]["MapSkipped"][];
+            /** Corrected */
+            corrected: components["schemas"]["MapCorrected"][];
+            /**
+             * Seconds
+             * @description time that the import took [s]
+             */
+            seconds: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * MapRow
+         * @description A map in the folder of maps: an import's folder, or a plain map file; `problem` says why it cannot be used.
+         */
+        MapRow: {
+            /**
+             * Id
+             * @description name of its folder or file; a scenario names it as maps/<id>
+             */
+            id: string;
+            /** Title */
+            title: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "import" | "file";
+            /**
+             * Source
+             * @description name of the file that it was made of
+             */
+            source: string;
+            /** Attribution */
+            attribution: string;
+            /** Licence */
+            licence: string;
+            /**
+             * Drive Side
+             * @description null for a file that has not been imported
+             */
+            drive_side: ("left" | "right") | null;
+            /**
+             * Lane Km
+             * @description length of all lanes [km]; null for a file that has not been imported
+             */
+            lane_km: number | null;
+            /**
+             * Bytes
+             * @description size on disk [B]
+             */
+            bytes: number;
+            /** Problem */
+            problem: string | null;
+        };
+        /**
+         * MapSkipped
+         * @description Something mapped that is not in the network, and why.
+         */
+        MapSkipped: {
+            /**
+             * Number
+             * @description unique among guesses, gaps and corrections for as long as this import stands
+             */
+            number: number;
+            /** Kind */
+            kind: string;
+            /** What */
+            what: string;
+            /** Where */
+            where: string;
+            /** Element */
+            element: string;
+            /**
+             * Latitude
+             * @description [deg]
+             */
+            latitude: number;
+            /**
+             * Longitude
+             * @description [deg]
+             */
+            longitude: number;
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /** Reason */
+            reason: string;
         };
         /**
          * Metric
@@ -503,6 +1122,68 @@ export interface components {
             relative: number | null;
             /** Better */
             better: ("a" | "b" | "same") | null;
+        };
+        /**
+         * NewCorrection
+         * @description A correction to make; added to what is corrected of this element already.
+         */
+        NewCorrection: {
+            /**
+             * Element
+             * @description "way 4711", "node 7" or "relation 5"
+             * @example way 4711
+             */
+            element: string;
+            /**
+             * Tags
+             * @description tags to set
+             * @default {}
+             * @example {
+             *       "lanes": "2",
+             *       "maxspeed": "30"
+             *     }
+             */
+            tags: {
+                [key: string]: string;
+            };
+            /**
+             * Remove
+             * @description keys of tags to take away
+             * @default []
+             */
+            remove: string[];
+        };
+        /**
+         * NewDownload
+         * @description A place to download: its name, or a box [deg].
+         */
+        NewDownload: {
+            /**
+             * Place
+             * @example Großer Stern, Berlin
+             */
+            place?: string | null;
+            /**
+             * Bbox
+             * @description west, south, east, north [deg]
+             */
+            bbox?: [
+                number,
+                number,
+                number,
+                number
+            ] | null;
+            /**
+             * Name
+             * @description of the map to make; left out, the place's
+             */
+            name?: string | null;
+            /**
+             * Replace
+             * @description replace the import of that name; its corrections are kept
+             * @default false
+             */
+            replace: boolean;
         };
         /**
          * NewLiveRun
@@ -590,6 +1271,165 @@ export interface components {
             b: unknown;
             /** Unit */
             unit: string;
+        };
+        /**
+         * ParkingCount
+         * @description Parking areas and single spaces.
+         */
+        ParkingCount: {
+            /** Areas */
+            areas: number;
+            /** Spaces */
+            spaces: number;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * PlanArea
+         * @description A patch of ground.
+         */
+        PlanArea: {
+            /**
+             * Kind
+             * @description green, water, …
+             */
+            kind: string;
+            /**
+             * Outline
+             * @description corners [m], the first not repeated
+             */
+            outline: [
+                number,
+                number
+            ][];
+            /** Holes */
+            holes: [
+                number,
+                number
+            ][][];
+        };
+        /**
+         * PlanLane
+         * @description A lane, or a way through a junction (`internal`).
+         */
+        PlanLane: {
+            /** Id */
+            id: number;
+            /** Road */
+            road: string;
+            /**
+             * Index
+             * @description 0 is the lane at the kerb
+             */
+            index: number;
+            /**
+             * Width
+             * @description [m]
+             */
+            width: number;
+            /**
+             * Speed
+             * @description allowed [m/s]
+             */
+            speed: number;
+            /** Internal */
+            internal: boolean;
+            /**
+             * Open
+             * @description to cars
+             */
+            open: boolean;
+            /**
+             * Centre
+             * @description points [m], x east and y north from the map's centre
+             */
+            centre: [
+                number,
+                number
+            ][];
+        };
+        /**
+         * PlanMark
+         * @description Where a guess, a gap or a correction of the report lies.
+         */
+        PlanMark: {
+            /** Number */
+            number: number;
+            /** Kind */
+            kind: string;
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+        };
+        /**
+         * PlanRoad
+         * @description Parallel lanes in one direction between two junctions, and the OpenStreetMap ways that it is made of.
+         */
+        PlanRoad: {
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Lanes */
+            lanes: number[];
+            /** Ways */
+            ways: number[];
+        };
+        /**
+         * PlanSignal
+         * @description The stop line of one lane.
+         */
+        PlanSignal: {
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /**
+             * Heading
+             * @description of the traffic that it stops, counter-clockwise from x [rad]
+             */
+            heading: number;
+            /** Lane */
+            lane: number;
+            /** Programme */
+            programme: number;
+        };
+        /**
+         * PlanSolid
+         * @description A building from above.
+         */
+        PlanSolid: {
+            /**
+             * Outline
+             * @description corners [m], the first not repeated
+             */
+            outline: [
+                number,
+                number
+            ][];
+            /** Holes */
+            holes: [
+                number,
+                number
+            ][][];
+            /**
+             * Height
+             * @description [m]
+             */
+            height: number;
         };
         /**
          * Problem
@@ -778,6 +1618,18 @@ export interface components {
             color: string;
         };
         /**
+         * SignalCount
+         * @description Signals on car roads: mapped, of these with a stop line near, programmes.
+         */
+        SignalCount: {
+            /** In Map */
+            in_map: number;
+            /** Placed */
+            placed: number;
+            /** Groups */
+            groups: number;
+        };
+        /**
          * Started
          * @description The number of a run that has begun.
          */
@@ -806,6 +1658,16 @@ export interface components {
             unit: string;
             /** Values */
             values: (number | null)[];
+        };
+        /**
+         * TurnCount
+         * @description Lanes with turn:lanes where ways part, and how many lead just where the tag says.
+         */
+        TurnCount: {
+            /** Tagged Lanes */
+            tagged_lanes: number;
+            /** Matching */
+            matching: number;
         };
     };
     responses: never;
@@ -1742,6 +2604,712 @@ export interface operations {
             };
             /** @description Conflict */
             409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    maps_api_maps_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapRow"][];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    upload_api_maps_post: {
+        parameters: {
+            query: {
+                /** @description name of the file; its ending tells the kind: .osm, .osm.gz, .osm.pbf, .json */
+                name: string;
+                /** @description the part to keep, west,south,east,north [deg] */
+                bbox?: string | null;
+                /** @description replace the import of that name; its corrections are kept */
+                replace?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    map_detail_api_maps__map__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                map: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapDetail"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    delete_api_maps__map__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                map: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    map_plan_api_maps__map__plan_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                map: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapPlan"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    download_api_maps_download_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewDownload"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    map_jobs_api_map_jobs_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"][];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    map_job_api_map_jobs__job__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                job: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    cancel_api_map_jobs__job__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                job: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    correct_api_maps__map__corrections_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                map: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewCorrection"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    take_back_api_maps__map__corrections__element__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                map: string;
+                element: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapJob"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    drive_api_maps__map__drive_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                map: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Driven"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Request Entity Too Large */
+            413: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -2,6 +2,7 @@
 
 import type { MetricDifference, ParameterDifference } from "../model/compare";
 import type { Application } from "../model/form";
+import type { MapDetail, MapJob, MapRow, Plan, Report } from "../model/map";
 import type { LiveStatus, Problem, Run, RunDetail, Trace, Tree } from "../model/run";
 import type { Schema } from "../model/schema";
 import type { components } from "./schema";
@@ -86,7 +87,20 @@ type Agreed = [
   Same<Comparison, Server["Comparison"]>,
   Same<LiveRow, Server["Live"]>,
   Same<Scene, Server["SceneCast"]>,
+  Same<MapRow, Server["MapRow"]>,
+  Same<keyof MapDetail, keyof Server["MapDetail"]>,
+  Same<Report["guesses"][number], Server["MapGuess"]>,
+  Same<Report["skipped"][number], Server["MapSkipped"]>,
+  Same<Report["corrected"][number], Server["MapCorrected"]>,
+  Same<MapDetail["corrections"][number], Server["MapCorrection"]>,
+  Same<keyof Plan, keyof Server["MapPlan"]>,
+  Same<Plan["lanes"][number], Server["PlanLane"]>,
+  Same<Plan["roads"][number], Server["PlanRoad"]>,
+  Same<MapJob, Server["MapJob"]>,
 ];
 
 /** Asks the compiler to look at every entry. */
-export const agreed: Agreed = [true, true, true, true, true, true, true, true, true, true, true];
+export const agreed: Agreed = [
+  ...[true, true, true, true, true, true, true, true, true, true, true] as const,
+  ...[true, true, true, true, true, true, true, true, true, true] as const,
+];

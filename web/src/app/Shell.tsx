@@ -31,6 +31,7 @@ export function Shell() {
     "g s": () => navigate({ to: "/" }),
     "g r": () => navigate({ to: "/runs", search: {} }),
     "g c": () => navigate({ to: "/compare", search: {} }),
+    "g m": () => navigate({ to: "/maps" }),
   });
   return (
     <div className={classes.shell}>
@@ -102,7 +103,7 @@ function Head({ onHelp }: { onHelp: () => void }) {
 
 function Navigation() {
   const { pathname } = useLocation();
-  const place = (to: "/" | "/runs" | "/compare", testId: string, label: string) => {
+  const place = (to: "/" | "/runs" | "/compare" | "/maps", testId: string, label: string) => {
     const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
     return (
       <Link
@@ -122,6 +123,7 @@ function Navigation() {
       {place("/", "nav-studio", "Studio")}
       {place("/runs", "nav-runs", "Runs")}
       {place("/compare", "nav-compare", "Compare")}
+      {place("/maps", "nav-maps", "Maps")}
     </nav>
   );
 }
@@ -182,9 +184,12 @@ const KEYS: [string[], string][] = [
   [["g", "s"], "Go to the studio"],
   [["g", "r"], "Go to the runs"],
   [["g", "c"], "Go to the comparison"],
+  [["g", "m"], "Go to the maps"],
   [["↑", "↓", "j", "k"], "Move between rows of the runs"],
   [["x"], "Select a row to compare"],
   [["enter"], "Open the run of a row"],
+  [["+", "−"], "Enlarge or reduce the plan of a map"],
+  [["f"], "Show all of the plan"],
   [["?"], "Show this"],
 ];
 

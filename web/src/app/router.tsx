@@ -1,9 +1,12 @@
 /** The addresses of the page; what is shown stands in them. */
 
 import { createRootRoute, createRoute, createRouter, useNavigate } from "@tanstack/react-router";
+import { lazy, Suspense } from "react";
 import { ComparePage } from "../features/compare/ComparePage";
+import type { MapView } from "../features/maps/MapPage";
 import { RunPage } from "../features/runs/RunPage";
 import { RunsPage, type RunsView } from "../features/runs/RunsPage";
+import { Loading } from "../ui/State";
 import { FirstScenario, NotFound } from "./places";
 import { Shell } from "./Shell";
 
@@ -83,8 +86,49 @@ const compareRoute = createRoute({
   },
 });
 
+// The maps are loaded when somebody goes there: the studio starts sooner without them.
+const MapsPage = lazy(async () => ({ default: (await import("../features/maps/MapsPage")).MapsPage }));
+const MapPage = lazy(async () => ({ default: (await import("../features/maps/MapPage")).MapPage }));
+
+const mapsRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/maps",
+  component: () => (
+    <Suspense fallback={<Loading what="the maps" />}>
+      <MapsPage />
+    </Suspense>
+  ),
+});
+
+const mapRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/maps/$map",
+  validateSearch: ({ at, road, hide, q, sort }: Record<string, unknown>): MapView => ({
+    at: text(at),
+    road: text(road),
+    hide: text(hide),
+    q: text(q),
+    sort: text(sort),
+  }),
+  component: function OneMap() {
+    const { map } = mapRoute.useParams();
+    const navigate = useNavigate();
+    const view = mapRoute.useSearch();
+    return (
+      <Suspense fallback={<Loading what="the map" />}>
+        <MapPage
+          key={map}
+          id={map}
+          view={view}
+          onView={(next) => navigate({ to: "/maps/$map", params: { map }, search: next, replace: true })}
+        />
+      </Suspense>
+    );
+  },
+});
+
 export const router = createRouter({
-  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute]),
+  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute, mapsRoute, mapRoute]),
 });
 
 declare module "@tanstack/react-router" {

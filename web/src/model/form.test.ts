@@ -12,6 +12,7 @@ import {
   refusal,
   sameChanges,
   sections,
+  suggesting,
   unitAt,
   unitsOf,
   valueAt,
@@ -183,6 +184,15 @@ describe("the refusal of a form", () => {
     );
     const two = [{ ...problem, where: "radio.loss", value: "", allowed: "" }, { ...problem, where: "x" }];
     expect(refusal(two)).toBe("The form has a problem: radio.loss: is too large, and 1 more");
+  });
+});
+
+describe("suggestions", () => {
+  it("stand at one field, however deep, and change no other", () => {
+    const before = fieldsOf(sections(source()));
+    const after = fieldsOf(suggesting(sections(source()), "vehicles.leader.colour", ["#000000"]));
+    expect(after.filter((one, at) => one.suggestions !== before[at]?.suggestions && one.suggestions.length > 0).map(({ path }) => path)).toEqual(["vehicles.leader.colour"]);
+    expect(after.map(({ suggestions: _, ...one }) => one)).toEqual(before.map(({ suggestions: _, ...one }) => one));
   });
 });
 

@@ -287,6 +287,14 @@ export function fieldsOf(all: readonly Section[]): Field[] {
   return all.flatMap((section) => [...section.fields, ...fieldsOf(section.sections)]);
 }
 
+/** The form with suggestions at one of its fields. */
+export const suggesting = (all: readonly Section[], path: string, suggestions: string[]): Section[] =>
+  all.map((section) => ({
+    ...section,
+    fields: section.fields.map((field) => (field.path === path ? { ...field, suggestions } : field)),
+    sections: suggesting(section.sections, path, suggestions),
+  }));
+
 /** All application selects of the form. */
 export function exchangesOf(all: readonly Section[]): Exchange[] {
   return all.flatMap((section) => [

@@ -41,6 +41,13 @@ export function formatDuration(seconds: number): string {
   return `${Math.floor(whole / 60)} min ${String(whole % 60).padStart(2, "0")} s`;
 }
 
+/** A size on disk: "812 kB", "1.3 MB"; thousands, not 1024s. */
+export function formatBytes(bytes: number): string {
+  if (bytes < 1000) return `${bytes} B`;
+  const [value, unit] = bytes < 1e6 ? [bytes / 1e3, "kB"] : bytes < 1e9 ? [bytes / 1e6, "MB"] : [bytes / 1e9, "GB"];
+  return `${Number(value.toPrecision(3))} ${unit}`;
+}
+
 const ACRONYMS = /\b(rms|ttc|thw|drac|pet|cam|id|acc|cacc|v2x|rss)\b/gi;
 
 /** `mean_time_gap` → `Mean time gap`, `min_ttc` → `Min TTC`. */

@@ -26,6 +26,13 @@ const PATHS = {
   branch: "M6 4v16M6 14c8 0 12-2 12-9M15 7l3-3 3 3",
   columns: "M4 5h16v14H4zM9.5 5v14M14.5 5v14",
   unlinked: "M9 15l-3 3a3 3 0 0 1-4-4l3-3M15 9l3-3a3 3 0 0 1 4 4l-3 3M4 4l16 16",
+  upload: "M12 16V5M7 9.5L12 4.5l5 5M4 16v4h16v-4",
+  map: "M9 5L3 7.5v12L9 17l6 2.5 6-2.5V5l-6 2.5zM9 5v12M15 7.5v12",
+  trash: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13M10.5 10.5v6M13.5 10.5v6",
+  plus: "M12 5v14M5 12h14",
+  minus: "M5 12h14",
+  fit: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",
+  undo: "M9 6L4 11l5 5M4 11h9a6 6 0 0 1 6 6v2",
   eye: "M2 12c5-8 15-8 20 0-5 8-15 8-20 0zM12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
 } as const;
 

@@ -3,8 +3,9 @@
 import { useDebouncedValue } from "@mantine/hooks";
 import { useQuery } from "@tanstack/react-query";
 import { useCallback, useMemo } from "react";
+import { maps } from "../../api/maps";
 import * as queries from "../../api/queries";
-import { refusal, sections } from "../../model/form";
+import { refusal, sections, suggesting } from "../../model/form";
 import type { Changes } from "../../model/run";
 
 const NONE: never[] = [];
@@ -15,10 +16,13 @@ export function useForm(id: string, changes: Changes) {
   const applications = useQuery(queries.applications);
   const { document, schema } = scenario.data ?? {};
   const known = applications.data ?? NONE;
-  const form = useMemo(
-    () => (document && schema ? sections({ document, schema, applications: known, changes }) : undefined),
-    [document, schema, known, changes],
-  );
+  // Without an answer the name of the map is typed.
+  const { data: places } = useQuery(maps);
+  const form = useMemo(() => {
+    if (!document || !schema) return undefined;
+    const files = places?.map((place) => `maps/${place.id}`) ?? NONE;
+    return suggesting(sections({ document, schema, applications: known, changes }), "map.file", files);
+  }, [document, schema, known, changes, places]);
   const [settled] = useDebouncedValue(changes, 300);
   const { data: checked } = useQuery({ ...queries.check(id, settled), enabled: form !== undefined });
   const { refetch: again } = scenario;

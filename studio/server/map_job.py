@@ -1,0 +1,359 @@
+"""Imports as the server sees them: a process each, two at a time, the others wait; one at a time for the same map.
+
+What an import needs for a while lies in a folder of its own beside the maps, and goes with it however it ends. The folder that
+it makes appears at once and whole; from that moment on nobody cancels it.
+"""
+
+import itertools
+import multiprocessing
+import os
+import shutil
+import threading
+import time
+from collections.abc import AsyncIterator, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from math import inf
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import psutil
+from starlette.concurrency import run_in_threadpool
+
+from studio.errors import MapError, Problem, ServerError, SizeError, StudioError, UnknownError
+from studio.road import folder, intake, osm, tag
+from studio.server import answer, map_worker
+from studio.server.map_worker import Order
+from studio.server.maps import Maps, file_name, free_name, plain_name
+
+AT_A_TIME = 2  # processes
+MOST_WAITING = 16  # imports, each with its file
+MOST_KEPT = 100  # imports that are over
+END_PATIENCE = 10.0  # [s] for folders that are being written when the server ends
+SCRATCH = ".job"  # how the folders of imports begin
+WAITING = "waiting for other imports"
+spawn = multiprocessing.get_context("spawn")
+
+
+@dataclass
+class MapJob:
+    """One import. `status` is running, done, failed or cancelled; while it waits it counts as running."""
+
+    id: int
+    map: str
+    order: Order
+    status: str = "running"
+    stage: str = WAITING
+    share: float | None = None
+    problem: StudioError | None = None
+    began: float = field(default_factory=time.monotonic)
+    ended: float = inf
+    process: Any = None
+    committed: bool = False
+    lock: threading.RLock = field(default_factory=threading.RLock)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it has ended."""
+        return self.status != "running"
+
+    def row(self) -> answer.MapJob:
+        """The import as it is told."""
+        with self.lock:
+            return answer.MapJob(
+                id=self.id, map=self.map, status=self.status, stage=self.stage, share=self.share,
+                seconds=round(min(self.ended, time.monotonic()) - self.began, 2),
+                problem=self.problem.as_json() if self.problem else None,
+            )  # fmt: skip
+
+    def end(self, status: str, problem: StudioError | None = None) -> None:
+        """It is over, unless it has been before."""
+        with self.lock:
+            if not self.is_over:
+                self.status, self.stage, self.problem, self.ended = status, status, problem, time.monotonic()
+                self.share = 1.0 if status == "done" else self.share
+
+    def cancel(self) -> None:
+        """Ends it with its process, as long as its folder is not being written."""
+        with self.lock:
+            if not self.is_over and not self.committed:
+                self.end("cancelled")
+                if self.process is not None:
+                    kill(self.process)
+
+    def work(self) -> None:
+        """Runs it in a process; when it is over, what it needed for a while is gone."""
+        try:
+            outcome = self.listen(self.start())
+        except OSError as error:
+            outcome = "failed", ServerError(f"The process of the import did not start ({error.strerror or error}).")
+        shutil.rmtree(self.order.scratch, ignore_errors=True)
+        self.end(*outcome)
+
+    def start(self) -> Connection:
+        """Starts the process, unless it has been cancelled; its pipe."""
+        ours, theirs = spawn.Pipe()
+        with self.lock, theirs:
+            if not self.is_over:
+                self.stage = "starting"
+                self.process = spawn.Process(target=map_worker.main, args=(theirs, self.order), daemon=True)
+                self.process.start()
+        return ours
+
+    def listen(self, pipe: Connection) -> tuple[str, StudioError | None]:
+        """Hears the process out; the status that it ends with, and the problem."""
+        outcome = None
+        with pipe, suppress(EOFError, OSError):
+            while outcome is None:
+                word, *values = pipe.recv()
+                outcome = self.hear(pipe, word, values)
+        if self.process is None:
+            return "cancelled", None
+        self.process.join(END_PATIENCE)
+        kill(self.process)
+        return outcome or ("failed", gone(self.process.exitcode))
+
+    def hear(self, pipe: Connection, word: str, values: list[Any]) -> tuple[str, StudioError | None] | None:
+        """One piece of news; the last one is how it ended."""
+        if word in ("done", "failed"):
+            return word, values[0]
+        with self.lock:
+            if not self.is_over and word == "stage":
+                self.stage, self.share = values
+            elif not self.is_over and word == "commit":
+                self.committed = True
+                pipe.send("go")
+        return None
+
+
+def gone(code: int | None) -> StudioError:
+    """The problem of a process that ended without a word."""
+    why = "was ended by the system, perhaps for want of memory" if code == -9 else "crashed"
+    return MapError("The map cannot be imported.", [Problem("importer", why, f"code {code}", remedy="cut out a smaller place")])
+
+
+def kill(process) -> None:
+    """Ends a process that is still there, and what it has started."""
+    if not process.is_alive():
+        return
+    with suppress(psutil.NoSuchProcess):
+        parent = psutil.Process(process.pid)
+        for each in [parent, *parent.children(recursive=True)]:
+            with suppress(psutil.NoSuchProcess):
+                each.kill()
+
+
+@dataclass
+class MapJobs:
+    """All imports of this server."""
+
+    maps: Maps
+    jobs: dict[int, MapJob] = field(default_factory=dict)
+    working: set[int] = field(default_factory=set)
+    numbers: Iterator[int] = field(default_factory=itertools.count)
+    last: int = 0
+    closed: bool = False
+    lock: threading.RLock = field(default_factory=threading.RLock)
+
+    # -- what is told ------------------------------------------------------------------------------
+
+    def rows(self) -> list[answer.MapJob]:
+        """All imports, newest first."""
+        with self.lock:
+            return [job.row() for _, job in sorted(self.jobs.items(), reverse=True)]
+
+    def find(self, job: int) -> MapJob:
+        """An import; raises UnknownError."""
+        with self.lock:
+            if job not in self.jobs:
+                known = ", ".join(map(str, sorted(self.jobs))) or "there is none"
+                raise UnknownError(f"There is no import {job}.", [Problem("job", "does not exist", str(job), known)])
+            return self.jobs[job]
+
+    def of(self, name: str) -> list[MapJob]:
+        """The imports of a map that are not over."""
+        with self.lock:
+            return [job for job in self.jobs.values() if job.map == name and not job.is_over]
+
+    # -- what is done ------------------------------------------------------------------------------
+
+    async def upload(
+        self, body: AsyncIterator[bytes], *, name: str, size: int, bbox: str | None, replace: bool
+    ) -> answer.MapJob:
+        """Takes a map file and imports it; `size` is what its sender says of it [B]. Raises MapError, SizeError or ServerError."""
+        base, ending = file_name(name)
+        if bbox is not None:
+            osm.bounding_box(bbox)
+        if size > osm.LARGEST_FILE:
+            raise too_large()
+        scratch = await run_in_threadpool(self.scratch)
+        try:
+            source = scratch / f"{base}{ending}"
+            await received(body, source)
+            given = {"source": source, "bbox": bbox}
+            return await run_in_threadpool(self.begin, "take", scratch, base, given, replace=replace)
+        except BaseException:
+            shutil.rmtree(scratch, ignore_errors=True)
+            raise
+
+    def download(self, new: answer.NewDownload) -> answer.MapJob:
+        """Downloads and imports a place. Raises MapError or ServerError."""
+        from studio.road import download
+
+        if (new.place is None) == (new.bbox is None):
+            problem = Problem("place, bbox", "are none or both given", remedy="give one of them")
+            raise MapError("What shall be downloaded?", [problem])
+        by = download.servers()
+        place = new.place if new.bbox is None else osm.bounding_box(",".join(map(repr, new.bbox)))
+        if isinstance(place, osm.Box):
+            download.check_area(place)
+        base = plain_name(new.name or name_for(place))
+        if not base:
+            raise MapError("The map has no name.", [Problem("name", "holds no letter or digit", ascii(new.name or new.place))])
+        given = {"place": place, "overpass": by.overpass, "search": by.search}
+        return self.begin("fetch", self.scratch(), base, given, replace=new.replace)
+
+    def correct(self, name: str, new: answer.NewCorrection) -> answer.MapJob:
+        """Imports a map again with a correction. Raises UnknownError, MapError or ServerError."""
+        path, wanted = self.maps.find_import(name), tag.correction(new.element, new.tags, new.remove)
+        return self.begin("correct", self.scratch(), path.name, {"new": wanted}, replace=True)
+
+    def take_back(self, name: str, element: str) -> answer.MapJob:
+        """Imports a map again without the corrections of an element. Raises UnknownError, MapError or ServerError."""
+        path = self.maps.find_import(name)
+        if not self.of(name):  # else one may be on its way
+            intake.check_corrected(path, element, folder.corrections(path))
+        return self.begin("undo", self.scratch(), path.name, {"element": element}, replace=True)
+
+    def cancel(self, job: int) -> answer.MapJob:
+        """Cancels an import; raises UnknownError."""
+        found = self.find(job)
+        found.cancel()
+        self.proceed()
+        return found.row()
+
+    def delete(self, name: str) -> None:
+        """Removes an import that nobody works on. Raises UnknownError, MapError or ServerError."""
+        with self.lock:
+            if self.of(name):
+                problem = Problem("map", "is being imported", name, remedy="wait, or cancel the import")
+                raise MapError(f"The map {name!r} is in use.", [problem])
+            self.maps.delete(name)
+
+    # -- processes ---------------------------------------------------------------------------------
+
+    def scratch(self) -> Path:
+        """A new folder for what an import needs for a while; those of servers that are gone are removed. Raises ServerError."""
+        try:
+            self.maps.folder.mkdir(exist_ok=True)
+            sweep(self.maps.folder)
+            made = self.maps.folder / f"{SCRATCH}-{os.getpid()}-{next(self.numbers)}"
+            made.mkdir()
+            return made
+        except OSError as error:
+            raise ServerError(f"{self.maps.folder}: maps cannot be kept here ({error.strerror or error})") from None
+
+    def begin(self, task: str, scratch: Path, base: str, given: dict[str, Any], *, replace: bool) -> answer.MapJob:
+        """An import of its own number, under a free name unless it replaces. Raises MapError or ServerError."""
+        try:
+            with self.lock:
+                self.check_room()
+                waiting = [job.map for job in self.jobs.values() if not job.is_over]
+                name = base if replace else free_name(base, [*waiting, *(each.name for each in self.maps.folder.iterdir())])
+                folder.refuse_foreign(self.maps.folder / name)
+                self.last += 1
+                job = MapJob(self.last, name, Order(task, self.maps.folder / name, scratch, given))
+                self.jobs[job.id] = job
+                self.forget()
+        except BaseException:
+            shutil.rmtree(scratch, ignore_errors=True)
+            raise
+        self.proceed()
+        return job.row()
+
+    def check_room(self) -> None:
+        """Raises ServerError when too many imports wait, or the server ends."""
+        if self.closed:
+            raise ServerError("The server is ending.")
+        waiting = sum(not job.is_over for job in self.jobs.values())
+        if waiting >= MOST_WAITING:
+            problem = Problem("imports", "are as many as may wait", str(waiting), f"at most {MOST_WAITING}", "wait, or cancel one")
+            raise ServerError("Too many imports are waiting.", [problem])
+
+    def forget(self) -> None:
+        """Forgets the oldest imports that are over."""
+        over = [number for number, job in sorted(self.jobs.items()) if job.is_over and number not in self.working]
+        for number in over[: max(0, len(over) - MOST_KEPT)]:
+            del self.jobs[number]
+
+    def proceed(self) -> None:
+        """Starts the imports that may start now; those cancelled while they waited go."""
+        with self.lock:
+            for number, job in sorted(self.jobs.items()):
+                if number in self.working or job.process is not None:
+                    continue
+                if job.is_over:
+                    shutil.rmtree(job.order.scratch, ignore_errors=True)
+                elif len(self.working) < AT_A_TIME and job.map not in [self.jobs[each].map for each in self.working]:
+                    self.working.add(number)
+                    threading.Thread(target=self.work, args=(job,), name=f"import {number}", daemon=True).start()
+
+    def work(self, job: MapJob) -> None:
+        """Sees one import through, then starts the next."""
+        try:
+            job.work()
+        finally:
+            with self.lock:
+                self.working.discard(job.id)
+            self.proceed()
+
+    def close(self) -> None:
+        """Cancels all imports; folders that are being written are finished."""
+        with self.lock:
+            self.closed = True
+            jobs = list(self.jobs.values())
+        for job in jobs:
+            job.cancel()
+        deadline = time.monotonic() + END_PATIENCE
+        while self.working and time.monotonic() < deadline:
+            time.sleep(0.02)
+        for job in jobs:
+            shutil.rmtree(job.order.scratch, ignore_errors=True)
+
+
+def sweep(maps: Path) -> None:
+    """Removes what servers left behind that were ended by force."""
+    for each in maps.glob(f"{SCRATCH}-*-*"):
+        pid = each.name.split("-")[1]
+        if pid.isdigit() and int(pid) != os.getpid() and not psutil.pid_exists(int(pid)):
+            shutil.rmtree(each, ignore_errors=True)
+
+
+def name_for(place: str | osm.Box) -> str:
+    """What a place is called that nobody named: the first part of its name, or where it lies."""
+    if isinstance(place, str):
+        return place.split(",")[0]
+    latitude, longitude = place.centre
+    return f"place_{latitude:.4f}_{longitude:.4f}".replace(".", "_")
+
+
+async def received(body: AsyncIterator[bytes], target: Path) -> None:
+    """Writes a body to a file as it comes. Raises SizeError as soon as it is too much, ServerError when the disk does not take it."""
+    size = 0
+    try:
+        with target.open("wb") as file:
+            async for part in body:
+                size += len(part)
+                if size > osm.LARGEST_FILE:
+                    raise too_large()
+                await run_in_threadpool(file.write, part)
+    except OSError as error:
+        raise ServerError(f"The file cannot be kept ({error.strerror or error}).") from None
+
+
+def too_large() -> SizeError:
+    """The refusal of a file that is too large."""
+    limit = f"{osm.LARGEST_FILE // 2**20} MiB"
+    return SizeError("The file is too large.", [Problem("body", "is too large", "", f"at most {limit}", "cut out a smaller place")])
+
