@@ -74,6 +74,7 @@ def net(document: Document, limit: Limit, spot: Callable[[str, float], Spot], no
     for road in document.roads.values():
         for light in road.lights:
             place(graph, road, light, spot, notes)
+    graph.stops -= graph.inner  # a light that is repeated within the junction has one stop line
     chains = [chain for road in document.roads.values() for chain in chains_of(graph, road)]
     if not any(chain[0][0] not in graph.inner for chain in chains):
         raise MapError("there are no roads for cars in this map: no <lane> of a <road> outside of junctions is for them")
