@@ -493,6 +493,7 @@ REFUSED = {
     "blank": ("  \n", "empty"),
     "bomb": (BOMB, "entities"),
     "wide bomb": (BOMB.encode("utf-16"), "entities"),
+    "encoding": ('<?xml version="1.0" encoding="klingon"?><OpenDRIVE/>', "encoding"),
     "text": ("road 1", "not XML"),
     "cut off": (FILES[0].read_bytes()[:1200], "cut off"),
     "another root": ('<osm version="0.6"></osm>', "root element is <osm>"),
@@ -522,6 +523,10 @@ WRONG = {
     "incoming": (road("7") + '<junction id="5"><connection id="0" incomingRoad="9" connectingRoad="7" contactPoint="start"/></junction>',
                  "junction 5, <connection> 0: incomingRoad"),
     "contact": (road("7", link='<successor elementType="road" elementId="8"/>'), "road 7: <successor>"),
+    "late section": (road("7", sections=f'<laneSection s="900">{lanes("driving")}</laneSection>'), "road 7: its first <laneSection>"),
+    "vast width": (road("7", sections=f'<laneSection s="0">{lanes("driving")}</laneSection>').replace('d="0"', 'd="9"'), "road 7: <lane> -1 of the <laneSection>"),
+    "stretched": (road("7", plan=LINE.replace("<line/>", '<paramPoly3 aU="0" bU="9000" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>')), "far longer"),
+    "sky": (road("7", extra='<elevationProfile><elevation s="0" a="0" b="400" c="0" d="0"/></elevationProfile>'), "road 7: <elevation>"),
     "far apart": (road("7") + road("8", plan=LINE.replace('x="0"', 'x="9e5"')), "km wide"),
 }  # fmt: skip
 
