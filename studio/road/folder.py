@@ -118,9 +118,10 @@ def network_json(network: Network) -> dict[str, Any]:
         "attribution": network.attribution,
         "drive_side": network.drive_side,
         "origin": list(network.origin),
+        "datum": list(network.datum),
         "lanes": [
             {"id": each.id, "road": each.road, "index": each.index, "width": each.width, "speed": each.speed,
-             "internal": each.internal, "centre": points(each.centre)} for each in network.lanes
+             "internal": each.internal, "centre": points(each.centre), "height": np.round(each.height, 3).tolist()} for each in network.lanes
         ],
         "roads": [
             {"id": each.id, "name": each.name, "lanes": list(each.lanes), "internal": each.internal, "ways": list(each.ways)}

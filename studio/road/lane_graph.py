@@ -25,6 +25,9 @@ from studio.road.xodr import DRIVABLE, KEPT_FOR_OTHERS, Document, Light, Section
 NARROWEST = 1.8  # [m] a narrower lane holds no car
 VARYING = 0.3  # [m] by which a lane's width may vary without a word
 STOP_REACH = 25.0  # [m] before a junction its traffic lights stand
+TORN, STRETCHED = 2.0, 3.0  # [m] and [1]: a reference line may leap that far, and be so much longer than its stations say
+HIGHEST = 10_000.0  # [m]
+FARTHEST = 1000.0  # [m] of a lane from its reference line
 AT_END = 0.5  # [m] a stop line nearer to the end of its lane stands at it
 STRAIGHT, TURN = np.radians(25.0), np.radians(60.0)  # [rad] a way through a junction that turns less goes straight, or is slight
 SEAM = 0.3  # [m] gaps narrower than twice this between the ways through a junction are closed
@@ -74,6 +77,7 @@ def net(document: Document, limit: Limit, spot: Callable[[str, float], Spot], no
     for road in document.roads.values():
         for light in road.lights:
             place(graph, road, light, spot, notes)
+    graph.stops -= graph.inner  # a light that is repeated within the junction has one stop line
     chains = [chain for road in document.roads.values() for chain in chains_of(graph, road)]
     if not any(chain[0][0] not in graph.inner for chain in chains):
         raise MapError("there are no roads for cars in this map: no <lane> of a <road> outside of junctions is for them")
@@ -387,14 +391,21 @@ class Samples:
 def samples(road: XRoad, pieces: list[Piece]) -> Samples:
     """A road at all stations that its pieces need."""
     s = np.union1d(road.line.stations(road.length), [at for piece in pieces for at in (piece.start, piece.end)])
-    return Samples(s, road.line.at(s), road.elevation.at(s), road.offset.at(s))
+    found = Samples(s, road.line.at(s), road.elevation.at(s), road.offset.at(s))
+    steps = np.hypot(*np.diff(found.line[:2]))
+    if not (steps <= TORN + STRETCHED * np.diff(s)).all():
+        at = s[int(np.argmax(~(steps <= TORN + STRETCHED * np.diff(s))))]
+        raise MapError(f"road {road.id}, <geometry> at s = {at:.6g}: its curve is far longer than its length")
+    if not (np.abs(found.height) <= HIGHEST).all():
+        raise MapError(f"road {road.id}: <elevation> leaves the heights of roads; allowed: up to {HIGHEST:g} m")
+    return found
 
 
 def lane_of(graph: Graph, road: XRoad, atoms: tuple[Atom, ...], along: Samples, spot, notes: Notes) -> Lane:
     """The lane of some atoms; its place in the network is not known yet."""
     lines, heights, widths = [], [], []
     for _, k, lane in sorted(atoms, key=lambda atom: atom[1]):
-        line, height, width = strip_line(graph.pieces[road.id][k], lane, along)
+        line, height, width = strip_line(road.id, graph.pieces[road.id][k], lane, along)
         lines.append(line)
         heights.append(height)
         widths.append(width)
@@ -402,6 +413,8 @@ def lane_of(graph: Graph, road: XRoad, atoms: tuple[Atom, ...], along: Samples, 
     if not is_forward(road, atoms[0][2]):
         centre, height = centre[:, ::-1], height[::-1]
     keep = np.append(True, np.hypot(*np.diff(centre)) > 1e-6)
+    if keep.sum() < 2:
+        raise MapError(f"road {road.id}: <lane> {atoms[0][2]} is a point")
     centre, height, width = centre[:, keep].copy(), height[keep].copy(), np.concatenate(widths)
     usual = float(np.median(width))
     if np.ptp(width) > VARYING:
@@ -414,7 +427,7 @@ def lane_of(graph: Graph, road: XRoad, atoms: tuple[Atom, ...], along: Samples, 
     return Lane(0, "", 0, max(usual, NARROWEST), speed, centre, False, curve.length(centre), strip.open, height)
 
 
-def strip_line(piece: Piece, lane: int, along: Samples) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def strip_line(road: str, piece: Piece, lane: int, along: Samples) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Centre line float64[2, n], height and width [m] of a lane in one piece, along the reference line."""
     within = (piece.start - 1e-9 <= along.s) & (along.s <= piece.end + 1e-9)
     s, (x, y, heading) = along.s[within] - piece.section.s, along.line[:, within]
@@ -422,6 +435,8 @@ def strip_line(piece: Piece, lane: int, along: Samples) -> tuple[np.ndarray, np.
     inner = sum((piece.section.strips[sign * i].width.at(s) for i in range(1, abs(lane))), np.zeros_like(s))
     width = np.maximum(piece.section.strips[lane].width.at(s), 0.0)
     t = along.offset[within] + sign * (inner + 0.5 * width)
+    if not (np.abs(t) <= FARTHEST).all():
+        raise MapError(f"road {road}: <lane> {lane} of the <laneSection> at s = {piece.section.s:g} lies more than {FARTHEST:g} m beside its road")
     return np.array([x - t * np.sin(heading), y + t * np.cos(heading)]), along.height[within], width
 
 

@@ -31,6 +31,7 @@ CAR_LIGHTS = {"1000001", "1000008", "1000009", "1000010", "1000011", "1000012"} 
 OTHER_LIGHTS = {"1000002", "1000003", "1000007", "1000013", "1000014", "1000015"}  # for people on foot and on bicycles, trams
 LONGEST_ROAD = 100_000.0  # [m]
 LONGEST_GAP = 1.0  # [m] between the elements of a reference line
+LARGEST = 1e9  # of any number
 WIDEST_LANE = 100.0  # [m] above this a width is a slip
 MOST_LANES = 64  # of one section
 
@@ -160,6 +161,8 @@ def parse(data: bytes) -> Element:
     try:
         reader.Parse(data, True)
         return builder.close()
+    except (LookupError, ValueError) as error:
+        raise MapError(f"this is not XML in an encoding that can be read ({error})") from None
     except expat.ExpatError as error:
         what = expat.errors.messages[error.code]
         raise MapError(f"line {error.lineno}: this is not XML, or it is cut off ({what}); fetch it again") from None
@@ -227,8 +230,8 @@ def number(element: Element, name: str, where: str, default: float | None = None
         value = float(text)
     except (TypeError, ValueError):
         value = math.nan
-    if not math.isfinite(value):
-        what = "is missing" if text is None else f"is not a finite number (got {text[:40]!r})"
+    if not abs(value) <= LARGEST:
+        what = "is missing" if text is None else f"is no number that a road has (got {text[:40]!r})"
         raise MapError(f"{where}: {name} of <{element.tag}> {what}")
     return value
 
@@ -260,6 +263,9 @@ def read_road(element: Element, found: Document) -> XRoad:
     note_gaps(line, length, name, found)
     length = min(length, line.length)
     note_unused(element, name, found)
+    sections = tuple(read_sections(element, length, name, found))
+    if not sections:
+        raise MapError(f"{where}: its first <laneSection> begins behind its end")
     return XRoad(
         id=name,
         name=element.get("name") or "",
@@ -272,7 +278,7 @@ def read_road(element: Element, found: Document) -> XRoad:
         kinds=tuple(read_kind(each, name, found) for each in element.findall("type")),
         elevation=profile(element.findall("elevationProfile/elevation"), where),
         offset=profile(element.findall("lanes/laneOffset"), where),
-        sections=tuple(read_sections(element, length, name, found)),
+        sections=sections,
         lights=tuple(read_lights(element, length, name, found)),
     )
 

@@ -254,6 +254,204 @@ def test_a_light_has_its_stop_line_where_it_stands():
     assert {each.kind for each in network.report.skipped} >= {"light", "object", "lane"}
 
 
+LIGHT = '<signals><signal id="{0}" s="{1}" t="-4" dynamic="yes" orientation="{2}" type="1000001" country="OpenDRIVE">{3}</signal></signals>'
+BOTH = f'<laneSection s="0">{lanes("driving", "driving", side="left")}{lanes("driving", "driving")}</laneSection>'
+
+
+@pytest.mark.parametrize(
+    ("rule", "orientation", "validity", "stopped"),
+    [
+        ("RHT", "+", "", {("1", 80.0)}), ("RHT", "-", "", {("-1", 120.0)}), ("LHT", "+", "", {("1", 80.0)}),
+        ("RHT", "none", "", {("1", 80.0), ("-1", 120.0)}), ("RHT", "+", '<validity fromLane="-2" toLane="-2"/>', {("1", 80.0)}),
+    ],
+)  # fmt: skip
+def test_a_light_in_the_middle_of_a_road(tmp_path, rule, orientation, validity, stopped):
+    """It stops the lanes that it is valid for, where it stands; the road goes on behind it."""
+    network = load(written(tmp_path, road(sections=BOTH, rule=rule, extra="").replace("</planView>", "</planView>" + LIGHT.format("7", 80, orientation, validity))))
+    ends = [network.lanes[lane] for lane in network.signals.link_lane]
+    assert {(lane.road.split("#")[0], round(lane.length, 6)) for lane in ends} == stopped
+    assert len(ends) == (1 if validity else 2 * len(stopped))
+    assert {network.lanes[c.to_lane].road for c in network.connections if c.link >= 0} and network.report.signals.placed == 1
+
+
+def crossing(*, lights="", reference=""):
+    """A road that ends at a junction, where two others lead on, straight and to the left."""
+    link = '<successor elementType="junction" elementId="J"/>'
+    behind = '<predecessor elementType="junction" elementId="J"/>'
+    ways = '<predecessor elementType="road" elementId="in" contactPoint="end"/><successor elementType="road" elementId="{}" contactPoint="start"/>'
+    joined = f'<laneSection s="0">{lanes("driving", inner=LINKED.format(-1))}</laneSection>'
+    geometry = '<geometry s="0" x="{}" y="{}" hdg="{}" length="{}">{}</geometry>'
+    return (
+        road("in", link=link, extra=lights),
+        road("ahead", plan=geometry.format(220, 0, 0, 100, "<line/>"), length=100, link=behind),
+        road("left", plan=geometry.format(220, 20, np.pi / 2, 100, "<line/>"), length=100, link=behind),
+        road("w1", plan=geometry.format(200, 0, 0, 20, "<line/>"), length=20, link=ways.format("ahead"), sections=joined, junction="J", extra=reference),
+        road("w2", plan=geometry.format(200, 0, 0, 10 * np.pi, '<arc curvature="0.05"/>'), length=10 * np.pi, link=ways.format("left"), sections=joined, junction="J"),
+        '<junction id="J">' + "".join(
+            f'<connection id="{k}" incomingRoad="in" connectingRoad="w{k}" contactPoint="start"><laneLink from="-1" to="-1"/></connection>' for k in (1, 2)
+        ) + "</junction>",
+    )  # fmt: skip
+
+
+def test_a_junction_joins_and_names_its_directions(tmp_path):
+    network = load(written(tmp_path, *crossing()))
+    found = {network.lanes[c.to_lane].road: (c.direction, len(c.via)) for c in network.connections}
+    assert found == {"ahead": ("straight", 1), "left": ("left", 1)}
+    assert network.roads["in"].to_junction == "J" == network.roads["left"].from_junction
+    assert len(network.junctions) == 1 and network.report.junctions == 1
+
+
+def test_lights_within_a_junction_stop_before_it(tmp_path):
+    """A light on a connecting road, and one that another road refers to: the stop line is at the end of the road that leads there."""
+    inside = written(tmp_path, *crossing(reference=LIGHT.format("7", 10, "+", "")), name="inside.xodr")
+    referred = LIGHT.format("7", 190, "+", "") + '<signals/>'
+    twice = written(tmp_path, *crossing(lights=referred, reference='<signals><signalReference id="7" s="1" orientation="+"/></signals>'), name="twice.xodr")
+    for file in (inside, twice):
+        network = load(file)
+        (lane,) = network.signals.link_lane
+        assert network.lanes[lane].road == "in" and all(c.link == 0 for c in network.connections)
+    assert network.lanes[lane].length == pytest.approx(190.0) and {len(c.via) for c in network.connections} == {2}
+
+
+def test_signals_that_are_no_lights_are_told(tmp_path):
+    signs = '<signals><signal id="1" s="5" dynamic="no" type="274" country="DE"/><signal id="2" s="6" dynamic="yes" type="1000002"/>'
+    network = load(written(tmp_path, road(extra=signs + '<signal id="3" s="7" dynamic="yes" type="77"/></signals>')))
+    found = {each.what: (each.kind, each.where) for each in network.report.skipped}
+    assert found == {
+        "signal 1 of type 274 in DE": ("sign", "road 1, s = 5.0 m"), "signal 2 of type 1000002": ("light", "road 1, s = 6.0 m"),
+        "signal 3 of type 77": ("light", "road 1, s = 7.0 m"),
+    }  # fmt: skip
+    assert len(network.signals) == 0
+
+
+# -- limits ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("speed", "limit"),
+    [('max="50" unit="km/h"', 50.0), ('max="30" unit="mph"', 48.28032), ('max="25"', 90.0), ('max="25" unit="m/s"', 90.0), ('max="no limit"', 130.0)],
+)
+def test_units_of_speed(tmp_path, speed, limit):
+    network = load(written(tmp_path, road(extra=f'<type s="0" type="rural"><speed {speed}/></type>')))
+    assert network.lanes[0].speed * 3.6 == pytest.approx(limit)
+    assert network.report.speed_limits.mapped_ways == 1 and not [each for each in network.report.guesses if each.kind == "speed limit"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "limit", "sure"),
+    [('type="motorway" country="DE"', 130.0, "medium"), ('type="rural" country="GBR"', 96.56064, "medium"), ('type="town" country="us"', 56.32704, "medium"),
+     ('type="rural"', 90.0, "low"), ('type="rural" country="OpenDRIVE"', 90.0, "low"), ('type="lowSpeed" country="AUT"', 10.0, "medium")],
+)  # fmt: skip
+def test_no_limit_given_is_a_guess_by_kind_and_country(tmp_path, kind, limit, sure):
+    for number, inner in enumerate(("", '<speed max="undefined"/>')):
+        network = load(written(tmp_path, road(extra=f'<type s="0" {kind}>{inner}</type>'), name=f"{number}.xodr"))
+        assert network.lanes[0].speed * 3.6 == pytest.approx(limit)
+        (guess,) = [each for each in network.report.guesses if each.kind == "speed limit"]
+        assert guess.sure == sure and "without <speed>" in guess.source and guess.where == "road 1, s = 0.0 m"
+
+
+def test_limits_change_along_a_road_and_lanes_have_their_own(tmp_path):
+    """80 km/h, 60 from 120 m on; the outer lane has 40 km/h of its own up to 50 m, where it gets that of the road."""
+    kinds = "".join(f'<type s="{s}" type="rural"><speed max="{v}" unit="km/h"/></type>' for s, v in ((0, 80), (120, 60)))
+    own = '<speed sOffset="0" max="40" unit="km/h"/><speed sOffset="50" max="undefined"/>'
+    section = f'<laneSection s="0">{lanes("driving", "driving")}</laneSection>'.replace('id="-2" type="driving">', 'id="-2" type="driving">' + own)
+    network = load(written(tmp_path, road(extra=kinds, sections=section)))
+    found = {name: [(round(network.lanes[lane].speed * 3.6), round(network.lanes[lane].length)) for lane in one.lanes] for name, one in network.roads.items()}
+    assert found == {"1": [(40, 50), (80, 50)], "1#1": [(80, 70), (80, 70)], "1#2": [(60, 80), (60, 80)]}
+    assert len(network.connections) == 4 and all(c.via == () for c in network.connections)
+
+
+# -- cross sections --------------------------------------------------------------------------------
+
+
+def test_borders_offsets_and_unused_lanes_place_the_lanes(tmp_path):
+    """Lanes by their borders beside a lane offset: the centre of the outer one is 1 - 2 - 4.5 = -5 m from the reference line."""
+    section = (
+        '<laneOffset s="0" a="1" b="0" c="0" d="0"/><laneSection s="0"><right><lane id="-1" type="median"><border sOffset="0" a="-2" b="0" c="0" d="0"/></lane>'
+        '<lane id="-2" type="driving"><border sOffset="0" a="-6" b="0" c="0" d="0"/><border sOffset="100" a="-6" b="-0.01" c="0" d="0"/></lane></right></laneSection>'
+    )
+    network = load(written(tmp_path, road(sections=section)))
+    (lane,) = network.lanes
+    y = lane.centre[1] + network.datum[1]
+    assert y[0] == pytest.approx(1.0 - 4.0) and y[-1] == pytest.approx(1.0 - (2.0 + 7.0) / 2.0) and lane.width == pytest.approx(4.0, abs=0.1)
+    (guess,) = [each for each in network.report.guesses if each.kind == "lane width"]
+    assert guess.source == "4.00 to 5.00 m wide"
+
+
+def test_a_lane_opens_and_sections_join(tmp_path):
+    """One lane, then two: the inner one goes on, the new one is reached by a lane change; where nothing changes the road is one."""
+    one = f'<laneSection s="{{}}">{lanes("driving", inner=LINKED.format(-1))}</laneSection>'
+    two = f'<laneSection s="100">{lanes("driving", "driving")}</laneSection>'.replace('<lane id="-1" type="driving">', '<lane id="-1" type="driving">' + LINKED.format(-1))
+    network = load(written(tmp_path, road(sections=one.format(0) + one.format(50) + two)))
+    assert {name: [round(network.lanes[lane].length) for lane in each.lanes] for name, each in network.roads.items()} == {"1": [100], "1#2": [100, 100]}
+    (connection,) = network.connections
+    assert network.lanes[connection.from_lane].road == "1" and network.lanes[connection.to_lane].index == 1
+    way = connect(network, ["1", "1#2"])
+    assert len(way.lanes) == 2 and path(network, way).length == pytest.approx(200.0, abs=1.0)
+
+
+def test_links_between_roads_follow_their_contact(tmp_path):
+    """Two roads end to end, the second one drawn backwards: its left lane goes on where the first one's right lane ends."""
+    there = '<link><successor id="{}"/></link>'
+    first = f'<laneSection s="0">{lanes("driving", side="left", inner=there.format(-1))}{lanes("driving", inner=there.format(1))}</laneSection>'
+    plan = f'<geometry s="0" x="400" y="0" hdg="{np.pi}" length="200"><line/></geometry>'
+    second = f'<laneSection s="0">{lanes("driving", side="left", inner=there.format(-1))}{lanes("driving", inner=there.format(1))}</laneSection>'
+    link = '<successor elementType="road" elementId="{}" contactPoint="end"/>'
+    network = load(written(tmp_path, road("a", sections=first, link=link.format("b")), road("b", sections=second, plan=plan, link=link.format("a"))))
+    found = {(network.lanes[c.from_lane].road, network.lanes[c.to_lane].road) for c in network.connections}
+    assert found == {("a", "-b"), ("b", "-a")}
+
+
+def test_bus_lanes_are_closed_and_narrow_lanes_left_out(tmp_path):
+    access = '<access sOffset="0" rule="deny" restriction="passengerCar"/>'
+    section = f'<laneSection s="0">{lanes("driving", "driving", "bus", "biking")}</laneSection>'.replace('id="-2" type="driving">', 'id="-2" type="driving">' + access)
+    network = load(written(tmp_path, road(sections=section)))
+    assert [lane.open for lane in network.lanes] == [False, False, True]
+    assert [each.what for each in network.report.skipped] == ["1 of type biking"]
+
+
+def test_left_and_right_are_mirrored(tmp_path):
+    """The same document driven on the left: each lane is driven the other way."""
+    right, left = (load(written(tmp_path, road(sections=BOTH, rule=rule), name=f"{rule}.xodr")) for rule in ("RHT", "LHT"))
+    assert (right.drive_side, left.drive_side) == ("right", "left")
+    for a, b in zip(right.lanes, left.lanes, strict=True):
+        assert (a.road, a.index) == (b.road, b.index)
+        assert np.abs(a.centre[1] + b.centre[1] + right.datum[1] + left.datum[1]).max() < 1e-9 and np.allclose(a.centre[0], b.centre[0])
+
+
+def test_what_is_not_built_is_told_with_its_place(tmp_path):
+    extra = (
+        '<lateralProfile><superelevation s="20" a="0.05" b="0" c="0" d="0"/><superelevation s="0" a="0" b="0" c="0" d="0"/></lateralProfile>'
+        '<objects><object id="5" type="tree" s="60" t="9"/><bridge id="6" s="70" length="9"/></objects><surface><CRG file="rough.crg" sStart="1" sEnd="2"/></surface>'
+    )
+    network = load(written(tmp_path, road(extra=extra), head='<header><geoReference><![CDATA[+proj=tmerc +lat_0=52 +lon_0=13 +k=1 +x_0=0 +y_0=0 +ellps=WGS84]]></geoReference></header>'))
+    found = {(each.kind, each.where) for each in network.report.skipped}
+    assert found == {("superelevation", "road 1, s = 20.0 m"), ("object", "road 1, s = 60.0 m"), ("bridge", "road 1, s = 70.0 m"), ("surface", "road 1, s = 1.0 m")}
+    tree = next(each for each in network.report.skipped if each.kind == "object")
+    assert tree.latitude == pytest.approx(52.0, abs=1e-6) and tree.longitude == pytest.approx(13.0 + 60.0 / 68_678.0, abs=1e-6)
+
+
+# -- the place on earth ----------------------------------------------------------------------------
+
+
+def test_the_origin_is_the_georeferences(tmp_path):
+    """UTM zone 33 with its false easting; the middle of the road is (0, 0), and says where it lies in the document's plane."""
+    head = '<header><geoReference>+proj=utm +zone=33 +datum=WGS84 +units=m +no_defs</geoReference></header>'
+    far = LINE.replace('x="0" y="0"', 'x="391677" y="5819566"')
+    network = load(written(tmp_path, road(plan=far), head=head))
+    assert network.origin == pytest.approx((52.5145, 13.4060), abs=0.002) and network.datum == (391777.0, 5819566.0)
+    assert np.abs(network.lanes[0].centre).max() < 101.0 and network.report.country == "Germany"
+    assert not [each for each in network.report.guesses if each.kind == "origin"]
+
+
+@pytest.mark.parametrize(("text", "source"), [("", "no <geoReference>"), ("<geoReference>somewhere</geoReference>", "cannot be read")])
+def test_no_origin_is_a_guess(tmp_path, text, source):
+    network = load(written(tmp_path, road(), head=f"<header>{text}</header>"))
+    (guess,) = [each for each in network.report.guesses if each.kind == "origin"]
+    assert source in guess.source and guess.sure == "low" and network.report.country == ""
+    assert network.origin == pytest.approx((0.0, 100.0 / 111_320.0), abs=1e-5)
+
+
 # -- attribution, licence and the folder -----------------------------------------------------------
 
 
@@ -295,6 +493,7 @@ REFUSED = {
     "blank": ("  \n", "empty"),
     "bomb": (BOMB, "entities"),
     "wide bomb": (BOMB.encode("utf-16"), "entities"),
+    "encoding": ('<?xml version="1.0" encoding="klingon"?><OpenDRIVE/>', "encoding"),
     "text": ("road 1", "not XML"),
     "cut off": (FILES[0].read_bytes()[:1200], "cut off"),
     "another root": ('<osm version="0.6"></osm>', "root element is <osm>"),
@@ -324,6 +523,10 @@ WRONG = {
     "incoming": (road("7") + '<junction id="5"><connection id="0" incomingRoad="9" connectingRoad="7" contactPoint="start"/></junction>',
                  "junction 5, <connection> 0: incomingRoad"),
     "contact": (road("7", link='<successor elementType="road" elementId="8"/>'), "road 7: <successor>"),
+    "late section": (road("7", sections=f'<laneSection s="900">{lanes("driving")}</laneSection>'), "road 7: its first <laneSection>"),
+    "vast width": (road("7", sections=f'<laneSection s="0">{lanes("driving")}</laneSection>').replace('d="0"', 'd="9"'), "road 7: <lane> -1 of the <laneSection>"),
+    "stretched": (road("7", plan=LINE.replace("<line/>", '<paramPoly3 aU="0" bU="9000" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>')), "far longer"),
+    "sky": (road("7", extra='<elevationProfile><elevation s="0" a="0" b="400" c="0" d="0"/></elevationProfile>'), "road 7: <elevation>"),
     "far apart": (road("7") + road("8", plan=LINE.replace('x="0"', 'x="9e5"')), "km wide"),
 }  # fmt: skip
 

@@ -12,7 +12,8 @@ def server(tmp_path_factory, sample):
     scenarios = folder / "scenarios"
     scenarios.mkdir()
     (scenarios / "maps").symlink_to(sample.parent / "maps")
-    (scenarios / sample.name).write_bytes(sample.read_bytes())
+    for each in (sample, sample.with_name("motorway_platoon.yaml")):
+        (scenarios / each.name).write_bytes(each.read_bytes())
     (scenarios / "bad.yaml").write_text("title: bad\nclok: {}\n")
     (folder / "applications").mkdir()
     (folder / "applications" / "broken.py").write_text(BROKEN)

@@ -38,6 +38,7 @@ def test_scenarios(client):
     rows = {each["id"]: each for each in client.get("/api/scenarios").json()}
     assert rows[SCENARIO]["vehicles"] == 25 and rows[SCENARIO]["problem"] is None
     assert rows[SCENARIO]["attribution"] == "© OpenStreetMap contributors"
+    assert rows["motorway_platoon"]["attribution"] == "Motorway, Cooperative ADAS Studio"
     assert "clok" in rows["bad"]["problem"]
 
 
@@ -45,6 +46,8 @@ def test_a_scenario_with_its_form(client):
     found = client.get(f"/api/scenarios/{SCENARIO}").json()
     assert found["document"]["applications"]["platoon"]["parameters"]["k_p"] == 0.2
     assert found["schema"]["$defs"]["Radio"]["properties"]["loss"]["maximum"] == 1
+    assert found["attribution"] == "© OpenStreetMap contributors"
+    assert client.get("/api/scenarios/motorway_platoon").json()["attribution"] == "Motorway, Cooperative ADAS Studio"
 
 
 def test_check(client):

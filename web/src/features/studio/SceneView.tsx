@@ -93,8 +93,8 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
           />
         </div>
       ) : null}
-      <span className={classes.attribution} data-testid="attribution">
-        {attribution || "© OpenStreetMap contributors"}
+      <span className={classes.attribution} data-testid="attribution" hidden={attribution === ""}>
+        {attribution}
       </span>
     </div>
   );
