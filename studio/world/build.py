@@ -11,7 +11,9 @@ from studio.application import registry
 from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
 from studio.road import conflict
+from studio.scenario.schema import Friction
 from studio.world import ground
+from studio.world.change import Laid, changes_of
 from studio.world.control import wheel_torque
 from studio.world.fleet import Start, fleet
 from studio.world.setting import Car, Setting, pose
@@ -27,7 +29,7 @@ def build(settings: Sequence[Setting]) -> World:
     cars = [car for each in settings for car in each.cars]
     worlds = worlds_of(settings)
     vehicles = vehicles_of(cars)
-    roads = roads_of(settings, worlds)
+    roads, paths = roads_of(settings, worlds)
     world = World(
         clock=Clock(clock.tick, clock.step),
         vehicles=vehicles,
@@ -35,6 +37,7 @@ def build(settings: Sequence[Setting]) -> World:
         roads=roads,
         units=units_of(settings, worlds, cars),
         events=events_of(settings, worlds),
+        changes=changes_of(settings, worlds, roads.points, paths),
         hosted=hosts(settings, worlds),
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
@@ -71,25 +74,30 @@ def vehicles_of(cars: list[Car]) -> Vehicles:
     )
 
 
-def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
-    """Paths, stop lines, zones and signals. Cars that share a path share its points."""
+def roads_of(settings: Sequence[Setting], worlds: Worlds) -> tuple[Roads, list[Laid]]:
+    """Paths, stop lines, zones and signals; and which path has which points.
+
+    Cars that share a path share its points, within a world whose roads change, else within the batch.
+    """
     first_of, paths, start = {}, [], 0
-    for each in settings:
+    for w, each in enumerate(settings):
         for car in each.cars:
-            if id(car.path) not in first_of:
-                first_of[id(car.path)] = start
-                paths.append(car.path.points)
+            key = (w if each.sites else -1, id(car.path))
+            if key not in first_of:
+                first_of[key] = start
+                paths.append(Laid(w, car.path, start))
                 start += car.path.points.shape[1]
-    points = np.concatenate(paths, axis=1)
+    points = np.concatenate([laid.path.points for laid in paths], axis=1)
     cars = [car for each in settings for car in each.cars]
-    path_first = np.array([first_of[id(car.path)] for car in cars])
+    keys = [(w if settings[w].sites else -1, id(car.path)) for w, car in zip(worlds.of, cars, strict=True)]
+    path_first = np.array([first_of[key] for key in keys])
     path_count = np.array([car.path.points.shape[1] for car in cars])
     link_base = np.concatenate([[0], np.cumsum([len(each.network.signals) for each in settings])[:-1]])
     stops = [[(s, link + link_base[w]) for s, link in car.path.stop_lines] for w, car in zip(worlds.of, cars, strict=True)]
     counts = np.array([len(each) for each in stops])
     flat = np.array([stop for each in stops for stop in each]).reshape(-1, 2)
     pair, span = zones_of(settings, worlds, points, path_first, path_count)
-    return Roads(
+    roads = Roads(
         points=points,
         path_first=path_first,
         path_count=path_count,
@@ -102,17 +110,19 @@ def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
         **signals_of(settings),
         **surface_of(settings),
     )
+    return roads, paths
 
 
 def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
-    """Friction of the weather per world, and the pieces of all patches."""
+    """Weather per world, and the pieces of all slippery stretches."""
+    placed = [(w, site) for w, each in enumerate(settings) for site in each.sites]
     found = [
-        ground.pieces(patch, path, w)
-        for w, each in enumerate(settings)
-        for patch, path in zip(each.scenario.road.patches.values(), each.patches, strict=True)
+        ground.pieces(site.change.do, site.line, w, number)
+        for number, (w, site) in enumerate(placed)
+        if isinstance(site.change.do, Friction)
     ]
     return {
-        "weather": np.array([each.scenario.road.friction for each in settings]),
+        "weather": np.array([[getattr(each.scenario.weather, row.name) for row in WEATHER] for each in settings]).T.copy(),
         "pieces": np.concatenate([np.zeros((len(PIECE), 0)), *found], axis=1),
         "near": np.zeros(ground.MOST_NEAR, dtype=np.int64),
     }

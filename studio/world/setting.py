@@ -22,6 +22,7 @@ from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
 from studio.world.channel import BY_NAME
 from studio.world.fleet import check_step
+from studio.world.site import Site, joins, problems, sites
 from studio.world.state import RING
 
 CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
@@ -48,12 +49,12 @@ class Car:
 
 @dataclass(frozen=True)
 class Setting:
-    """A scenario with everything resolved that names something: its map, its cars, and the paths of its patches."""
+    """A scenario with everything resolved that names something: its map, its cars, and where its changes lie."""
 
     scenario: Scenario
     network: Network
     cars: tuple[Car, ...]
-    patches: tuple[road_path.Path, ...] = ()
+    sites: tuple[Site, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -64,13 +65,13 @@ class Setting:
 def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
-    check_names(scenario, where)
+    check_names(scenario, network, where)
     models = models_of(scenario, folder, where)
     paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     check_starts(cars, where)
     filled = tuple(cars + traffic(scenario, network, models, cars))
-    return Setting(scenario, network, filled, patch_paths(scenario, network, where))
+    return Setting(scenario, network, filled, sites(scenario, network))
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -95,25 +96,13 @@ def check_delays(model: VehicleModel, tick: float, where: str) -> None:
     """Dead times must fit into what is kept of past commands."""
     delays = {"engine.delay": model.values.engine.delay, "brakes.delay": model.values.brakes.delay}
     kept = (RING - 1) * tick
-    problems = [
+    found = [
         Problem(f"{where}: {name}", "is longer than commands are kept", f"{delay} s", f"≤ {kept:g} s")
         for name, delay in delays.items()
         if delay > kept
     ]
-    if problems:
-        raise ScenarioError(f"{model.name} does not fit the clock.", problems)
-
-
-def patch_paths(scenario: Scenario, network: Network, where: str) -> tuple[road_path.Path, ...]:
-    """The path of every patch's route; a patch must lie on it."""
-    found = []
-    for name, patch in scenario.road.patches.items():
-        path = road_path.path(network, connect(network, scenario.routes[patch.route].roads))
-        if patch.end > path.length:
-            problem = Problem(f"{where}: road.patches.{name}.end", "lies beyond the end of its route", f"{patch.end} m", f"≤ {path.length:.0f} m")
-            raise ScenarioError(f"{where} is not a valid scenario.", [problem])
-        found.append(path)
-    return tuple(found)
+    if found:
+        raise ScenarioError(f"{model.name} does not fit the clock.", found)
 
 
 def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
@@ -128,8 +117,8 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
     return road.load(file, radius=scenario.map.radius)
 
 
-def check_names(scenario: Scenario, where: str) -> None:
-    """Every vehicle, route, model and sender that is named must exist; all problems at once."""
+def check_names(scenario: Scenario, network: Network, where: str) -> None:
+    """Every vehicle, route, model, road and sender that is named must exist; all problems at once."""
     vehicles, known_models, found = set(scenario.vehicles), set(catalogue.vehicle_names()), []
 
     def check(path: str, name: str, known, kind: str) -> None:
@@ -142,8 +131,6 @@ def check_names(scenario: Scenario, where: str) -> None:
             check(f"vehicles.{name}.model", vehicle.model, known_models, "vehicle of the catalogue")
     if not catalogue.is_path(scenario.traffic.model, ".yaml", ".yml"):
         check("traffic.model", scenario.traffic.model, known_models, "vehicle of the catalogue")
-    for name, patch in scenario.road.patches.items():
-        check(f"road.patches.{name}.route", patch.route, set(scenario.routes), "route of this scenario")
     for group, application in scenario.applications.items():
         for field in ("vehicles", "listens_to"):
             for i, name in enumerate(getattr(application, field)):
@@ -152,7 +139,7 @@ def check_names(scenario: Scenario, where: str) -> None:
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
     for i, name in enumerate(scenario.recording.channels):
         check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
-    found += reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
+    found += problems(scenario, network, where) + reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
     if found:
         raise ScenarioError(f"{where} is not a valid scenario.", found)
 
@@ -219,12 +206,6 @@ def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road
         ) from None
     joined = 0.0 if lane is None and vehicle.position.road is None else joins(vehicle.position.road, route.roads, network)
     return annotated(path, route.speeds, joined)
-
-
-def joins(start: str, roads: list[str], network: Network) -> float:
-    """Station [m] at which a route from its first road comes to the road on which a vehicle starts."""
-    whole = road_path.path(network, connect(network, roads))
-    return next((station.s for station in whole.stations if station.road == start), 0.0)
 
 
 def from_road(name: str, position: Place, roads: list[str], where: str) -> list[str]:

@@ -88,7 +88,23 @@ GROUND = (
 )
 (HEIGHT, SLOPE_X, SLOPE_Y, MU) = range(len(GROUND))
 
-# Pieces of the patches on the roads.
+# Weather, per world.
+WEATHER = (
+    Row("friction", "1", "relative to the tyre's test track"),
+    Row("visibility", "m", "drivers see nothing beyond"),
+)
+(FRICTION, VISIBILITY) = range(len(WEATHER))
+
+# Changes of the road: each begins and ends at a moment, which is a time or a place that a vehicle passes.
+MOMENT = (
+    Row("time", "s", "infinite when a vehicle makes it"),
+    Row("vehicle", "1", "column of the vehicle, -1 when there is none"),
+    Row("station", "m", "on the path of this vehicle"),
+)
+(WHEN, BY, AT) = range(len(MOMENT))
+BEFORE, ACTING, OVER = range(3)  # phases of a change
+
+# Pieces of slippery stretches.
 PIECE = (
     Row("x", "m", "middle of the piece"),
     Row("y", "m", "middle of the piece"),
@@ -97,8 +113,11 @@ PIECE = (
     Row("right", "m", "how far it reaches to the right"),
     Row("friction", "1", "relative to the tyre's test track"),
     Row("world", "1", "number of the world"),
+    Row("change", "1", "number of the change that it belongs to"),
 )
-(PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD) = range(len(PIECE))
+(
+    PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD, PIECE_CHANGE,
+) = range(len(PIECE))  # fmt: skip
 
 # Scratch: what one pass hands to the next within a step, per wheel; directions in the body's axes.
 CONTACT = (

@@ -5,7 +5,7 @@ applications and drivers decide, commands go out. Between two ticks every vehicl
 """
 
 from studio.application.host import Hosted
-from studio.world import collision, control, fleet, ground, perception, traffic
+from studio.world import change, collision, control, fleet, ground, perception, traffic
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import World
 
@@ -36,23 +36,25 @@ def part(world: World) -> None:
 
 
 def environment(world: World) -> None:
-    """Lights, triggers, and the road under the wheels."""
-    v, r, e, time = world.vehicles, world.roads, world.events, world.clock.time
-    ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
+    """Changes of the road, lights, triggers, and the ground under the wheels."""
+    v, r, e, c, time = world.vehicles, world.roads, world.events, world.changes, world.clock.time
+    change.turn(world)
+    ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, c.phase, r.near, v.ground)
     traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
     control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
 
 
 def look(world: World) -> None:
     """Drivers find themselves on their path and see who is ahead."""
-    v, r = world.vehicles, world.roads
+    v, r, w = world.vehicles, world.roads, world.worlds
     traffic.orient(
         v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
-        r.stop_link, r.shown, v.drivers, v.mind,
+        r.stop_link, r.shown, w.of, r.weather, v.drivers, v.mind,
     )  # fmt: skip
     traffic.meetings(
-        v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, v.drivers, v.mind
-    )
+        v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, w.of, r.weather, v.drivers,
+        v.mind,
+    )  # fmt: skip
 
 
 def sense(world: World) -> None:

@@ -64,9 +64,20 @@ class Roads:
     phase_end: np.ndarray
     phase_state: np.ndarray
     shown: np.ndarray
-    weather: np.ndarray  # friction [1] per world
-    pieces: np.ndarray  # of patches, [row, piece]
+    weather: np.ndarray  # [row, world]
+    pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
+
+
+@dataclass
+class Changes:
+    """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
+
+    moments: np.ndarray  # [row, change] of all beginnings, then of all ends
+    phase: np.ndarray  # int64[change]: BEFORE, ACTING, OVER
+    turned: np.ndarray  # [s] float64[2, change]: when it began and ended, not a number before
+    limits: list[tuple[int, np.ndarray, np.ndarray]]  # change, columns of points, speed there
+    free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
 
 
 @dataclass
@@ -114,6 +125,7 @@ class World:
     roads: Roads
     units: Units
     events: Events
+    changes: Changes
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
@@ -134,9 +146,9 @@ class World:
 
     def moving_parts(self) -> list[np.ndarray]:
         """The arrays that change during a run."""
-        v, u, e = self.vehicles, self.units, self.events
+        v, u, e, c = self.vehicles, self.units, self.events, self.changes
         memories = [hosted.memory for hosted in self.hosted]
-        return [v.state, v.wheels, v.mind, v.script, v.commands, u.sensors, u.sent, u.inbox, e.fired, e.hits, *memories]
+        return [v.state, v.wheels, v.mind, v.script, v.commands, u.sensors, u.sent, u.inbox, e.fired, e.hits, c.phase, c.turned, *memories]
 
     def digest(self) -> str:
         """SHA-256 of the moving parts and the clock."""
