@@ -152,10 +152,10 @@ class Simulation:
 
     def report_hits(self) -> None:
         """Collisions."""
-        hits, names = self.world.events.hits_of(0), self.setting.names
+        hits = self.world.events.hits_of(0)
         for i in range(hits.shape[1]):
             if self.is_new("hit", str(i)):
-                first, second = (names[int(hits[row, i])] for row in (HIT_FIRST, HIT_SECOND))
+                first, second = (self.world.name_of(int(hits[row, i])) for row in (HIT_FIRST, HIT_SECOND))
                 text = f"collision of {first} and {second} at {hits[HIT_SPEED, i]:.1f} m/s"
                 self.happen(float(hits[HIT_TIME, i]), text, first)
 

@@ -15,6 +15,7 @@ from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
+MOST_OBJECTS = 500  # of one change
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
 
@@ -210,12 +211,28 @@ class Friction(Stretch):
     side: Literal["both", "left", "right"] = Field("both", title="Side", description="of the line of route or lane")
 
 
+class Objects(Stretch):
+    """Puts a row of objects along a stretch; drivers brake for what stands in their way."""
+
+    change: Literal["objects"] = "objects"
+    kind: Literal["cones", "barriers"] = Field("cones", title="Kind", description="a radar sees barriers, and no cones")
+    spacing: float = number(5.0, unit="m", title="Spacing", ge=0.5, le=100)
+    offset: float = number(0.0, unit="m", title="Offset", description="to the left of the line of route or lane", ge=-20, le=20)
+
+    @model_validator(mode="after")
+    def few_enough(self):
+        count = int((self.end - self.start) / self.spacing) + 1
+        if count > MOST_OBJECTS:
+            raise ValueError(f"these are {count} objects, more than {MOST_OBJECTS}: give them a wider spacing")
+        return self
+
+
 class Change(Part):
     """Something about the road that begins, and may end, during a run."""
 
     start: Moment = Field(Moment(time=0), title="Begins")
     end: Moment = Field(Moment(time=LONGEST), title="Ends", description="the longest run's end: never")
-    do: Limit | Friction = Field(..., discriminator="change", title="Change")
+    do: Limit | Friction | Objects = Field(..., discriminator="change", title="Change")
 
     @model_validator(mode="after")
     def ends_after_its_start(self):

@@ -43,8 +43,14 @@ def light(server: viser.ViserServer) -> None:
     scene.add_light_directional(
         "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
     )
-    scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
+    haze(server, HAZE_FAR)
     scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
+
+
+def haze(server: viser.ViserServer, visibility: float) -> None:
+    """Everything fades into the haze; in fog it is gone where one sees no farther [m]."""
+    far = min(visibility, HAZE_FAR)
+    server.scene.configure_fog(HAZE_NEAR * far / HAZE_FAR, far, color=linear8(HAZE))
 
 
 def on_level_ground(colour: str) -> np.ndarray:

@@ -10,6 +10,7 @@ from studio.errors import Problem, ServerError, StudioError, UnknownError, neare
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road.network import ATTRIBUTION
+from studio.server.frame import Frame
 from studio.server.live import Lives, LiveRun
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
@@ -37,9 +38,9 @@ class Desk:
             self._stage = self._stage or Stage()
             return self._stage
 
-    def on_frame(self, live: LiveRun, poses, lights) -> None:
+    def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """Frames go to the stage."""
-        self.stage.on_frame(live, poses, lights)
+        self.stage.on_frame(live, frame)
 
     def files(self) -> dict[str, Path]:
         """Scenario files by id."""

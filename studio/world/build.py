@@ -16,6 +16,7 @@ from studio.world import ground
 from studio.world.change import Laid, changes_of
 from studio.world.control import wheel_torque
 from studio.world.fleet import Start, fleet
+from studio.world.obstacle import obstacles_of
 from studio.world.setting import Car, Setting, pose
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
@@ -38,6 +39,7 @@ def build(settings: Sequence[Setting]) -> World:
         units=units_of(settings, worlds, cars),
         events=events_of(settings, worlds),
         changes=changes_of(settings, worlds, roads.points, paths),
+        obstacles=obstacles_of(settings, [(w, car.path) for w, car in zip(worlds.of, cars, strict=True)]),
         hosted=hosts(settings, worlds),
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),

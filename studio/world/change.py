@@ -13,6 +13,7 @@ from studio.compiled import compiled
 from studio.road.detour import limited
 from studio.road.path import PATH_SPEED, Path, project
 from studio.scenario.schema import Limit
+from studio.world import obstacle
 from studio.world.setting import Setting
 from studio.world.site import Site
 from studio.world.state import *  # noqa: F403 - the names of the rows
@@ -50,6 +51,7 @@ def turn(world: World) -> None:
         world.clock.time, c.moments, v.state, r.points, r.path_first, r.path_count, v.mind, c.phase, c.turned
     ):
         post_limits(c, r.points)
+        obstacle.put_up(world.obstacles.table, c.phase, world.obstacles.standing)
 
 
 def post_limits(changes: Changes, points: np.ndarray) -> None:

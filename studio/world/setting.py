@@ -22,7 +22,7 @@ from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Driver, FrontSensor, Place, Scenario
 from studio.world.channel import BY_NAME
 from studio.world.fleet import check_step
-from studio.world.site import Site, joins, problems, sites
+from studio.world.site import Site, joins, place_problems, sites
 from studio.world.state import RING
 
 CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
@@ -65,7 +65,7 @@ class Setting:
 def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
-    check_names(scenario, network, where)
+    refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
     models = models_of(scenario, folder, where)
     paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
@@ -117,8 +117,19 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
     return road.load(file, radius=scenario.map.radius)
 
 
-def check_names(scenario: Scenario, network: Network, where: str) -> None:
-    """Every vehicle, route, model, road and sender that is named must exist; all problems at once."""
+def check_names(scenario: Scenario, where: str) -> None:
+    """All that can be checked without the map; raises ScenarioError."""
+    refuse(name_problems(scenario, where), where)
+
+
+def refuse(found: list[Problem], where: str) -> None:
+    """Raises ScenarioError with all problems, if there is one."""
+    if found:
+        raise ScenarioError(f"{where} is not a valid scenario.", found)
+
+
+def name_problems(scenario: Scenario, where: str) -> list[Problem]:
+    """Every vehicle, route, model and sender that is named must exist."""
     vehicles, known_models, found = set(scenario.vehicles), set(catalogue.vehicle_names()), []
 
     def check(path: str, name: str, known, kind: str) -> None:
@@ -139,9 +150,13 @@ def check_names(scenario: Scenario, network: Network, where: str) -> None:
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
     for i, name in enumerate(scenario.recording.channels):
         check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
-    found += problems(scenario, network, where) + reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
-    if found:
-        raise ScenarioError(f"{where} is not a valid scenario.", found)
+    for name, change in scenario.changes.items():
+        if change.do.route is not None:
+            check(f"changes.{name}.do.route", change.do.route, set(scenario.routes), "route of this scenario")
+        for field, moment in (("start", change.start), ("end", change.end)):
+            if moment.vehicle is not None:
+                check(f"changes.{name}.{field}.vehicle", moment.vehicle, vehicles, "vehicle of this scenario")
+    return found + reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
 
 
 def reserved(scenario: Scenario, where: str) -> list[Problem]:

@@ -1,7 +1,7 @@
 """Where the changes of a scenario lie: each stretch as a line on the map, each moment as a time or a place.
 
-    problems(scenario, network, where)   what is wrong with them, all of it
-    sites(scenario, network)             →  Site, one for each change, in the order of the file
+    place_problems(scenario, network, where)   what is wrong with their places, all of it
+    sites(scenario, network)                   →  Site, one for each change, in the order of the file
 """
 
 from collections.abc import Iterator
@@ -21,6 +21,7 @@ from studio.scenario.schema import Change, Moment, Scenario
 WORDS = {
     "limit": "limit {0.speed:g} m/s",
     "friction": "friction {0.friction:g}",
+    "objects": "{0.kind} on the road",
 }
 
 
@@ -50,7 +51,7 @@ class Site:
 
 
 def sites(scenario: Scenario, network: Network) -> tuple[Site, ...]:
-    """Every change in its place; the scenario has no `problems`."""
+    """Every change in its place; the scenario has none of its `place_problems`."""
     return tuple(
         Site(name, each, line_of(each.do, scenario, network), *(occasion(m, scenario, network) for m in (each.start, each.end)))
         for name, each in scenario.changes.items()
@@ -88,8 +89,8 @@ def joins(start: str, roads: list[str], network: Network) -> float:
 # -- what may be wrong ---------------------------------------------------------------------------------
 
 
-def problems(scenario: Scenario, network: Network, where: str) -> list[Problem]:
-    """Routes, roads, lanes and vehicles that do not exist, stretches and moments beyond what they lie on."""
+def place_problems(scenario: Scenario, network: Network, where: str) -> list[Problem]:
+    """Roads and lanes that do not exist, stretches and moments beyond what they lie on."""
     found = []
     for name, each in scenario.changes.items():
         at = f"{where}: changes.{name}"
@@ -103,8 +104,6 @@ def stretch_problems(do, scenario: Scenario, network: Network, at: str) -> Itera
     """A stretch must lie on a route of the scenario or a lane of the map."""
     if do.road is not None:
         yield from lane_problems(do, network, at)
-    elif do.route not in scenario.routes:
-        yield unknown(f"{at}.route", "route of this scenario", do.route, scenario.routes)
     elif (length := route_length(do.route, scenario, network)) < do.end:
         yield Problem(f"{at}.end", "lies beyond the end of its route", f"{do.end} m", f"≤ {length:.0f} m")
 
@@ -113,7 +112,7 @@ def lane_problems(do, network: Network, at: str) -> Iterator[Problem]:
     """Road, lane, and the length of it."""
     roads = {road.id for road in network.roads.values() if not road.internal}
     if do.road not in roads:
-        yield unknown(f"{at}.road", "road of this map", do.road, roads)
+        yield Problem(f"{at}.road", "names no road of this map", repr(do.road), remedy=nearest(do.road, roads))
         return
     lanes = network.lanes_of(do.road)
     if do.lane >= len(lanes):
@@ -125,26 +124,17 @@ def lane_problems(do, network: Network, at: str) -> Iterator[Problem]:
 
 
 def moment_problems(moment: Moment, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
-    """The vehicle must exist and come by."""
-    if moment.vehicle is None:
-        return
+    """The vehicle must come by."""
     if moment.vehicle not in scenario.vehicles:
-        yield unknown(f"{at}.vehicle", "vehicle of this scenario", moment.vehicle, scenario.vehicles)
         return
-    route = scenario.vehicles[moment.vehicle].route
-    length = route_length(route, scenario, network) if route in scenario.routes else inf
+    length = route_length(scenario.vehicles[moment.vehicle].route, scenario, network)
     if moment.along > length:
         yield Problem(f"{at}.along", f"lies beyond the end of the route of {moment.vehicle!r}", f"{moment.along} m", f"≤ {length:.0f} m")
 
 
 def route_length(route: str, scenario: Scenario, network: Network) -> float:
-    """Length of a route [m]; without an end when it does not connect, which is told elsewhere."""
+    """Length of a route [m]; without an end when there is no such route or it does not connect, which is told elsewhere."""
     try:
         return road_path.path(network, connect(network, scenario.routes[route].roads)).length
-    except RouteError:
+    except (KeyError, RouteError):
         return inf
-
-
-def unknown(at: str, kind: str, name: str, known) -> Problem:
-    """A name that nothing has."""
-    return Problem(at, f"names no {kind}", repr(name), remedy=nearest(name, known))

@@ -45,8 +45,8 @@ def environment(world: World) -> None:
 
 
 def look(world: World) -> None:
-    """Drivers find themselves on their path and see who is ahead."""
-    v, r, w = world.vehicles, world.roads, world.worlds
+    """Drivers find themselves on their path and see who, or what, is ahead."""
+    v, r, w, o = world.vehicles, world.roads, world.worlds, world.obstacles
     traffic.orient(
         v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
         r.stop_link, r.shown, w.of, r.weather, v.drivers, v.mind,
@@ -55,14 +55,19 @@ def look(world: World) -> None:
         v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, w.of, r.weather, v.drivers,
         v.mind,
     )  # fmt: skip
+    if o.standing.size:
+        traffic.obstacles(
+            v.state, v.parameter, w.of, r.weather, o.sweep, o.sweep_first, o.sweep_count, o.standing, v.drivers, v.mind
+        )
 
 
 def sense(world: World) -> None:
     """Sensors measure."""
-    v, u, w = world.vehicles, world.units, world.worlds
+    v, u, w, o = world.vehicles, world.units, world.worlds, world.obstacles
     perception.sense(
-        world.clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, w.seed, u.sensors
-    )
+        world.clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, o.table, o.first, o.count,
+        o.standing, w.seed, u.sensors,
+    )  # fmt: skip
 
 
 def communicate(world: World) -> None:
@@ -108,9 +113,11 @@ def move(world: World) -> None:
 
 def collide(world: World) -> None:
     """Contacts are found at the end of the tick."""
-    v, w, e = world.vehicles, world.worlds, world.events
+    v, w, e, o = world.vehicles, world.worlds, world.events, world.obstacles
     time = world.clock.time + world.clock.tick
     collision.collide(time, v.state, v.parameter, w.first, w.count, e.hits, e.found)
+    if o.standing.size:
+        collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
 
 
 def recirculate(world: World) -> None:

@@ -1,4 +1,4 @@
-"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Five passes.
+"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Six passes.
 
 Two paths that run within a lane's width of each other share a zone: a stretch of one belongs to a stretch of the other.
 Following on one lane, merging and crossing are then one and the same: a car that is in the zone, or will be there
@@ -29,6 +29,7 @@ SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only whe
 HORIZON = 60.0  # [m] how far before a merge drivers mind each other
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
+ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
@@ -200,6 +201,33 @@ def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_s
 
 
 @compiled
+def obstacles(state, parameter, world_of, weather, sweep, sweep_first, sweep_count, standing, drivers, mind):
+    """Fourth pass: the first object in sight that stands in the strip which the own body will sweep."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] == 0.0:
+            continue
+        bumper, reach = mind[STATION, v] + parameter[FRONT, v], 0.5 * parameter[WIDTH, v] + ELBOW_ROOM
+        for i in range(sweep_first[v], sweep_first[v] + sweep_count[v]):
+            gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
+            if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
+                if gap <= weather[VISIBILITY, world_of[v]]:
+                    stand_before(v, number, gap, state, drivers, mind)
+                break
+
+
+@compiled
+def stand_before(v, number, gap, state, drivers, mind):
+    """Object `number` is followed as a car that stands."""
+    wish = driver.following_acceleration(
+        state[V_X, v], mind[V_DESIRED, v], gap, state[V_X, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
+        drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
+    )  # fmt: skip
+    mind[FOLLOWING, v] = min(mind[FOLLOWING, v], wish)
+    if not gap >= mind[GAP, v]:
+        mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, 0.0
+
+
+@compiled
 def stop_wish(v, state, parameter, drivers, mind):
     """Acceleration [m/s²] that the next light permits."""
     distance = mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
@@ -225,7 +253,7 @@ def steer_wish(v, state, parameter, drivers, mind):
 
 @compiled
 def decide(state, parameter, drivers, mind):
-    """Fourth pass: what every driver wants of pedals and wheel."""
+    """Fifth pass: what every driver wants of pedals and wheel."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
             continue
@@ -249,7 +277,7 @@ def is_free(x, y, first, count, state):
 
 @compiled
 def recirculate(returns, points, path_first, world_of, first, count, state, wheels, ground, parameter, gears, mind):
-    """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
+    """Sixth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:
             continue

@@ -7,6 +7,7 @@ import numpy as np
 
 from studio.application.host import Hosted
 from studio.world.fleet import Fleet
+from studio.world.state import OBJECT
 
 
 @dataclass
@@ -81,6 +82,20 @@ class Changes:
 
 
 @dataclass
+class Obstacles:
+    """Objects on the road, world after world, and for every vehicle those that it may run into on its path."""
+
+    table: np.ndarray  # [row, object]
+    first: np.ndarray  # per world
+    count: np.ndarray
+    standing: np.ndarray  # int64[object], 1 while it stands there
+    sweep: np.ndarray  # [row, object on a path]
+    sweep_first: np.ndarray  # per vehicle
+    sweep_count: np.ndarray
+    names: tuple[str, ...]
+
+
+@dataclass
 class Units:
     """Sensors and radio: what is set, what was sent, what has been received."""
 
@@ -126,6 +141,7 @@ class World:
     units: Units
     events: Events
     changes: Changes
+    obstacles: Obstacles
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
@@ -139,6 +155,12 @@ class World:
         """Column of a vehicle; raises ValueError."""
         return int(self.worlds.first[world]) + self.names[world].index(name)
 
+    def name_of(self, number: int, world: int = 0) -> str:
+        """Name of the vehicle in a column, or of an object, OBJECT - i."""
+        if number <= OBJECT:
+            return self.obstacles.names[OBJECT - number]
+        return self.names[world][number - int(self.worlds.first[world])]
+
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""
         first = int(self.worlds.first[world])
@@ -146,9 +168,10 @@ class World:
 
     def moving_parts(self) -> list[np.ndarray]:
         """The arrays that change during a run."""
-        v, u, e, c = self.vehicles, self.units, self.events, self.changes
-        memories = [hosted.memory for hosted in self.hosted]
-        return [v.state, v.wheels, v.mind, v.script, v.commands, u.sensors, u.sent, u.inbox, e.fired, e.hits, c.phase, c.turned, *memories]
+        v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
+        units = [u.sensors, u.sent, u.inbox]
+        happened = [e.fired, e.hits, c.phase, c.turned, o.standing]
+        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(hosted.memory for hosted in self.hosted)]
 
     def digest(self) -> str:
         """SHA-256 of the moving parts and the clock."""

@@ -16,8 +16,8 @@ from studio.model.driver import FOG_SPEED, REACTION, sight_speed
 from studio.road.path import PATH_SPEED
 from studio.world.build import build
 from studio.world.setting import setting
-from studio.world.state import A_X, GAP, MU, RED_STATION, STATION, V_DESIRED, V_X
-from studio.world.tick import look, tick
+from studio.world.state import DETECTED, FRONT, GAP, MU, RANGE, RANGE_RATE, RED_STATION, STATION, TARGET, V_DESIRED, V_X
+from studio.world.tick import tick
 
 SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
 
@@ -242,7 +242,7 @@ def test_all_that_is_wrong_is_told_at_once(sample):
     with pytest.raises(ScenarioError) as caught:
         scenario(sample, changes)
     told = {problem.where.removeprefix("changing: "): problem for problem in caught.value.problems}
-    assert list(told) == [
+    assert sorted(told) == [
         "changes.a.do.route", "changes.b.do.road", "changes.c.do.lane", "changes.d.do.end", "changes.e.do.end",
         "changes.f.start.vehicle", "changes.g.end.along",
     ]  # fmt: skip
@@ -272,3 +272,92 @@ def test_bad_changes_are_named(sample, change, field, word):
     (problem,) = caught.value.problems
     assert problem.where == f"changing: {field}"
     assert word in str(problem)
+
+
+# -- objects -------------------------------------------------------------------------------------------
+
+WALL = {"change": "objects", "route": "east_to_west", "start": 450, "end": 451, "kind": "barriers", "spacing": 5}
+
+
+def wall(at=450.0, **other):
+    """One row of objects across nothing: a single one in the middle of the lane."""
+    return {"wall": {"do": WALL | {"start": at, "end": at + 1.0} | other}}
+
+
+@pytest.mark.parametrize("kind", ["cones", "barriers"])
+def test_a_driver_stops_before_what_stands_in_the_way(sample, kind):
+    """At the gap that he wants at rest, comfortably; the gap is recorded as that to a car."""
+    run = simulation(scenario(sample, wall(kind=kind), clock={"duration": 20}))
+    as_fast_as_possible(run)
+    half = {"cones": 0.15, "barriers": 0.75}[kind]
+    bumper = run.record().channel("station")[0] + run.world.vehicles.parameter[FRONT, 0]
+    assert bumper[-1] == pytest.approx(450.0 - half - 2.0, abs=0.3)
+    assert run.record().channel("gap")[0] == pytest.approx(450.0 - half - bumper, abs=1e-6)
+    assert run.record().channel("acceleration")[0].min() > -3.0
+    assert run.world.events.hits_found == 0
+
+
+def test_what_stands_aside_is_passed(sample):
+    """A row of barriers that leaves half a metre beside the car slows nobody down."""
+    aside = {"start": 420, "end": 480, "offset": 0.9 + 0.125 + 0.5}
+    plain, passed = (drive(scenario(sample, each), 10) for each in ({}, {"row": {"do": WALL | aside}}))
+    assert (plain[1] == passed[1]).all() and passed[2].events.hits_found == 0
+
+
+def test_a_collision_with_an_object_is_told_by_its_name(sample):
+    """Nobody can stop before a barrier that appears 5 m ahead at 13 m/s, but before the next one, 20 m farther on."""
+    changes = wall(at=450.0)
+    changes["wall"]["start"] = {"vehicle": "leader", "along": 443}
+    changes["wall"]["do"] |= {"end": 470, "spacing": 20}
+    run = simulation(scenario(sample, changes, clock={"duration": 12}))
+    as_fast_as_possible(run)
+    hits = [each for each in run.happenings if each.text.startswith("collision")]
+    assert [each.text.partition(" at ")[0] for each in hits] == ["collision of leader and barrier_1 of wall"]
+    assert 8.0 < float(hits[0].text.split()[-2]) < 13.0
+    contact = run.record().channel("station")[0][np.searchsorted(run.record().time, hits[0].time)] + run.world.vehicles.parameter[FRONT, 0]
+    assert 450.0 - 0.75 - 0.3 < contact < 450.0 - 0.75 + 0.6
+
+
+def test_the_radar_sees_a_barrier_at_rest_and_no_cone(sample):
+    for kind, seen in (("barriers", True), ("cones", False)):
+        world = run_for([scenario(sample, wall(kind=kind))], 0.5)
+        sensors, state = world.units.sensors[:, 0], world.vehicles.state[:, 0]
+        assert sensors[DETECTED] == seen
+        if seen:
+            assert sensors[RANGE] == pytest.approx(450.0 - 0.75 - world.vehicles.mind[STATION, 0] - world.vehicles.parameter[FRONT, 0], abs=0.6)
+            assert sensors[RANGE_RATE] == pytest.approx(-state[V_X], abs=0.3)
+            assert world.name_of(int(sensors[TARGET])) == "barrier_1 of wall"
+
+
+def test_objects_come_and_go(sample):
+    changes = wall(at=600.0)
+    changes["wall"] |= {"start": {"time": 0.2}, "end": {"time": 0.4}}
+    made = build([scenario(sample, changes)])
+    stand = []
+    for _ in range(30):
+        tick(made)
+        stand.append(int(made.obstacles.standing.sum()))
+    assert stand == [0] * 10 + [1] * 10 + [0] * 10
+
+
+def test_objects_are_not_seen_through_fog(sample):
+    """A driver who sees 30 m takes a barrier for nothing at 60 m, and stops before it all the same."""
+    each = scenario(sample, wall(at=430.0), weather={"visibility": 30.0})
+    assert np.isnan(run_for([each], 0.5).vehicles.mind[GAP, 0])
+    station, speed, world = drive(each, 25)
+    assert speed[-1] < 0.05 and world.events.hits_found == 0
+
+
+def test_objects_of_one_world_do_not_stand_in_another(sample):
+    plain, walled = scenario(sample, {}), scenario(sample, wall())
+    alone = [run_for([each], 12).world_digest(0) for each in (plain, walled)]
+    assert alone[0] != alone[1]
+    for order in ([0, 1, 1], [1, 0, 0]):
+        together = run_for([(plain, walled)[i] for i in order], 12)
+        assert [together.world_digest(w) for w in range(3)] == [alone[i] for i in order]
+
+
+def test_too_many_objects_are_refused(sample):
+    with pytest.raises(ScenarioError) as caught:
+        scenario(sample, {"x": {"do": WALL | {"start": 0, "end": 900, "spacing": 0.5}}})
+    assert "1801 objects" in str(caught.value)
