@@ -211,6 +211,33 @@ class Friction(Stretch):
     side: Literal["both", "left", "right"] = Field("both", title="Side", description="of the line of route or lane")
 
 
+class LaneWork(Part):
+    """Something about one lane of a road, with a taper before it and behind it on which cars go over."""
+
+    road: str = Field(..., max_length=100, title="Road")
+    lane: int = Field(0, ge=0, le=9, title="Lane", description="of the road; 0 is the lane at the kerb")
+    start: float = number(..., unit="m", title="From station", description="of the road", ge=0)
+    end: float = number(..., unit="m", title="To station", gt=0)
+    taper: float = number(30.0, unit="m", title="Taper", description="before the start and behind the end", ge=10, le=200)
+
+    @model_validator(mode="after")
+    def is_a_stretch(self):
+        return ordered(self)
+
+
+class CloseLane(LaneWork):
+    """Closes a lane with cones and barriers; cars are led onto the nearest open lane, and stop where there is none."""
+
+    change: Literal["close_lane"] = "close_lane"
+
+
+class ShiftLane(LaneWork):
+    """Moves the line of a lane sideways."""
+
+    change: Literal["shift_lane"] = "shift_lane"
+    offset: float = number(..., unit="m", title="Offset", description="to the left", ge=-5, le=5)
+
+
 class Objects(Stretch):
     """Puts a row of objects along a stretch; drivers brake for what stands in their way."""
 
@@ -232,7 +259,7 @@ class Change(Part):
 
     start: Moment = Field(Moment(time=0), title="Begins")
     end: Moment = Field(Moment(time=LONGEST), title="Ends", description="the longest run's end: never")
-    do: Limit | Friction | Objects = Field(..., discriminator="change", title="Change")
+    do: CloseLane | ShiftLane | Limit | Friction | Objects = Field(..., discriminator="change", title="Change")
 
     @model_validator(mode="after")
     def ends_after_its_start(self):

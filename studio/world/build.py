@@ -10,12 +10,12 @@ import numpy as np
 from studio.application import registry
 from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
-from studio.road import conflict
 from studio.scenario.schema import Friction
 from studio.world import ground
-from studio.world.change import Laid, changes_of
+from studio.world.change import changes_of
 from studio.world.control import wheel_torque
 from studio.world.fleet import Start, fleet
+from studio.world.line import Lines, Zones, detours_of, lines_of, starts, stops_of, table_of, zones
 from studio.world.obstacle import obstacles_of
 from studio.world.setting import Car, Setting, pose
 from studio.world.state import *  # noqa: F403 - the names of the rows
@@ -30,7 +30,13 @@ def build(settings: Sequence[Setting]) -> World:
     cars = [car for each in settings for car in each.cars]
     worlds = worlds_of(settings)
     vehicles = vehicles_of(cars)
-    roads, paths = roads_of(settings, worlds)
+    lines = lines_of(settings)
+    stops = stops_of(lines, starts(np.array([len(each.network.signals) for each in settings])))
+    obstacles = obstacles_of(settings, lines)
+    table = table_of(lines, stops[0], obstacles.counts)
+    known: Zones = {}
+    pair, span = zones(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
+    roads = roads_of(settings, lines, table, stops, pair, span)
     world = World(
         clock=Clock(clock.tick, clock.step),
         vehicles=vehicles,
@@ -38,8 +44,9 @@ def build(settings: Sequence[Setting]) -> World:
         roads=roads,
         units=units_of(settings, worlds, cars),
         events=events_of(settings, worlds),
-        changes=changes_of(settings, worlds, roads.points, paths),
-        obstacles=obstacles_of(settings, [(w, car.path) for w, car in zip(worlds.of, cars, strict=True)]),
+        changes=changes_of(settings, worlds, lines),
+        detours=detours_of(settings, worlds, lines, table, known),
+        obstacles=obstacles,
         hosted=hosts(settings, worlds),
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
@@ -76,43 +83,22 @@ def vehicles_of(cars: list[Car]) -> Vehicles:
     )
 
 
-def roads_of(settings: Sequence[Setting], worlds: Worlds) -> tuple[Roads, list[Laid]]:
-    """Paths, stop lines, zones and signals; and which path has which points.
-
-    Cars that share a path share its points, within a world whose roads change, else within the batch.
-    """
-    first_of, paths, start = {}, [], 0
-    for w, each in enumerate(settings):
-        for car in each.cars:
-            key = (w if each.sites else -1, id(car.path))
-            if key not in first_of:
-                first_of[key] = start
-                paths.append(Laid(w, car.path, start))
-                start += car.path.points.shape[1]
-    points = np.concatenate([laid.path.points for laid in paths], axis=1)
-    cars = [car for each in settings for car in each.cars]
-    keys = [(w if settings[w].sites else -1, id(car.path)) for w, car in zip(worlds.of, cars, strict=True)]
-    path_first = np.array([first_of[key] for key in keys])
-    path_count = np.array([car.path.points.shape[1] for car in cars])
-    link_base = np.concatenate([[0], np.cumsum([len(each.network.signals) for each in settings])[:-1]])
-    stops = [[(s, link + link_base[w]) for s, link in car.path.stop_lines] for w, car in zip(worlds.of, cars, strict=True)]
-    counts = np.array([len(each) for each in stops])
-    flat = np.array([stop for each in stops for stop in each]).reshape(-1, 2)
-    pair, span = zones_of(settings, worlds, points, path_first, path_count)
-    roads = Roads(
-        points=points,
-        path_first=path_first,
-        path_count=path_count,
-        stop_first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
-        stop_count=counts,
-        stop_station=flat[:, 0].copy(),
-        stop_link=flat[:, 1].astype(np.int64),
-        zone_pair=pair,
-        zone_span=span,
+def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, zone_pair, zone_span) -> Roads:
+    """Points, the line that every vehicle is on, stop lines, zones, signals and surface."""
+    _, stop_station, stop_link = stops
+    return Roads(
+        points=lines.points,
+        path_first=table[LINE_FIRST, lines.base],
+        path_count=table[LINE_COUNT, lines.base],
+        stop_first=table[LINE_STOP, lines.base],
+        stop_count=table[LINE_STOPS, lines.base],
+        stop_station=stop_station,
+        stop_link=stop_link,
+        zone_pair=zone_pair,
+        zone_span=zone_span,
         **signals_of(settings),
         **surface_of(settings),
     )
-    return roads, paths
 
 
 def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
@@ -128,24 +114,6 @@ def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
         "pieces": np.concatenate([np.zeros((len(PIECE), 0)), *found], axis=1),
         "near": np.zeros(ground.MOST_NEAR, dtype=np.int64),
     }
-
-
-def zones_of(settings: Sequence[Setting], worlds: Worlds, points, path_first, path_count):
-    """Zones of every ordered pair of cars of one world; a pair of paths is looked at once."""
-    known: dict[tuple[int, int], np.ndarray] = {}
-    pairs, spans = [], []
-    for first, count in zip(worlds.first, worlds.count, strict=True):
-        for i in range(first, first + count):
-            for j in range(first, first + count):
-                if i == j:
-                    continue
-                key = (path_first[i], path_first[j])
-                if key not in known:
-                    known[key] = conflict.zones(points, path_first[i], path_count[i], path_first[j], path_count[j])
-                pairs += [(i, j)] * len(known[key])
-                spans.append(known[key])
-    table = np.concatenate(spans) if spans else np.zeros((0, 4))
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T.copy(), table.T.copy()
 
 
 def signals_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:

@@ -10,7 +10,8 @@ import numpy as np
 
 from studio.compiled import compiled
 from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
-from studio.scenario.schema import Objects
+from studio.scenario.schema import CloseLane, Objects
+from studio.world.line import Lines, starts
 from studio.world.setting import Setting
 from studio.world.site import Site
 from studio.world.state import *  # noqa: F403 - the names of the rows
@@ -18,6 +19,8 @@ from studio.world.world import Obstacles
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width
 WORDS = {CONE: "cone", BARRIER: "barrier"}
+CONE_SPACING, ROW_SPACING = 3.0, 6.0  # [m] on a taper, along a closed lane
+CONE_INSET, ROW_INSET = 0.15, 0.35  # [m] from the edge of the ground that is left to the cars
 NEAR = 3.0  # [m] an object farther from a path is in nobody's way
 WIDEST = 1.6  # [m] half of the widest vehicle, with the distance that drivers keep
 
@@ -40,6 +43,24 @@ def things(sites: Sequence[Site]) -> Iterator[Thing]:
             kind = {"cones": CONE, "barriers": BARRIER}[do.kind]
             for station in np.arange(do.start, do.end + 1e-9, do.spacing):
                 yield beside(site.line, station, do.offset, kind, number)
+        elif isinstance(do, CloseLane):
+            yield from fence(site, number)
+
+
+def fence(site: Site, number: int) -> Iterator[Thing]:
+    """What a lane is closed with: cones on the taper, boards across both ends, a row of them along its open sides."""
+    work = site.work
+    for end, inwards in ((work.start, 1.0), (work.end, -1.0)):
+        for aside in (-1.0, 1.0):
+            offset = aside * 0.26 * work.width
+            yield beside(work.line, end + inwards, offset, BARRIER, number, turned=0.5 * np.pi)
+    for side in site.edges:
+        for station in np.arange(work.start + ROW_SPACING, work.end - 0.5 * ROW_SPACING, ROW_SPACING):
+            yield beside(work.line, station, side * (0.5 * work.width - ROW_INSET), BARRIER, number)
+    if work.target is not None and work.side in site.edges:
+        stations = np.arange(work.start - work.taper, work.start, CONE_SPACING)
+        for station, edge in zip(stations, work.edge(stations), strict=True):
+            yield beside(work.line, station, edge - work.side * CONE_INSET, CONE, number)
 
 
 def beside(line: Path, station: float, offset: float, kind: int, change: int, *, turned: float = 0.0) -> Thing:
@@ -49,19 +70,18 @@ def beside(line: Path, station: float, offset: float, kind: int, change: int, *,
     return Thing(kind, x - offset * np.sin(heading), y + offset * np.cos(heading), heading + turned, change)
 
 
-def obstacles_of(settings: Sequence[Setting], paths: Sequence[tuple[int, Path]]) -> Obstacles:
-    """The objects of all worlds, none standing yet; `paths` are the world and the path of every vehicle."""
+def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
+    """The objects of all worlds, none standing yet."""
     found = [list(things(each.sites)) for each in settings]
     counts = np.array([len(each) for each in found])
-    first = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    base = np.concatenate([[0], np.cumsum([len(each.sites) for each in settings])[:-1]])
+    first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
         (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.change)
         for w, some in enumerate(found)
         for each in some
     ]
     table = np.array(rows).reshape(-1, len(OBSTACLE)).T.copy()
-    swept = [sweep(path, table, first[w], counts[w]) for w, path in paths]
+    swept = [sweep(each.path, table, first[each.world], counts[each.world]) for each in lines.laid]
     lengths = np.array([each.shape[1] for each in swept])
     return Obstacles(
         table=table,
@@ -69,8 +89,9 @@ def obstacles_of(settings: Sequence[Setting], paths: Sequence[tuple[int, Path]])
         count=counts,
         standing=np.zeros(table.shape[1], dtype=np.int64),
         sweep=np.concatenate([np.zeros((len(SWEEP), 0)), *swept], axis=1),
-        sweep_first=np.concatenate([[0], np.cumsum(lengths)[:-1]]).astype(np.int64),
-        sweep_count=lengths,
+        counts=lengths,
+        sweep_first=starts(lengths)[lines.base],
+        sweep_count=lengths[lines.base],
         names=tuple(name for each, some in zip(settings, found, strict=True) for name in names(each.sites, some)),
     )
 
@@ -111,7 +132,9 @@ def passed(apart: np.ndarray, heading: float, station: float, row: np.ndarray) -
 
 
 @compiled
-def put_up(table, phase, standing):
-    """Objects stand while their change acts."""
+def put_up(table, phase, held, standing):
+    """Objects stand while their change acts; those of a closed lane are put up once the last car has left it."""
     for i in range(standing.size):
-        standing[i] = 1 if phase[int(table[O_CHANGE, i])] == ACTING else 0
+        change = int(table[O_CHANGE, i])
+        acts = phase[change] == ACTING
+        standing[i] = 1 if acts and (standing[i] == 1 or held[change] == 0) else 0

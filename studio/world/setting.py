@@ -24,6 +24,7 @@ from studio.world.channel import BY_NAME
 from studio.world.fleet import check_step
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.state import RING
+from studio.world.way import MOST_WORKS, Works
 
 CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
 TRIES = 200  # to place one traffic car
@@ -54,7 +55,8 @@ class Setting:
     scenario: Scenario
     network: Network
     cars: tuple[Car, ...]
-    sites: tuple[Site, ...] = ()
+    sites: tuple[Site, ...]
+    works: Works
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -70,8 +72,11 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     check_starts(cars, where)
-    filled = tuple(cars + traffic(scenario, network, models, cars))
-    return Setting(scenario, network, filled, sites(scenario, network))
+    found = sites(scenario, network)
+    works = Works(found)
+    check_works(cars, works, where)
+    filled = tuple(cars + traffic(scenario, network, models, cars, works))
+    return Setting(scenario, network, filled, found, works)
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -151,7 +156,7 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     for i, name in enumerate(scenario.recording.channels):
         check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
     for name, change in scenario.changes.items():
-        if change.do.route is not None:
+        if getattr(change.do, "route", None) is not None:
             check(f"changes.{name}.do.route", change.do.route, set(scenario.routes), "route of this scenario")
         for field, moment in (("start", change.start), ("end", change.end)):
             if moment.vehicle is not None:
@@ -262,17 +267,35 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
     return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour)
 
 
+def check_works(cars: list[Car], works: Works, where: str) -> None:
+    """No path may pass more works than are kept apart, no car start in one that is there from the beginning."""
+    found = []
+    for car in cars:
+        way = works.way(car.path)
+        if len(way.works) > MOST_WORKS:
+            names = ", ".join(works.sites[number].name for number in way.works)
+            what = f"passes {len(way.works)} closed or shifted lanes: {names}"
+            found.append(Problem(f"{where}: vehicles.{car.name}.route", what, allowed=f"at most {MOST_WORKS}"))
+        elif way.is_touched(car.station, CAR_LENGTH, works.first):
+            what = "lies where a lane is closed or shifted from the beginning, or on the taper before it"
+            remedy = "start elsewhere, or let the change begin later"
+            found.append(Problem(f"{where}: vehicles.{car.name}.position", what, f"{car.station} m", remedy=remedy))
+    refuse(found, where)
+
+
 # --- traffic -----------------------------------------------------------------------------------------------------------
 
 
-def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car]) -> list[Car]:
+def traffic(
+    scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works
+) -> list[Car]:
     """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
     wanted = scenario.traffic
     taken = [position(car.path, car.station) for car in named]
     cars: list[Car] = []
-    ways = through_ways(network) if wanted.count else []
+    ways = [way for way in through_ways(network) if len(works.way(way).works) <= MOST_WORKS] if wanted.count else []
     for i in range(wanted.count):
-        found = free_place(i, scenario, ways, taken)
+        found = free_place(i, scenario, ways, taken, works)
         if found is None:
             raise ScenarioError(
                 "The traffic does not fit on the map.",
@@ -322,7 +345,7 @@ def check_starts(cars: list[Car], where: str) -> None:
                 raise ScenarioError(f"{where} is not a valid scenario.", [Problem(field, what, remedy=remedy)])
 
 
-def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path, float] | None:
+def free_place(i: int, scenario: Scenario, ways, taken, works: Works) -> tuple[road_path.Path, float] | None:
     """A way and a station for traffic car i that keeps the spacing to all that is placed."""
     usable = [way for way in ways if way.length > 2 * END_CLEARANCE]
     if not usable:
@@ -332,6 +355,7 @@ def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path,
         station = uniform(scenario.seed, i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
-        if not near_light and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+        in_works = works.way(way).is_touched(station, CAR_LENGTH, works.first)
+        if not near_light and not in_works and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
             return way, station
     return None

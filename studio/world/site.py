@@ -12,15 +12,17 @@ import numpy as np
 
 from studio.errors import Problem, RouteError, nearest
 from studio.road import path as road_path
-from studio.road.detour import lane_line
-from studio.road.network import Network
-from studio.road.path import Path
+from studio.road.detour import STEEPEST, Work, lane_line
+from studio.road.network import Lane, Network
+from studio.road.path import SHARPEST, Path
 from studio.road.route import connect
-from studio.scenario.schema import Change, Moment, Scenario
+from studio.scenario.schema import Change, CloseLane, LaneWork, Moment, Scenario, ShiftLane
 
 WORDS = {
     "limit": "limit {0.speed:g} m/s",
     "friction": "friction {0.friction:g}",
+    "close_lane": "lane {0.lane} of {0.road} closed",
+    "shift_lane": "lane {0.lane} of {0.road} shifted by {0.offset:g} m",
     "objects": "{0.kind} on the road",
 }
 
@@ -36,13 +38,18 @@ class Occasion:
 
 @dataclass(frozen=True, eq=False)
 class Site:
-    """One change in its place: `line` is what its stations count along."""
+    """One change in its place: `line` is what its stations count along, `work` what a lane's closing or shift means there.
+
+    `edges` are the sides of a closed lane (1 left, -1 right) on which another lane stays open beside it.
+    """
 
     name: str
     change: Change
     line: Path
     begins: Occasion
     ends: Occasion
+    work: Work | None = None
+    edges: tuple[int, ...] = ()
 
     @property
     def text(self) -> str:
@@ -52,10 +59,48 @@ class Site:
 
 def sites(scenario: Scenario, network: Network) -> tuple[Site, ...]:
     """Every change in its place; the scenario has none of its `place_problems`."""
-    return tuple(
-        Site(name, each, line_of(each.do, scenario, network), *(occasion(m, scenario, network) for m in (each.start, each.end)))
-        for name, each in scenario.changes.items()
-    )
+    return tuple(site(name, each, scenario, network) for name, each in scenario.changes.items())
+
+
+def site(name: str, each: Change, scenario: Scenario, network: Network) -> Site:
+    """One of them."""
+    begins, ends = (occasion(moment, scenario, network) for moment in (each.start, each.end))
+    if not isinstance(each.do, LaneWork):
+        return Site(name, each, line_of(each.do, scenario, network), begins, ends)
+    lane = network.lanes_of(each.do.road)[each.do.lane]
+    line = lane_line(network, lane)
+    if isinstance(each.do, ShiftLane):
+        return Site(name, each, line, begins, ends, Work(line, each.do.start, each.do.end, each.do.taper, lane.width, offset=each.do.offset))
+    target = open_lane(each.do, scenario, network)
+    work = Work(line, each.do.start, each.do.end, each.do.taper, lane.width)
+    if target is not None:
+        side = network.middle * np.sign(target.index - lane.index)
+        work = Work(line, each.do.start, each.do.end, each.do.taper, lane.width, lane_line(network, target), side)
+    return Site(name, each, line, begins, ends, work, open_sides(each.do, scenario, network))
+
+
+def open_lane(do: CloseLane, scenario: Scenario, network: Network) -> Lane | None:
+    """The lane that a closed one leads onto: the nearest that is open, of two the one towards the middle of the road."""
+    closed = {other.lane for other in closings(scenario) if overlap(do, other)}
+    usable = [lane for lane in network.lanes_of(do.road) if lane.open and lane.index not in closed]
+    return min(usable, key=lambda lane: (abs(lane.index - do.lane), -lane.index), default=None)
+
+
+def open_sides(do: CloseLane, scenario: Scenario, network: Network) -> tuple[int, ...]:
+    """The sides of a closed lane on which the next lane is not closed as well."""
+    closed = {other.lane for other in closings(scenario) if overlap(do, other)}
+    beside = [step for step in (1, -1) if 0 <= do.lane + step < len(network.lanes_of(do.road)) and do.lane + step not in closed]
+    return tuple(int(network.middle) * step for step in beside)
+
+
+def closings(scenario: Scenario) -> list[CloseLane]:
+    """All closings of a scenario."""
+    return [each.do for each in scenario.changes.values() if isinstance(each.do, CloseLane)]
+
+
+def overlap(one: LaneWork, other: LaneWork) -> bool:
+    """Whether two works share some of the road with their tapers."""
+    return one.road == other.road and one.start - one.taper < other.end + other.taper and other.start - other.taper < one.end + one.taper
 
 
 def line_of(do, scenario: Scenario, network: Network) -> Path:
@@ -94,15 +139,18 @@ def place_problems(scenario: Scenario, network: Network, where: str) -> list[Pro
     found = []
     for name, each in scenario.changes.items():
         at = f"{where}: changes.{name}"
-        found += stretch_problems(each.do, scenario, network, f"{at}.do")
+        known = list(stretch_problems(each.do, scenario, network, f"{at}.do"))
+        found += known
+        if isinstance(each.do, LaneWork) and not known:
+            found += taper_problems(each.do, scenario, network, f"{at}.do")
         for field, moment in (("start", each.start), ("end", each.end)):
             found += moment_problems(moment, scenario, network, f"{at}.{field}")
-    return found
+    return found + list(overlap_problems(scenario, where))
 
 
 def stretch_problems(do, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
     """A stretch must lie on a route of the scenario or a lane of the map."""
-    if do.road is not None:
+    if isinstance(do, LaneWork) or do.road is not None:
         yield from lane_problems(do, network, at)
     elif (length := route_length(do.route, scenario, network)) < do.end:
         yield Problem(f"{at}.end", "lies beyond the end of its route", f"{do.end} m", f"≤ {length:.0f} m")
@@ -121,6 +169,37 @@ def lane_problems(do, network: Network, at: str) -> Iterator[Problem]:
     length = np.floor(lanes[do.lane].length)
     if do.end > length:
         yield Problem(f"{at}.end", f"lies beyond the end of road {do.road!r}", f"{do.end} m", f"≤ {length:.0f} m")
+
+
+def taper_problems(do: LaneWork, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
+    """The tapers must lie on the road, and be long enough for a car to go over."""
+    lane = network.lanes_of(do.road)[do.lane]
+    room = min(do.start, np.floor(lane.length) - do.end)
+    if do.taper > room:
+        remedy = "close less of the road, or farther from its ends"
+        yield Problem(f"{at}.taper", f"does not fit on road {do.road!r} before the start and behind the end", f"{do.taper} m", f"≤ {room:.0f} m", remedy)
+    target = open_lane(do, scenario, network) if isinstance(do, CloseLane) else None
+    width = abs(do.offset) if isinstance(do, ShiftLane) else lane.width * abs(target.index - lane.index) if target else 0.0
+    shortest = np.ceil(np.sqrt(STEEPEST * width / SHARPEST))
+    if do.taper < shortest:
+        yield Problem(f"{at}.taper", f"is too short to go over by {width:g} m", f"{do.taper} m", f"≥ {shortest:.0f} m")
+
+
+def overlap_problems(scenario: Scenario, where: str) -> Iterator[Problem]:
+    """Works share a road only as one site: closings of several lanes with the same stretch."""
+    works = {name: each.do for name, each in scenario.changes.items() if isinstance(each.do, LaneWork)}
+    for i, (name, one) in enumerate(works.items()):
+        for other_name, other in list(works.items())[:i]:
+            if overlap(one, other) and not is_one_site(one, other):
+                what = f"overlaps {other_name!r} on road {one.road!r}, tapers included"
+                remedy = "keep their tapers apart, or close several lanes with the same start, end and taper"
+                yield Problem(f"{where}: changes.{name}.do", what, f"{one.start} to {one.end} m", remedy=remedy)
+
+
+def is_one_site(one: LaneWork, other: LaneWork) -> bool:
+    """Whether two works that overlap close two lanes of one stretch."""
+    same = (one.start, one.end, one.taper) == (other.start, other.end, other.taper)
+    return same and isinstance(one, CloseLane) and isinstance(other, CloseLane) and one.lane != other.lane
 
 
 def moment_problems(moment: Moment, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:

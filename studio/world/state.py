@@ -104,6 +104,17 @@ MOMENT = (
 (WHEN, BY, AT) = range(len(MOMENT))
 BEFORE, ACTING, OVER = range(3)  # phases of a change
 
+# Lines: the paths that vehicles may take.
+LINE = (
+    Row("first", "1", "column of its first point"),
+    Row("count", "1", "of its points"),
+    Row("first_stop", "1", "its first stop line"),
+    Row("stops", "1", "number of its stop lines"),
+    Row("first_object", "1", "first object that stands in its way"),
+    Row("objects", "1", "number of them"),
+)
+(LINE_FIRST, LINE_COUNT, LINE_STOP, LINE_STOPS, LINE_OBJECT, LINE_OBJECTS) = range(len(LINE))
+
 # Pieces of slippery stretches.
 PIECE = (
     Row("x", "m", "middle of the piece"),

@@ -82,6 +82,20 @@ class Changes:
 
 
 @dataclass
+class Detours:
+    """Vehicles whose path passes works: which of its paths each has taken (`choice` is state), and all their paths."""
+
+    vehicle: np.ndarray  # int64[m]: columns
+    choice: np.ndarray  # int64[m]: bit b is work b
+    work: np.ndarray  # int64[MOST_WORKS, m]: change that work b is, -1 for none
+    base: np.ndarray  # int64[m]: column of `lines` with choice 0
+    lines: np.ndarray  # int64[LINE, line]
+    span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
+    held: np.ndarray  # int64[change]: vehicles that are still within it on the usual path
+    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of paths, by their first points
+
+
+@dataclass
 class Obstacles:
     """Objects on the road, world after world, and for every vehicle those that it may run into on its path."""
 
@@ -89,8 +103,9 @@ class Obstacles:
     first: np.ndarray  # per world
     count: np.ndarray
     standing: np.ndarray  # int64[object], 1 while it stands there
-    sweep: np.ndarray  # [row, object on a path]
-    sweep_first: np.ndarray  # per vehicle
+    sweep: np.ndarray  # [row, object on a line]
+    counts: np.ndarray  # of these per line
+    sweep_first: np.ndarray  # per vehicle, on the line it is on
     sweep_count: np.ndarray
     names: tuple[str, ...]
 
@@ -141,6 +156,7 @@ class World:
     units: Units
     events: Events
     changes: Changes
+    detours: Detours
     obstacles: Obstacles
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
@@ -170,7 +186,7 @@ class World:
         """The arrays that change during a run."""
         v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
         units = [u.sensors, u.sent, u.inbox]
-        happened = [e.fired, e.hits, c.phase, c.turned, o.standing]
+        happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(hosted.memory for hosted in self.hosted)]
 
     def digest(self) -> str:

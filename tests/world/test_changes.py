@@ -7,7 +7,6 @@ import pytest
 import yaml
 
 from studio import job
-from studio.application.setup import complete
 from studio.conventions import GRAVITY
 from studio.errors import ScenarioError
 from studio.execution.loop import as_fast_as_possible
@@ -15,31 +14,9 @@ from studio.execution.simulation import simulation
 from studio.model.driver import FOG_SPEED, REACTION, sight_speed
 from studio.road.path import PATH_SPEED
 from studio.world.build import build
-from studio.world.setting import setting
 from studio.world.state import DETECTED, FRONT, GAP, MU, RANGE, RANGE_RATE, RED_STATION, STATION, TARGET, V_DESIRED, V_X
 from studio.world.tick import tick
-
-SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
-
-
-def scenario(sample, changes, *, alone=True, **parts):
-    """The sample with these changes; its leader alone, or everybody."""
-    document = yaml.safe_load(sample.read_text())
-    document |= {"changes": changes, "triggers": {}, "goals": {}}
-    if alone:
-        document |= {"applications": {}, "traffic": {"count": 0}}
-        document["vehicles"] = {"leader": document["vehicles"]["leader"]}
-    return setting(complete(document | parts, "changing"), sample.parent, "changing")
-
-
-def drive(setting, seconds):
-    """Station and speed of the first car at every tick, and the world after it."""
-    world, seen = build([setting]), []
-    for _ in range(round(seconds / world.clock.tick)):
-        tick(world)
-        seen.append((world.vehicles.mind[STATION, 0], world.vehicles.state[V_X, 0]))
-    return *np.array(seen).T, world
-
+from tests.changing import SLOW, drive, run_for, scenario
 
 # -- limits --------------------------------------------------------------------------------------------
 
@@ -149,13 +126,6 @@ def test_a_world_changes_alone(sample):
     for order in ([0, 1, 2], [2, 0, 1]):
         together = run_for([variants[i] for i in order], 12)
         assert [together.world_digest(w) for w in range(3)] == [alone[i] for i in order]
-
-
-def run_for(settings, seconds):
-    made = build(settings)
-    for _ in range(round(seconds / made.clock.tick)):
-        tick(made)
-    return made
 
 
 def test_a_snapshot_knows_what_has_begun(sample):
