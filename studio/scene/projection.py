@@ -12,7 +12,7 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
-from studio.scene.light import SKY_RADIUS, haze, light
+from studio.scene.light import HAZE_FAR, SKY_RADIUS, air, light
 from studio.scene.obstacle import Obstacles, Place
 from studio.scene.signal import Lamps
 
@@ -32,6 +32,7 @@ class Scene:
         self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
         self._obstacles = Obstacles(self._server, [])
+        self._visibility = HAZE_FAR
         light(self._server)
         self._look_at(reach=150.0)
 
@@ -88,8 +89,11 @@ class Scene:
 
     def show_weather(self, visibility: float) -> None:
         """Haze, or fog where one sees less far [m]."""
-        with self._lock:
-            haze(self._server, visibility)
+        far = min(visibility, HAZE_FAR)
+        with self._lock, self._server.atomic():
+            if far != self._visibility:
+                air(self._server, far)
+                self._visibility = far
 
     def update(self, poses: np.ndarray) -> None:
         """Move the vehicles: float32[POSE_ROWS, vehicle] (see pose.py), in the order of `show_vehicles`."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from studio.scene import fleet, pose
+from studio.scene import fleet, light, pose
 from studio.scene.fleet import Look
 from studio.scene.obstacle import Place
 from studio.scene.projection import Scene
@@ -196,3 +196,16 @@ def test_objects_come_and_go(scene):
     assert cones.batched_positions is before
     scene.show_obstacles([])
     assert node(scene, "/obstacles/cones") is None
+
+
+def test_fog_hides_what_is_farther_than_one_sees(scene, monkeypatch):
+    """The fog ends at the visibility, and hides the blue of the sky; in clear air both are as before."""
+    ends = []
+    monkeypatch.setattr(scene._server.scene, "configure_fog", lambda near, far, **look: ends.append(far))
+    clear = node(scene, "/city/sky").glb_data
+    scene.show_weather(120.0)
+    assert node(scene, "/city/sky").glb_data != clear
+    scene.show_weather(10_000.0)
+    scene.show_weather(20_000.0)
+    assert node(scene, "/city/sky").glb_data == clear
+    assert ends == [120.0, light.HAZE_FAR]
