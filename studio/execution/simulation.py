@@ -121,6 +121,7 @@ class Simulation:
     def report(self) -> None:
         """Turns what the tick found into events."""
         self.report_triggers()
+        self.report_changes()
         self.report_hits()
         self.report_rollovers()
         self.report_arrivals()
@@ -141,12 +142,20 @@ class Simulation:
                 text = f"{name}: {trigger.do.maneuver} with {trigger.do.deceleration:g} m/s²"
                 self.happen(trigger.time, text, trigger.vehicle)
 
+    def report_changes(self) -> None:
+        """Changes of the road that have begun or ended."""
+        for i, site in enumerate(self.setting.sites):
+            for turn, word in enumerate(("begins", "ends")):
+                if self.world.changes.phase[i] > turn and self.is_new(word, site.name):
+                    text = f"{site.name} {word}: {site.text}" if turn == 0 else f"{site.name} {word}"
+                    self.happen(float(self.world.changes.turned[turn, i]), text, (site.begins, site.ends)[turn].vehicle)
+
     def report_hits(self) -> None:
         """Collisions."""
-        hits, names = self.world.events.hits_of(0), self.setting.names
+        hits = self.world.events.hits_of(0)
         for i in range(hits.shape[1]):
             if self.is_new("hit", str(i)):
-                first, second = (names[int(hits[row, i])] for row in (HIT_FIRST, HIT_SECOND))
+                first, second = (self.world.name_of(int(hits[row, i])) for row in (HIT_FIRST, HIT_SECOND))
                 text = f"collision of {first} and {second} at {hits[HIT_SPEED, i]:.1f} m/s"
                 self.happen(float(hits[HIT_TIME, i]), text, first)
 

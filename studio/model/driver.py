@@ -2,6 +2,8 @@
 
 Following: Intelligent Driver Model, M. Treiber, A. Hennecke, D. Helbing, Phys. Rev. E 62 (2000) 1805. Above the desired
 speed its fourth power brakes too late for a bend or too hard for a trifle; there the excess dies away with a time constant.
+Sight: who drives must be able to stop within what is seen, German StVO § 3 (1) sentence 4, and with less than 50 m of it goes
+no faster than 50 km/h, sentence 3.
 Steering: the controller of G. Hoffmann, C. Tomlin, M. Montemerlo, S. Thrun, ACC 2007, Eqs. 5 and 9, at the front axle.
 """
 
@@ -12,6 +14,8 @@ from studio.compiled import compiled
 STOP_FIRM = 4.0  # [m/s²] a driver who would have to brake harder than this for an amber drives on
 STOP_CLOSE = 2.0  # [m] where a driver stops before the line
 SETTLING = 0.7  # [s] in which a speed above the desired one dies away
+REACTION = 1.0  # [s] from seeing to braking
+FOG, FOG_SPEED = 50.0, 50.0 / 3.6  # [m], [m/s]
 NO_LIMIT = 1e3  # [m/s²] stands for "nothing asks me to brake"
 
 
@@ -21,6 +25,13 @@ def free_acceleration(v, v_desired, a, b):
     if v <= v_desired:
         return a * (1.0 - (v / max(v_desired, 0.1)) ** 4)
     return max((v_desired - v) / SETTLING, -b)
+
+
+@compiled
+def sight_speed(d, b):
+    """Speed v [m/s] from which a driver stops within d [m]: v t + v²/(2 b) = d, t the reaction, b the deceleration [m/s²]."""
+    v = b * (sqrt(REACTION * REACTION + 2.0 * d / b) - REACTION)
+    return min(v, FOG_SPEED) if d < FOG else v
 
 
 @compiled

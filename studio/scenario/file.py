@@ -9,7 +9,7 @@ import yaml
 from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, nearest
-from studio.scenario.schema import Scenario, node_at
+from studio.scenario.schema import Scenario, located
 
 SIZE_LIMIT = 4_000_000  # [B] of a scenario file
 
@@ -80,7 +80,7 @@ def problems(error: ValidationError, where: str, model: type, *, under: str = ""
 
 def problem(finding: dict, where: str, model: type, under: str) -> Problem:
     """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
-    path = under + ".".join(str(part) for part in finding["loc"] if part != "[key]") or "the scenario"
+    path = under + located(model.model_json_schema(), finding["loc"])[0] or "the scenario"
     what = finding["msg"].removeprefix("Value error, ")
     value, remedy = short(finding["input"]), ""
     if finding["type"] == "extra_forbidden":
@@ -111,7 +111,7 @@ def allowed(finding: dict) -> str:
 
 def fields_at(model: type, path: tuple) -> list[str]:
     """Names of the fields that the schema has at a path."""
-    return sorted(node_at(model.model_json_schema(), path).get("properties", {}))
+    return sorted(located(model.model_json_schema(), path)[1].get("properties", {}))
 
 
 def digest(document: dict[str, Any], map_digest: str) -> str:

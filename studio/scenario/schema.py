@@ -14,6 +14,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
+LONGEST = 3600.0  # [s] a run
+MOST_OBJECTS = 500  # of one change
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
 
@@ -45,7 +47,7 @@ class Clock(Part):
 
     step: float = number(DEFAULT_STEP, unit="s", title="Integration step", ge=0.0005, le=0.01)
     tick: float = number(DEFAULT_TICK, unit="s", title="Tick", ge=0.01, le=0.1)
-    duration: float = number(60.0, unit="s", title="Duration", gt=0, le=3600)
+    duration: float = number(60.0, unit="s", title="Duration", gt=0, le=LONGEST)
 
     @model_validator(mode="after")
     def whole_steps(self):
@@ -173,28 +175,122 @@ class Traffic(Part):
     driver: Driver = Field(default_factory=Driver, title="Drivers")
 
 
-class Patch(Part):
-    """A stretch along a route on which the road is more or less slippery."""
+class Moment(Part):
+    """When a change begins or ends: at a time, or when a vehicle passes a station of its route."""
 
-    route: Name = Field(..., title="Along the route")
-    start: float = number(..., unit="m", title="From station", ge=0)
-    end: float = number(..., unit="m", title="To station", gt=0)
-    friction: float = number(..., unit="1", title="Friction", description="over that of a dry test track", ge=0.02, le=1.5)
-    width: float = number(3.5, unit="m", title="Width", ge=0.2, le=20)
-    side: Literal["both", "left", "right"] = Field("both", title="Side", description="of the route's line")
+    time: float | None = Field(None, ge=0, le=LONGEST, title="Time", json_schema_extra={"unit": "s"})
+    vehicle: Name | None = Field(None, title="Vehicle", description="whose centre of gravity passes the station")
+    along: float | None = Field(None, ge=0, title="Along its route", json_schema_extra={"unit": "m"})
 
     @model_validator(mode="after")
-    def is_a_stretch(self):
-        if self.end <= self.start:
-            raise ValueError(f"the patch must end ({self.end} m) behind its start ({self.start} m)")
+    def one_way_to_say_it(self):
+        timed, passing = self.time is not None, (self.vehicle is not None, self.along is not None)
+        if timed == any(passing) or any(passing) != all(passing):
+            raise ValueError("give either `time`, or `vehicle` with `along`")
         return self
 
 
-class Road(Part):
-    """The surface of all roads: weather, and patches of ice, leaves or new asphalt."""
+class Stretch(Part):
+    """A stretch along a route, or along a lane of a road."""
+
+    route: Name | None = Field(None, title="Along the route")
+    road: str | None = Field(None, max_length=100, title="Along the road")
+    lane: int = Field(0, ge=0, le=9, title="Lane", description="of the road; 0 is the lane at the kerb")
+    start: float = number(..., unit="m", title="From station", ge=0)
+    end: float = number(..., unit="m", title="To station", gt=0)
+
+    @model_validator(mode="after")
+    def is_a_stretch(self):
+        if (self.route is None) == (self.road is None):
+            raise ValueError("give either `route`, or `road` with `lane`")
+        return ordered(self)
+
+
+def ordered(stretch):
+    """A stretch that ends behind its start."""
+    if stretch.end <= stretch.start:
+        raise ValueError(f"the stretch must end ({stretch.end} m) behind its start ({stretch.start} m)")
+    return stretch
+
+
+class Limit(Stretch):
+    """Lowers the limit on all lanes of a stretch; drivers slow down before it."""
+
+    change: Literal["limit"] = "limit"
+    speed: float = number(..., unit="m/s", title="Limit", ge=1, le=70)
+
+
+class Friction(Stretch):
+    """Makes the road more or less slippery: ice, leaves, spilt oil, new asphalt."""
+
+    change: Literal["friction"] = "friction"
+    friction: float = number(..., unit="1", title="Friction", description="over that of a dry test track", ge=0.02, le=1.5)
+    width: float = number(3.5, unit="m", title="Width", ge=0.2, le=20)
+    side: Literal["both", "left", "right"] = Field("both", title="Side", description="of the line of route or lane")
+
+
+class LaneWork(Part):
+    """Something about one lane of a road, with a taper before it and behind it on which cars go over."""
+
+    road: str = Field(..., max_length=100, title="Road")
+    lane: int = Field(0, ge=0, le=9, title="Lane", description="of the road; 0 is the lane at the kerb")
+    start: float = number(..., unit="m", title="From station", description="of the road", ge=0)
+    end: float = number(..., unit="m", title="To station", gt=0)
+    taper: float = number(30.0, unit="m", title="Taper", description="before the start and behind the end", ge=10, le=200)
+
+    @model_validator(mode="after")
+    def is_a_stretch(self):
+        return ordered(self)
+
+
+class CloseLane(LaneWork):
+    """Closes a lane with cones and barriers; cars are led onto the nearest open lane, and stop where there is none."""
+
+    change: Literal["close_lane"] = "close_lane"
+
+
+class ShiftLane(LaneWork):
+    """Moves the line of a lane sideways."""
+
+    change: Literal["shift_lane"] = "shift_lane"
+    offset: float = number(..., unit="m", title="Offset", description="to the left", ge=-5, le=5)
+
+
+class Objects(Stretch):
+    """Puts a row of objects along a stretch; drivers brake for what stands in their way."""
+
+    change: Literal["objects"] = "objects"
+    kind: Literal["cones", "barriers"] = Field("cones", title="Kind", description="a radar sees barriers, and no cones")
+    spacing: float = number(5.0, unit="m", title="Spacing", ge=0.5, le=100)
+    offset: float = number(0.0, unit="m", title="Offset", description="to the left of the line of route or lane", ge=-20, le=20)
+
+    @model_validator(mode="after")
+    def few_enough(self):
+        count = int((self.end - self.start) / self.spacing) + 1
+        if count > MOST_OBJECTS:
+            raise ValueError(f"these are {count} objects, more than {MOST_OBJECTS}: give them a wider spacing")
+        return self
+
+
+class Change(Part):
+    """Something about the road that begins, and may end, during a run."""
+
+    start: Moment = Field(Moment(time=0), title="Begins")
+    end: Moment = Field(Moment(time=LONGEST), title="Ends", description="the longest run's end: never")
+    do: CloseLane | ShiftLane | Limit | Friction | Objects = Field(..., discriminator="change", title="Change")
+
+    @model_validator(mode="after")
+    def ends_after_its_start(self):
+        if self.start.time is not None and self.end.time is not None and self.end.time <= self.start.time:
+            raise ValueError(f"the change must end ({self.end.time} s) after its start ({self.start.time} s)")
+        return self
+
+
+class Weather(Part):
+    """What is the same everywhere: how slippery the roads are, how far one sees."""
 
     friction: float = number(1.0, unit="1", title="Friction", description="over that of a dry test track: 1 dry, 0.7 wet, 0.3 snow, 0.1 ice", ge=0.02, le=1.5)
-    patches: dict[Name, Patch] = Field({}, title="Patches")
+    visibility: float = number(10_000.0, unit="m", title="Visibility", description="drivers see nothing beyond, and drive so that they can stop within it; from 10 km on the air is clear, below 1 km it is fog", ge=10, le=100_000)
 
 
 class Radio(Part):
@@ -239,7 +335,8 @@ class Scenario(Part):
     applications: dict[Name, Application] = Field({}, title="Applications")
     triggers: dict[Name, Trigger] = Field({}, title="Triggers")
     traffic: Traffic = Field(default_factory=Traffic, title="Traffic")
-    road: Road = Field(default_factory=Road, title="Road surface")
+    weather: Weather = Field(default_factory=Weather, title="Weather")
+    changes: dict[Name, Change] = Field({}, title="Changes", description="of the road, over time")
     radio: Radio = Field(default_factory=Radio, title="Radio")
     recording: Recording = Field(default_factory=Recording, title="Recording")
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
@@ -252,17 +349,38 @@ def unit_at(model: type[BaseModel], path: str) -> str:
 
 
 def node_at(schema: dict, path: Sequence[str | int]) -> dict:
-    """The node of a JSON schema at a path, references followed; empty when there is none."""
-    node = schema
+    """The node of a JSON schema at a path, references followed; of alternatives the first that has it, empty when none has."""
+    nodes = [schema]
     for part in path:
-        node = resolved(schema, child(node, str(part)))
-    return node
+        nodes = [found for node in nodes if (step := child(node, str(part))) for found in alternatives(schema, step)]
+    return nodes[0] if nodes else {}
 
 
-def resolved(schema: dict, node: dict) -> dict:
-    """A node with its reference followed; of alternatives the first."""
-    node = next(iter(node.get("anyOf", ())), node)
-    return schema["$defs"][node["$ref"].rpartition("/")[2]] if "$ref" in node else node
+def alternatives(schema: dict, node: dict) -> list[dict]:
+    """A node with its reference followed; of a union every member, each with what the union says about all."""
+    members = node.get("anyOf") or node.get("oneOf") or [node]
+    shared = {key: node[key] for key in ("unit", "title", "description") if key in node}
+    return [shared | (pointed(schema, each["$ref"]) if "$ref" in each else each) for each in members]
+
+
+def pointed(schema: dict, reference: str) -> dict:
+    """What a reference points to."""
+    return schema["$defs"][reference.rpartition("/")[2]]
+
+
+def located(schema: dict, place: Sequence[str | int]) -> tuple[str, dict]:
+    """Path and node of a place in an error of pydantic, which names the alternative of a union as if it were a field."""
+    node, path = schema, []
+    for part in place:
+        if part == "[key]":
+            continue
+        if "discriminator" in node:
+            node = pointed(schema, node["discriminator"]["mapping"][part])
+            continue
+        path.append(str(part))
+        step = child(node, str(part))
+        node = step if "discriminator" in step else alternatives(schema, step)[0]
+    return ".".join(path), node
 
 
 def child(node: dict, part: str) -> dict:

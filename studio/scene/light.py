@@ -28,6 +28,8 @@ SKY = [
     (40, "#5c8fc6"),
     (90, "#4a7fbb"),
 ]
+FOG = 1000.0  # [m] of sight and less is fog (WMO)
+FOGGY = [(elevation, HAZE) for elevation, _ in SKY]
 
 
 def light(server: viser.ViserServer) -> None:
@@ -43,8 +45,15 @@ def light(server: viser.ViserServer) -> None:
     scene.add_light_directional(
         "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
     )
-    scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
-    scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
+    air(server, HAZE_FAR)
+
+
+def air(server: viser.ViserServer, visibility: float) -> None:
+    """Everything fades into the haze; in fog it is gone where one sees no farther [m], and the sky as well."""
+    far = min(visibility, HAZE_FAR)
+    server.scene.configure_fog(HAZE_NEAR * far / HAZE_FAR, far, color=linear8(HAZE))
+    dome = glb(sky(FOGGY if visibility < FOG else SKY), Material(unlit=True))
+    server.scene.add_glb("/city/sky", dome, cast_shadow=False, receive_shadow=False)
 
 
 def on_level_ground(colour: str) -> np.ndarray:
@@ -56,14 +65,14 @@ def on_level_ground(colour: str) -> np.ndarray:
     return linear(colour) * (sun + linear(SKYLIGHT) * SKY_STRENGTH) / np.pi
 
 
-def sky(*, radius: float = SKY_RADIUS) -> Surface:
-    """A dome seen from inside, haze at the horizon and blue above."""
+def sky(colours: list[tuple[int, str]] = SKY, *, radius: float = SKY_RADIUS) -> Surface:
+    """A dome seen from inside, by default haze at the horizon and blue above; colours by elevation [deg]."""
     azimuth = np.linspace(0.0, 2.0 * np.pi, 33)
-    elevation = np.radians([degrees for degrees, _ in SKY])
+    elevation = np.radians([degrees for degrees, _ in colours])
     x, y = (np.outer(np.cos(elevation), turn) for turn in (np.cos(azimuth), np.sin(azimuth)))
     vertices = radius * np.stack([x, y, np.broadcast_to(np.sin(elevation)[:, None], x.shape)], axis=-1)
     corner = np.arange(x.size).reshape(x.shape)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], -1).reshape(-1, 4)
     faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    shades = np.repeat([linear(colour) for _, colour in SKY], len(azimuth), axis=0)
+    shades = np.repeat([linear(colour) for _, colour in colours], len(azimuth), axis=0)
     return painted(vertices, faces, shades)

@@ -12,7 +12,8 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
-from studio.scene.light import SKY_RADIUS, light
+from studio.scene.light import HAZE_FAR, SKY_RADIUS, air, light
+from studio.scene.obstacle import Obstacles, Place
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
@@ -30,6 +31,8 @@ class Scene:
         self._city: list[viser.SceneNodeHandle] = []
         self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
+        self._obstacles = Obstacles(self._server, [])
+        self._visibility = HAZE_FAR
         light(self._server)
         self._look_at(reach=150.0)
 
@@ -72,6 +75,25 @@ class Scene:
         with self._lock, self._server.atomic():
             self._fleet.remove()
             self._fleet = Fleet(self._server, looks)
+
+    def show_obstacles(self, places: Sequence[Place]) -> None:
+        """Have these objects instead of those before; they stay hidden until `update_obstacles`."""
+        with self._lock, self._server.atomic():
+            self._obstacles.remove()
+            self._obstacles = Obstacles(self._server, places)
+
+    def update_obstacles(self, standing: np.ndarray) -> None:
+        """Show the objects that stand, int8[object] in the order of `show_obstacles`; quick when nothing has changed."""
+        with self._lock, self._server.atomic():
+            self._obstacles.show(standing)
+
+    def show_weather(self, visibility: float) -> None:
+        """Haze, or fog where one sees less far [m]."""
+        far = min(visibility, HAZE_FAR)
+        with self._lock, self._server.atomic():
+            if far != self._visibility:
+                air(self._server, far)
+                self._visibility = far
 
     def update(self, poses: np.ndarray) -> None:
         """Move the vehicles: float32[POSE_ROWS, vehicle] (see pose.py), in the order of `show_vehicles`."""

@@ -10,6 +10,7 @@ from studio.errors import Problem, ServerError, StudioError, UnknownError, neare
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road import place
+from studio.server.frame import Frame
 from studio.server.live import Lives, LiveRun
 from studio.server.map_job import MapJobs
 from studio.server.maps import Maps
@@ -41,9 +42,9 @@ class Desk:
             self._stage = self._stage or Stage()
             return self._stage
 
-    def on_frame(self, live: LiveRun, poses, lights) -> None:
+    def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """Frames go to the stage."""
-        self.stage.on_frame(live, poses, lights)
+        self.stage.on_frame(live, frame)
 
     def files(self) -> dict[str, Path]:
         """Scenario files by id."""

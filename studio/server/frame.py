@@ -1,17 +1,45 @@
-"""What the eye gets of a world: poses of the vehicles as the scene wants them, and the lights."""
+"""What the eye gets of a world: poses of the vehicles as the scene wants them, the lights, the objects on the road."""
+
+from typing import NamedTuple
 
 import numpy as np
 
 from studio.scene import pose
 from studio.scene.fleet import Look
+from studio.scene.obstacle import Place
 from studio.scene.vehicle import Dimensions
 from studio.world.build import vehicles_of
+from studio.world.obstacle import WORDS, things
 from studio.world.setting import Setting
 from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.world import Vehicles
+from studio.world.world import Vehicles, World
 
 JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way
 MOTION = (pose.X, pose.Y, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEEL_ANGLE)
+
+
+class Frame(NamedTuple):
+    """One picture: poses float32[POSE_ROWS, vehicle], lights int8[link], which objects stand int8[object]."""
+
+    poses: np.ndarray
+    lights: np.ndarray
+    standing: np.ndarray
+
+
+def frame(world: World, seen: np.ndarray) -> Frame:
+    """The picture of a world in which the vehicles are seen at these poses."""
+    return Frame(seen, world.roads.shown.astype(np.int8), world.obstacles.standing.astype(np.int8))
+
+
+def first_frame(setting: Setting) -> Frame:
+    """The picture at the start."""
+    standing = [int(setting.sites[each.change].begins.time == 0.0) for each in things(setting.sites)]
+    return Frame(poses(vehicles_of(list(setting.cars))), first_lights(setting), np.array(standing, dtype=np.int8))
+
+
+def places(setting: Setting) -> list[Place]:
+    """All objects that may stand on the road."""
+    return [Place(WORDS[each.kind], each.x, each.y, each.heading) for each in things(setting.sites)]
 
 
 def poses(vehicles: Vehicles) -> np.ndarray:
@@ -40,11 +68,6 @@ def blend(before: np.ndarray, after: np.ndarray, share: float) -> np.ndarray:
     for row in MOTION:
         between[row, near] += np.float32(share - 1.0) * (after[row, near] - before[row, near])
     return between
-
-
-def standing(setting: Setting) -> np.ndarray:
-    """Poses of the vehicles at their start."""
-    return poses(vehicles_of(list(setting.cars)))
 
 
 def looks(setting: Setting) -> list[Look]:

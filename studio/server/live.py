@@ -22,6 +22,7 @@ import numpy as np
 from studio.errors import Problem, ServerError, UnknownError
 from studio.job import Loaded
 from studio.server import worker
+from studio.server.frame import Frame
 from studio.server.worker import Order
 from studio.store.runs import reopen_runs
 
@@ -71,7 +72,7 @@ class LiveRun:
     scenario: str
     duration: float
     process: Process
-    on_frame: Callable[["LiveRun", np.ndarray, np.ndarray], None]
+    on_frame: Callable[["LiveRun", Frame], None]
     loaded: Loaded
     db: Path
     status: str = "starting"
@@ -82,7 +83,7 @@ class LiveRun:
     times: list[float] = field(default_factory=list)
     samples: dict[str, list[float | None]] = field(default_factory=dict)
     events: list[dict[str, Any]] = field(default_factory=list)
-    frame: tuple[np.ndarray, np.ndarray] | None = None
+    frame: Frame | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
     given_up: bool = False
@@ -108,11 +109,11 @@ class LiveRun:
             return "stopped", f"It did not react to stop within {STOP_PATIENCE:g} s; its process was ended."
         return "failed", f"The process of this run ended with code {self.process.process.exitcode}."
 
-    def on_frame_news(self, when: float, poses: np.ndarray, lights: np.ndarray) -> None:
+    def on_frame_news(self, when: float, frame: Frame) -> None:
         """A picture for the scene. What goes wrong with drawing must not end a run."""
-        self.frame = (poses, lights)
+        self.frame = frame
         try:
-            self.on_frame(self, poses, lights)
+            self.on_frame(self, frame)
         except Exception:
             LOG.exception("a frame of run %d could not be drawn", self.run)
 
@@ -228,7 +229,7 @@ class Lives:
     """All live runs, and the process that waits for the next one."""
 
     def __init__(self, *, db: Path, first: Path | None, applications: Path | None,
-                 on_frame: Callable[[LiveRun, np.ndarray, np.ndarray], None]) -> None:  # fmt: skip
+                 on_frame: Callable[[LiveRun, Frame], None]) -> None:  # fmt: skip
         self.db, self.first, self.applications, self.on_frame = db, first, applications, on_frame
         self.runs: dict[int, LiveRun] = {}
         self.spare: Process | None = None

@@ -4,11 +4,9 @@ import threading
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
-from studio.server.frame import first_lights, looks, standing
+from studio.server.frame import Frame, first_frame, looks, places
 from studio.server.live import LiveRun
 from studio.world.setting import Setting
 
@@ -21,6 +19,7 @@ class Stage:
     showing: LiveRun | None = None
     city: str = ""
     cast: tuple = ()
+    props: tuple = ()
     lock: threading.RLock = field(default_factory=threading.RLock)
 
     def show(self, loaded: Loaded, live: LiveRun | None = None) -> dict[str, Any]:
@@ -29,13 +28,11 @@ class Stage:
         with self.lock:
             self.set_up(prepared)
             self.showing = live
-            poses, lights = live.frame if live and live.frame else (standing(prepared), first_lights(prepared))
-            self.scene.update(poses)
-            self.scene.show_signals(lights)
+            self.draw(live.frame if live and live.frame else first_frame(prepared))
         return described(prepared)
 
     def set_up(self, prepared: Setting) -> None:
-        """City and vehicles, as far as they are others than before."""
+        """City, vehicles and objects, as far as they are others than before; the weather."""
         if self.city != prepared.network.digest:
             self.scene.show_city(prepared.network)
             self.city = prepared.network.digest
@@ -43,13 +40,23 @@ class Stage:
         if self.cast != cast:
             self.scene.show_vehicles(cast)
             self.cast = cast
+        props = tuple(places(prepared))
+        if self.props != props:
+            self.scene.show_obstacles(props)
+            self.props = props
+        self.scene.show_weather(prepared.scenario.weather.visibility)
 
-    def on_frame(self, live: LiveRun, poses: np.ndarray, lights: np.ndarray) -> None:
+    def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """A frame of some live run; drawn when it is the one that is shown."""
         with self.lock:
-            if live is self.showing and poses.shape[1] == len(self.cast):
-                self.scene.update(poses)
-                self.scene.show_signals(lights)
+            if live is self.showing and frame.poses.shape[1] == len(self.cast) and frame.standing.size == len(self.props):
+                self.draw(frame)
+
+    def draw(self, frame: Frame) -> None:
+        """Puts a picture on the scene."""
+        self.scene.update(frame.poses)
+        self.scene.show_signals(frame.lights)
+        self.scene.update_obstacles(frame.standing)
 
 
 def described(prepared: Setting) -> dict[str, Any]:

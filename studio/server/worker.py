@@ -25,7 +25,7 @@ from studio.application.registry import load_folder
 from studio.errors import StudioError
 from studio.execution.loop import Pace
 from studio.execution.simulation import Simulation, simulation
-from studio.server.frame import blend, poses
+from studio.server.frame import blend, frame, poses
 from studio.store.runs import open_runs
 
 FRAME_PERIOD = 0.02  # [s] of real time between two frames for the eye
@@ -131,7 +131,7 @@ class Live:
         if not self.paused and self.pace.factor < 1.0:
             share = min((now - self.advanced) * self.pace.factor / self.simulation.world.clock.tick, 1.0)
         seen = blend(self.before, self.after, share) if share < 1.0 else self.after
-        self.pipe.send(("frame", self.simulation.time, seen, self.simulation.world.roads.shown.astype(np.int8)))
+        self.pipe.send(("frame", self.simulation.time, frame(self.simulation.world, seen)))
         self.last_frame = now
 
     def news(self, force: bool = False) -> None:

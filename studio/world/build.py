@@ -10,11 +10,15 @@ import numpy as np
 from studio.application import registry
 from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
-from studio.road import conflict, shadow
+from studio.road import shadow
 from studio.road.shadow import Shadow
+from studio.scenario.schema import Friction
 from studio.world import ground
+from studio.world.change import changes_of
 from studio.world.control import wheel_torque
 from studio.world.fleet import Start, fleet, level_ground
+from studio.world.line import Lines, Zones, detours_of, lines_of, starts, stops_of, table_of, zones
+from studio.world.obstacle import obstacles_of
 from studio.world.setting import Car, Setting, pose
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
@@ -28,7 +32,13 @@ def build(settings: Sequence[Setting]) -> World:
     cars = [car for each in settings for car in each.cars]
     worlds = worlds_of(settings)
     vehicles = vehicles_of(cars)
-    roads = roads_of(settings, worlds)
+    lines = lines_of(settings)
+    stops = stops_of(lines, starts(np.array([len(each.network.signals) for each in settings])))
+    obstacles = obstacles_of(settings, lines)
+    table = table_of(lines, stops[0], obstacles.counts)
+    known: Zones = {}
+    pair, span = zones(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
+    roads = roads_of(settings, lines, table, stops, pair, span)
     world = World(
         clock=Clock(clock.tick, clock.step),
         vehicles=vehicles,
@@ -36,6 +46,9 @@ def build(settings: Sequence[Setting]) -> World:
         roads=roads,
         units=units_of(settings, worlds, cars),
         events=events_of(settings, worlds),
+        changes=changes_of(settings, worlds, lines),
+        detours=detours_of(settings, worlds, lines, table, known),
+        obstacles=obstacles,
         hosted=hosts(settings, worlds),
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
@@ -81,35 +94,20 @@ def ground_of(cars: list[Car]) -> np.ndarray:
     return under
 
 
-def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
-    """Paths, stop lines, zones and signals. Cars that share a path share its points."""
-    first_of, paths, start = {}, [], 0
-    for each in settings:
-        for car in each.cars:
-            if id(car.path) not in first_of:
-                first_of[id(car.path)] = start
-                paths.append(car.path.points)
-                start += car.path.points.shape[1]
-    points = np.concatenate(paths, axis=1)
-    cars = [car for each in settings for car in each.cars]
-    path_first = np.array([first_of[id(car.path)] for car in cars])
-    path_count = np.array([car.path.points.shape[1] for car in cars])
-    link_base = np.concatenate([[0], np.cumsum([len(each.network.signals) for each in settings])[:-1]])
-    stops = [[(s, link + link_base[w]) for s, link in car.path.stop_lines] for w, car in zip(worlds.of, cars, strict=True)]
-    counts = np.array([len(each) for each in stops])
-    flat = np.array([stop for each in stops for stop in each]).reshape(-1, 2)
-    pair, span = zones_of(settings, worlds, points, path_first, path_count)
+def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, zone_pair, zone_span) -> Roads:
+    """Points, the line that every vehicle is on, stop lines, zones, signals and surface."""
+    _, stop_station, stop_link = stops
     return Roads(
-        points=points,
-        path_first=path_first,
-        path_count=path_count,
-        raised=np.array([int(ground.is_raised(car.path)) for car in cars]),
-        stop_first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
-        stop_count=counts,
-        stop_station=flat[:, 0].copy(),
-        stop_link=flat[:, 1].astype(np.int64),
-        zone_pair=pair,
-        zone_span=span,
+        points=lines.points,
+        path_first=table[LINE_FIRST, lines.base],
+        path_count=table[LINE_COUNT, lines.base],
+        raised=np.array([int(ground.is_raised(car.path)) for each in settings for car in each.cars]),
+        stop_first=table[LINE_STOP, lines.base],
+        stop_count=table[LINE_STOPS, lines.base],
+        stop_station=stop_station,
+        stop_link=stop_link,
+        zone_pair=zone_pair,
+        zone_span=zone_span,
         **signals_of(settings),
         **surface_of(settings),
         **buildings_of(settings),
@@ -117,14 +115,15 @@ def roads_of(settings: Sequence[Setting], worlds: Worlds) -> Roads:
 
 
 def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
-    """Friction of the weather per world, and the pieces of all patches."""
+    """Weather per world, and the pieces of all slippery stretches."""
+    placed = [(w, site) for w, each in enumerate(settings) for site in each.sites]
     found = [
-        ground.pieces(patch, path, w)
-        for w, each in enumerate(settings)
-        for patch, path in zip(each.scenario.road.patches.values(), each.patches, strict=True)
+        ground.pieces(site.change.do, site.line, w, number)
+        for number, (w, site) in enumerate(placed)
+        if isinstance(site.change.do, Friction)
     ]
     return {
-        "weather": np.array([each.scenario.road.friction for each in settings]),
+        "weather": np.array([[getattr(each.scenario.weather, row.name) for row in WEATHER] for each in settings]).T.copy(),
         "pieces": np.concatenate([np.zeros((len(PIECE), 0)), *found], axis=1),
         "near": np.zeros(ground.MOST_NEAR, dtype=np.int64),
     }
@@ -139,24 +138,6 @@ def buildings_of(settings: Sequence[Setting]) -> dict[str, np.ndarray | Shadow]:
         "place_of": np.array([number[id(each.network)] for each in settings]),
         "shadow": found[0] if len(found) == 1 else shadow.joined(found),
     }
-
-
-def zones_of(settings: Sequence[Setting], worlds: Worlds, points, path_first, path_count):
-    """Zones of every ordered pair of cars of one world; a pair of paths is looked at once."""
-    known: dict[tuple[int, int], np.ndarray] = {}
-    pairs, spans = [], []
-    for first, count in zip(worlds.first, worlds.count, strict=True):
-        for i in range(first, first + count):
-            for j in range(first, first + count):
-                if i == j:
-                    continue
-                key = (path_first[i], path_first[j])
-                if key not in known:
-                    known[key] = conflict.zones(points, path_first[i], path_count[i], path_first[j], path_count[j])
-                pairs += [(i, j)] * len(known[key])
-                spans.append(known[key])
-    table = np.concatenate(spans) if spans else np.zeros((0, 4))
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T.copy(), table.T.copy()
 
 
 def signals_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:

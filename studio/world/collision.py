@@ -1,4 +1,4 @@
-"""Collisions: oriented boxes of the bodies, tested pair by pair at every tick, each pair reported once.
+"""Collisions: oriented boxes of bodies and objects, tested pair by pair at every tick, each pair reported once.
 
 Two convex boxes are apart exactly when one of their four edge directions separates them (S. Gottschalk, M. Lin,
 D. Manocha, OBBTree, SIGGRAPH 1996). What happens after a contact is not claimed.
@@ -31,6 +31,16 @@ def separated(axis, dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
 
 
 @compiled
+def overlap(dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
+    """Whether two boxes whose centres are (dx, dy) [m] apart overlap."""
+    quarter = 1.5707963267948966
+    for axis in (psi_a, psi_a + quarter, psi_b, psi_b + quarter):
+        if separated(axis, dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
+            return False
+    return True
+
+
+@compiled
 def touching(a, b, state, parameter):
     """Whether the bodies of two cars overlap."""
     x_a, y_a = centre(a, state, parameter)
@@ -38,14 +48,21 @@ def touching(a, b, state, parameter):
     dx, dy = x_b - x_a, y_b - y_a
     if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 4.0) ** 2:
         return False
-    psi_a, psi_b = state[PSI, a], state[PSI, b]
-    length_a, width_a = parameter[LENGTH, a], parameter[WIDTH, a]
-    length_b, width_b = parameter[LENGTH, b], parameter[WIDTH, b]
-    quarter = 1.5707963267948966
-    for axis in (psi_a, psi_a + quarter, psi_b, psi_b + quarter):
-        if separated(axis, dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
-            return False
-    return True
+    return overlap(
+        dx, dy, state[PSI, a], parameter[LENGTH, a], parameter[WIDTH, a], state[PSI, b], parameter[LENGTH, b], parameter[WIDTH, b]
+    )
+
+
+@compiled
+def striking(v, i, state, parameter, table):
+    """Whether the body of a car overlaps object i."""
+    x, y = centre(v, state, parameter)
+    dx, dy = table[O_X, i] - x, table[O_Y, i] - y
+    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, v] + table[O_LENGTH, i] + 4.0) ** 2:
+        return False
+    return overlap(
+        dx, dy, state[PSI, v], parameter[LENGTH, v], parameter[WIDTH, v], table[O_HEADING, i], table[O_LENGTH, i], table[O_WIDTH, i]
+    )
 
 
 @compiled
@@ -66,12 +83,12 @@ def is_known(a, b, first, last, hits):
 
 
 @compiled
-def report(time, a, b, column, state, hits):
-    """Writes a collision."""
+def report(time, a, b, speed, column, hits):
+    """Writes a collision at a relative speed [m/s]."""
     hits[HIT_TIME, column] = time
     hits[HIT_FIRST, column] = a
     hits[HIT_SECOND, column] = b
-    hits[HIT_SPEED, column] = relative_speed(a, b, state)
+    hits[HIT_SPEED, column] = speed
 
 
 @compiled
@@ -85,5 +102,21 @@ def collide(time, state, parameter, first, count, hits, found):
                 if found[w] == share or state[ACTIVE, a] == 0.0 or state[ACTIVE, b] == 0.0:
                     continue
                 if touching(a, b, state, parameter) and not is_known(a, b, start, start + found[w], hits):
-                    report(time, a, b, start + found[w], state, hits)
+                    report(time, a, b, relative_speed(a, b, state), start + found[w], hits)
+                    found[w] += 1
+
+
+@compiled
+def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, found):
+    """The same for cars and the objects that stand on the road; object i is OBJECT - i."""
+    share = hits.shape[1] // first.size
+    for w in range(first.size):
+        start = w * share
+        for v in range(first[w], first[w] + count[w]):
+            for i in range(first_object[w], first_object[w] + object_count[w]):
+                if found[w] == share or state[ACTIVE, v] == 0.0 or standing[i] == 0:
+                    continue
+                if striking(v, i, state, parameter, table) and not is_known(v, OBJECT - i, start, start + found[w], hits):
+                    speed = sqrt(state[V_X, v] * state[V_X, v] + state[V_Y, v] * state[V_Y, v])
+                    report(time, v, OBJECT - i, speed, start + found[w], hits)
                     found[w] += 1

@@ -1,9 +1,10 @@
-"""The ground under every wheel: its height and slope, by the vehicle's path, and its friction, by weather and by patches. Two passes a tick.
+"""The ground under every wheel: its height and slope, by the vehicle's path, and its friction, by weather and by slippery
+stretches of the roads. Two passes a tick.
 
 A road has no slope across: under a wheel lies the plane that touches the path beside it.
 
-A patch is a stretch of some route, cut into pieces one metre long, across a width or one half of it. Where patches
-overlap, the later one of the file counts.
+A stretch is cut into pieces one metre long, across a width or one half of it; they count while their change acts. Where
+stretches overlap, the later one of the file counts.
 """
 
 from math import cos, sin
@@ -13,7 +14,7 @@ import numpy as np
 from studio.compiled import compiled
 from studio.road.path import PATH_HEADING, PATH_HEIGHT, PATH_SLOPE, PATH_SPACING, PATH_X, PATH_Y, interpolate
 from studio.road.path import Path as RoadPath
-from studio.scenario.schema import Patch
+from studio.scenario.schema import Friction
 from studio.world.corner import side_of
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
@@ -55,16 +56,16 @@ def is_raised(path: RoadPath) -> bool:
     return bool(path.points[PATH_HEIGHT].any())
 
 
-def pieces(patch: Patch, path: RoadPath, world: int) -> np.ndarray:
-    """float64[PIECE, n] of a patch along its route's path."""
-    stations = np.arange(patch.start + 0.5 * PATH_SPACING, patch.end, PATH_SPACING)
+def pieces(stretch: Friction, path: RoadPath, world: int, change: int) -> np.ndarray:
+    """float64[PIECE, n] of a stretch along its path."""
+    stations = np.arange(stretch.start + 0.5 * PATH_SPACING, stretch.end, PATH_SPACING)
     grid = np.arange(path.points.shape[1]) * PATH_SPACING
     made = np.zeros((len(PIECE), stations.size))
     for row, source in ((PIECE_X, PATH_X), (PIECE_Y, PATH_Y), (PIECE_HEADING, PATH_HEADING)):
         made[row] = np.interp(stations, grid, path.points[source])
-    made[PIECE_LEFT] = 0.0 if patch.side == "right" else 0.5 * patch.width
-    made[PIECE_RIGHT] = 0.0 if patch.side == "left" else 0.5 * patch.width
-    made[PIECE_FRICTION], made[PIECE_WORLD] = patch.friction, world
+    made[PIECE_LEFT] = 0.0 if stretch.side == "right" else 0.5 * stretch.width
+    made[PIECE_RIGHT] = 0.0 if stretch.side == "left" else 0.5 * stretch.width
+    made[PIECE_FRICTION], made[PIECE_WORLD], made[PIECE_CHANGE] = stretch.friction, world, change
     return made
 
 
@@ -87,26 +88,27 @@ def friction_at(x, y, friction, near, found, table):
 
 
 @compiled
-def near_pieces(v, world, state, table, near):
-    """Fills `near` with the pieces around a vehicle; how many there are."""
+def near_pieces(v, world, state, table, phase, near):
+    """Fills `near` with the pieces around a vehicle whose change acts; how many there are."""
     found = 0
     for i in range(table.shape[1]):
         dx, dy = table[PIECE_X, i] - state[X, v], table[PIECE_Y, i] - state[Y, v]
-        if table[PIECE_WORLD, i] == world and dx * dx + dy * dy < NEAR * NEAR and found < near.size:
+        is_near = table[PIECE_WORLD, i] == world and dx * dx + dy * dy < NEAR * NEAR
+        if is_near and phase[int(table[PIECE_CHANGE, i])] == ACTING and found < near.size:
             near[found] = i
             found += 1
     return found
 
 
 @compiled
-def lay(state, parameter, world_of, weather, table, near, ground):
-    """Second pass: friction under all wheels; weather float64[world]."""
+def lay(state, parameter, world_of, weather, table, phase, near, ground):
+    """Second pass: friction under all wheels; weather float64[WEATHER, world]."""
     n = state.shape[1]
     for v in range(n):
-        found = near_pieces(v, world_of[v], state, table, near)
+        found = near_pieces(v, world_of[v], state, table, phase, near)
         c, s = cos(state[PSI, v]), sin(state[PSI, v])
         for corner in range(4):
             x = parameter[L_F, v] if corner < 2 else -parameter[L_R, v]
             y = 0.5 * side_of(corner) * (parameter[TRACK_F, v] if corner < 2 else parameter[TRACK_R, v])
             at_x, at_y = state[X, v] + x * c - y * s, state[Y, v] + x * s + y * c
-            ground[MU, corner * n + v] = friction_at(at_x, at_y, weather[world_of[v]], near, found, table)
+            ground[MU, corner * n + v] = friction_at(at_x, at_y, weather[FRICTION, world_of[v]], near, found, table)

@@ -11,6 +11,7 @@ from studio.model.random import (
     GPS_DRIFT, GPS_NOISE, MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, normal_pair, uniform,
 )  # fmt: skip
 from studio.road.shadow import EYE, open_sky, walls_between
+from studio.world.collision import reach_along
 from studio.world.state import *  # noqa: F403 - the names of the rows
 
 EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
@@ -47,12 +48,29 @@ def nearest_target(v, first, count, state, parameter, sensor_set):
 
 
 @compiled
+def nearest_barrier(v, best, best_forward, best_left, first, count, state, parameter, sensor_set, table, standing):
+    """The same with the barriers that stand there, of which the radar sees the near edge. A cone of plastic sends nothing back."""
+    kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
+    for i in range(first, first + count):
+        if standing[i] == 0 or table[O_KIND, i] != BARRIER:
+            continue
+        forward, left = sensor.seen_from(state[X, v], state[Y, v], state[PSI, v], table[O_X, i], table[O_Y, i])
+        forward -= parameter[FRONT, v] + reach_along(table[O_HEADING, i] - state[PSI, v], table[O_LENGTH, i], table[O_WIDTH, i])
+        if forward >= best_forward or not sensor.in_corridor(forward, left, kappa):
+            continue
+        if sensor.in_view(forward, left, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
+            best, best_forward, best_left = OBJECT - i, forward, left
+    return best, best_forward, best_left
+
+
+@compiled
 def closing_rate(v, other, forward, left, state):
-    """Change of the distance [m/s] to a car seen in that direction."""
+    """Change of the distance [m/s] to a car, or an object at rest, seen in that direction."""
     distance = max(sqrt(forward * forward + left * left), 1e-6)
-    psi, psi_other = state[PSI, v], state[PSI, other]
-    east = state[V_X, other] * cos(psi_other) - state[V_X, v] * cos(psi)
-    north = state[V_X, other] * sin(psi_other) - state[V_X, v] * sin(psi)
+    psi = state[PSI, v]
+    psi_other, v_other = (state[PSI, other], state[V_X, other]) if other >= 0 else (0.0, 0.0)
+    east = v_other * cos(psi_other) - state[V_X, v] * cos(psi)
+    north = v_other * sin(psi_other) - state[V_X, v] * sin(psi)
     ahead, aside = east * cos(psi) + north * sin(psi), north * cos(psi) - east * sin(psi)
     return (ahead * forward + aside * left) / distance
 
@@ -66,7 +84,8 @@ def forget(v, sensors):
 
 
 @compiled
-def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed, sensors):
+def sense(k, state, parameter, sensor_set, world_of, entity, first, count, table, first_object, object_count, standing, seed,
+          sensors):  # fmt: skip
     """First pass: the front sensor of every car."""
     for v in range(state.shape[1]):
         w = world_of[v]
@@ -74,7 +93,11 @@ def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed,
         if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0:
             continue
         other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
-        if other >= 0:
+        if object_count[w] > 0:
+            other, forward, left = nearest_barrier(
+                v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
+            )
+        if other != -1:
             report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
 
 

@@ -23,7 +23,9 @@ from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Driver, FrontSensor, Gps, Place, Scenario
 from studio.world.channel import BY_NAME
 from studio.world.fleet import check_step
+from studio.world.site import Site, joins, place_problems, sites
 from studio.world.state import RING
+from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
 CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
@@ -51,12 +53,13 @@ class Car:
 
 @dataclass(frozen=True)
 class Setting:
-    """A scenario with everything resolved that names something: its map, its cars, and the paths of its patches."""
+    """A scenario with everything resolved that names something: its map, its cars, and where its changes lie."""
 
     scenario: Scenario
     network: Network
     cars: tuple[Car, ...]
-    patches: tuple[road_path.Path, ...] = ()
+    sites: tuple[Site, ...]
+    works: Works
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -67,13 +70,16 @@ class Setting:
 def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
-    check_names(scenario, where)
+    refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
     models = models_of(scenario, folder, where)
     paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     check_starts(cars, where)
-    filled = tuple(cars + traffic(scenario, network, models, cars))
-    return Setting(scenario, network, filled, patch_paths(scenario, network, where))
+    found = sites(scenario, network)
+    works = Works(found)
+    check_works(cars, works, where)
+    filled = tuple(cars + traffic(scenario, network, models, cars, works))
+    return Setting(scenario, network, filled, found, works)
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -98,25 +104,13 @@ def check_delays(model: VehicleModel, tick: float, where: str) -> None:
     """Dead times must fit into what is kept of past commands."""
     delays = {"engine.delay": model.values.engine.delay, "brakes.delay": model.values.brakes.delay}
     kept = (RING - 1) * tick
-    problems = [
+    found = [
         Problem(f"{where}: {name}", "is longer than commands are kept", f"{delay} s", f"≤ {kept:g} s")
         for name, delay in delays.items()
         if delay > kept
     ]
-    if problems:
-        raise ScenarioError(f"{model.name} does not fit the clock.", problems)
-
-
-def patch_paths(scenario: Scenario, network: Network, where: str) -> tuple[road_path.Path, ...]:
-    """The path of every patch's route; a patch must lie on it."""
-    found = []
-    for name, patch in scenario.road.patches.items():
-        path = road_path.path(network, connect(network, scenario.routes[patch.route].roads))
-        if patch.end > path.length:
-            problem = Problem(f"{where}: road.patches.{name}.end", "lies beyond the end of its route", f"{patch.end} m", f"≤ {path.length:.0f} m")
-            raise ScenarioError(f"{where} is not a valid scenario.", [problem])
-        found.append(path)
-    return tuple(found)
+    if found:
+        raise ScenarioError(f"{model.name} does not fit the clock.", found)
 
 
 def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
@@ -133,7 +127,18 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
 
 
 def check_names(scenario: Scenario, where: str) -> None:
-    """Every vehicle, route, model and sender that is named must exist; all problems at once."""
+    """All that can be checked without the map; raises ScenarioError."""
+    refuse(name_problems(scenario, where), where)
+
+
+def refuse(found: list[Problem], where: str) -> None:
+    """Raises ScenarioError with all problems, if there is one."""
+    if found:
+        raise ScenarioError(f"{where} is not a valid scenario.", found)
+
+
+def name_problems(scenario: Scenario, where: str) -> list[Problem]:
+    """Every vehicle, route, model and sender that is named must exist."""
     vehicles, known_models, found = set(scenario.vehicles), set(catalogue.vehicle_names()), []
 
     def check(path: str, name: str, known, kind: str) -> None:
@@ -146,8 +151,6 @@ def check_names(scenario: Scenario, where: str) -> None:
             check(f"vehicles.{name}.model", vehicle.model, known_models, "vehicle of the catalogue")
     if not catalogue.is_path(scenario.traffic.model, ".yaml", ".yml"):
         check("traffic.model", scenario.traffic.model, known_models, "vehicle of the catalogue")
-    for name, patch in scenario.road.patches.items():
-        check(f"road.patches.{name}.route", patch.route, set(scenario.routes), "route of this scenario")
     for group, application in scenario.applications.items():
         for field in ("vehicles", "listens_to"):
             for i, name in enumerate(getattr(application, field)):
@@ -156,9 +159,13 @@ def check_names(scenario: Scenario, where: str) -> None:
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
     for i, name in enumerate(scenario.recording.channels):
         check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
-    found += reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
-    if found:
-        raise ScenarioError(f"{where} is not a valid scenario.", found)
+    for name, change in scenario.changes.items():
+        if getattr(change.do, "route", None) is not None:
+            check(f"changes.{name}.do.route", change.do.route, set(scenario.routes), "route of this scenario")
+        for field, moment in (("start", change.start), ("end", change.end)):
+            if moment.vehicle is not None:
+                check(f"changes.{name}.{field}.vehicle", moment.vehicle, vehicles, "vehicle of this scenario")
+    return found + reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
 
 
 def reserved(scenario: Scenario, where: str) -> list[Problem]:
@@ -225,12 +232,6 @@ def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road
     return annotated(path, route.speeds, joined)
 
 
-def joins(start: str, roads: list[str], network: Network) -> float:
-    """Station [m] at which a route from its first road comes to the road on which a vehicle starts."""
-    whole = road_path.path(network, connect(network, roads))
-    return next((station.s for station in whole.stations if station.road == start), 0.0)
-
-
 def from_road(name: str, position: Place, roads: list[str], where: str) -> list[str]:
     """The route from the road on which a vehicle starts."""
     if position.road not in roads:
@@ -270,17 +271,35 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
     return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour, vehicle.gps)
 
 
+def check_works(cars: list[Car], works: Works, where: str) -> None:
+    """No path may pass more works than are kept apart, no car start in one that is there from the beginning."""
+    found = []
+    for car in cars:
+        way = works.way(car.path)
+        if len(way.works) > MOST_WORKS:
+            names = ", ".join(works.sites[number].name for number in way.works)
+            what = f"passes {len(way.works)} closed or shifted lanes: {names}"
+            found.append(Problem(f"{where}: vehicles.{car.name}.route", what, allowed=f"at most {MOST_WORKS}"))
+        elif way.is_touched(car.station, CAR_LENGTH, works.first):
+            what = "lies where a lane is closed or shifted from the beginning, or on the taper before it"
+            remedy = "start elsewhere, or let the change begin later"
+            found.append(Problem(f"{where}: vehicles.{car.name}.position", what, f"{car.station} m", remedy=remedy))
+    refuse(found, where)
+
+
 # --- traffic -----------------------------------------------------------------------------------------------------------
 
 
-def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car]) -> list[Car]:
+def traffic(
+    scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works
+) -> list[Car]:
     """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
     wanted = scenario.traffic
     taken = [position(car.path, car.station) for car in named]
     cars: list[Car] = []
-    ways = through_ways(network) if wanted.count else []
+    ways = [way for way in through_ways(network) if len(works.way(way).works) <= MOST_WORKS] if wanted.count else []
     for i in range(wanted.count):
-        found = free_place(i, scenario, ways, taken)
+        found = free_place(i, scenario, ways, taken, works)
         if found is None:
             raise ScenarioError(
                 "The traffic does not fit on the map.",
@@ -330,7 +349,7 @@ def check_starts(cars: list[Car], where: str) -> None:
                 raise ScenarioError(f"{where} is not a valid scenario.", [Problem(field, what, remedy=remedy)])
 
 
-def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path, float] | None:
+def free_place(i: int, scenario: Scenario, ways, taken, works: Works) -> tuple[road_path.Path, float] | None:
     """A way and a station for traffic car i that keeps the spacing to all that is placed."""
     usable = [way for way in ways if way.length > 2 * END_CLEARANCE]
     if not usable:
@@ -340,6 +359,7 @@ def free_place(i: int, scenario: Scenario, ways, taken) -> tuple[road_path.Path,
         station = uniform(scenario.seed, i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
-        if not near_light and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+        in_works = works.way(way).is_touched(station, CAR_LENGTH, works.first)
+        if not near_light and not in_works and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
             return way, station
     return None

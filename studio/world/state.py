@@ -88,7 +88,34 @@ GROUND = (
 )
 (HEIGHT, SLOPE_X, SLOPE_Y, MU) = range(len(GROUND))
 
-# Pieces of the patches on the roads.
+# Weather, per world.
+WEATHER = (
+    Row("friction", "1", "relative to the tyre's test track"),
+    Row("visibility", "m", "drivers see nothing beyond"),
+)
+(FRICTION, VISIBILITY) = range(len(WEATHER))
+
+# Changes of the road: each begins and ends at a moment, which is a time or a place that a vehicle passes.
+MOMENT = (
+    Row("time", "s", "infinite when a vehicle makes it"),
+    Row("vehicle", "1", "column of the vehicle, -1 when there is none"),
+    Row("station", "m", "on the path of this vehicle"),
+)
+(WHEN, BY, AT) = range(len(MOMENT))
+BEFORE, ACTING, OVER = range(3)  # phases of a change
+
+# Lines: the paths that vehicles may take.
+LINE = (
+    Row("first", "1", "column of its first point"),
+    Row("count", "1", "of its points"),
+    Row("first_stop", "1", "its first stop line"),
+    Row("stops", "1", "number of its stop lines"),
+    Row("first_object", "1", "first object that stands in its way"),
+    Row("objects", "1", "number of them"),
+)
+(LINE_FIRST, LINE_COUNT, LINE_STOP, LINE_STOPS, LINE_OBJECT, LINE_OBJECTS) = range(len(LINE))
+
+# Pieces of slippery stretches.
 PIECE = (
     Row("x", "m", "middle of the piece"),
     Row("y", "m", "middle of the piece"),
@@ -97,8 +124,33 @@ PIECE = (
     Row("right", "m", "how far it reaches to the right"),
     Row("friction", "1", "relative to the tyre's test track"),
     Row("world", "1", "number of the world"),
+    Row("change", "1", "number of the change that it belongs to"),
 )
-(PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD) = range(len(PIECE))
+(
+    PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD, PIECE_CHANGE,
+) = range(len(PIECE))  # fmt: skip
+
+# Objects on the road: boxes at rest.
+OBSTACLE = (
+    Row("x", "m", "middle of the object"),
+    Row("y", "m", "middle of the object"),
+    Row("heading", "rad", "of its length"),
+    Row("length", "m", "of the object"),
+    Row("width", "m", "of the object"),
+    Row("kind", "1", "0 a cone, 1 a barrier"),
+    Row("change", "1", "number of the change that it belongs to"),
+)
+(O_X, O_Y, O_HEADING, O_LENGTH, O_WIDTH, O_KIND, O_CHANGE) = range(len(OBSTACLE))
+CONE, BARRIER = range(2)
+OBJECT = -2  # where a column of a vehicle may stand, object i is OBJECT - i; -1 is nothing
+
+# Objects that a vehicle on its path may run into.
+SWEEP = (
+    Row("station", "m", "at which the path comes to it"),
+    Row("aside", "m", "from the path to its near edge"),
+    Row("object", "1", "number of the object"),
+)
+(SWEPT_AT, SWEPT_ASIDE, SWEPT_OBJECT) = range(len(SWEEP))
 
 # Scratch: what one pass hands to the next within a step, per wheel; directions in the body's axes.
 CONTACT = (
@@ -261,9 +313,9 @@ MIND = (
     Row("heading_error", "rad", "heading minus path heading at the front axle"),
     Row("front_offset", "m", "offset of the front axle from the path"),
     Row("desired_speed", "m/s", "speed that route and bends permit"),
-    Row("gap", "m", "bumper to bumper, to the vehicle ahead on the own path; not a number when there is none"),
-    Row("ahead_speed", "m/s", "speed of the vehicle ahead"),
-    Row("ahead", "1", "column of the vehicle ahead, -1 when there is none"),
+    Row("gap", "m", "bumper to bumper, to the vehicle or object ahead on the own path; not a number when there is none"),
+    Row("ahead_speed", "m/s", "speed of what is ahead"),
+    Row("ahead", "1", "column of the vehicle ahead, or OBJECT - i; -1 when there is none"),
     Row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none"),
     Row("following", "m/s²", "acceleration that traffic ahead permits"),
     Row("yielding", "m/s²", "acceleration that cars permit which reach a merge or crossing first"),
@@ -319,7 +371,7 @@ SENSOR = (
     Row("range", "m", "front bumper to the target's rear"),
     Row("range_rate", "m/s", "change of the range"),
     Row("azimuth", "rad", "direction of the target, left positive"),
-    Row("target", "1", "column of the target, for the record only"),
+    Row("target", "1", "column of the target, or OBJECT - i, for the record only"),
     Row("drift_east", "1", "slow error of the satellite position, over its standard deviation"),
     Row("drift_north", "1", "slow error of the satellite position, over its standard deviation"),
     Row("gps_error_east", "m", "measured minus true position"),
@@ -370,7 +422,7 @@ MESSAGE = (
 COLLISION = (
     Row("time", "s", "of the first contact"),
     Row("first", "1", "column of one vehicle"),
-    Row("second", "1", "column of the other"),
+    Row("second", "1", "column of the other, or OBJECT - i"),
     Row("impact_speed", "m/s", "relative speed at contact"),
 )
 (HIT_TIME, HIT_FIRST, HIT_SECOND, HIT_SPEED) = range(len(COLLISION))

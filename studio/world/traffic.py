@@ -1,4 +1,4 @@
-"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Five passes.
+"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Six passes.
 
 Two paths that run within a lane's width of each other share a zone: a stretch of one belongs to a stretch of the other.
 Following on one lane, merging and crossing are then one and the same: a car that is in the zone, or will be there
@@ -8,6 +8,7 @@ first, drives ahead at the distance that the stretches give.
 from math import cos, inf, nan, sin
 
 from studio.compiled import compiled
+from studio.conventions import GRAVITY
 from studio.model import driver
 from studio.road.path import (
     PATH_CURVATURE,
@@ -29,6 +30,7 @@ SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only whe
 HORIZON = 60.0  # [m] how far before a merge drivers mind each other
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
+ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
@@ -64,19 +66,19 @@ def clip(s, count):
 
 
 @compiled
-def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown):
-    """Station [m] of the next stop line ahead of the bumper that shows no green and at which the driver will stop."""
+def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown, sight):
+    """Station [m] of the next stop line in sight ahead of the bumper that shows no green and at which the driver will stop."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     for i in range(stop_first, stop_first + stop_count):
         distance = stop_station[i] - bumper
-        if distance > 0.0 and shown[stop_link[i]] != GREEN and driver.must_stop(state[V_X, v], distance):
+        if 0.0 < distance <= sight and shown[stop_link[i]] != GREEN and driver.must_stop(state[V_X, v], distance):
             return stop_station[i]
     return inf
 
 
 @compiled
 def orient(state, parameter, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
-           drivers, mind):  # fmt: skip
+           world_of, weather, drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
@@ -84,9 +86,11 @@ def orient(state, parameter, points, path_first, path_count, stop_first, stop_co
         locate(v, state, parameter, points, path_first[v], path_count[v], mind)
         if mind[STATION, v] > (path_count[v] - 1) * PATH_SPACING - ARRIVAL:
             state[ACTIVE, v] = 0.0
-        mind[V_DESIRED, v] = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
+        w = world_of[v]
+        permitted = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
+        mind[V_DESIRED, v] = min(permitted, safe_speed(v, weather[FRICTION, w], weather[VISIBILITY, w], drivers))
         mind[RED_STATION, v] = next_red(
-            v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown
+            v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, weather[VISIBILITY, w]
         )
         forget(v, mind)
 
@@ -99,6 +103,12 @@ def permitted_speed(v, state, points, first, count, mind):
     return min(
         interpolate(points, first, PATH_SPEED, clip(here, count)), interpolate(points, first, PATH_SPEED, clip(ahead, count))
     )
+
+
+@compiled
+def safe_speed(v, friction, sight, drivers):
+    """Speed [m/s] from which the driver stops within sight [m], braking in comfort or as hard as the road lets."""
+    return driver.sight_speed(sight, min(drivers[BRAKE_COMFORT, v], friction * GRAVITY))
 
 
 @compiled
@@ -148,12 +158,22 @@ def goes_first(v, other, d_v, d_other, zone_start, state, mind):
 
 
 @compiled
-def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
+def is_unseen(v, other, sight, state, parameter):
+    """Whether the other car is farther from the own front bumper than one sees."""
+    dx, dy = state[X, other] - state[X, v], state[Y, other] - state[Y, v]
+    reach = sight + parameter[FRONT, v] + parameter[LENGTH, other] - parameter[FRONT, other]
+    return dx * dx + dy * dy > reach * reach
+
+
+@compiled
+def meet(v, other, v_enter, v_leave, other_enter, other_leave, sight, state, parameter, points, first, count, drivers, mind):
     """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     bumper_other = mind[STATION, other] + parameter[FRONT, other]
     rear_other = bumper_other - parameter[LENGTH, other]
     if bumper - parameter[LENGTH, v] > v_leave or rear_other > other_leave or v_enter - bumper > HORIZON:
+        return
+    if is_unseen(v, other, sight, state, parameter):
         return
     gap = (rear_other - other_enter) - (bumper - v_enter)
     in_front = mind[STATION, other] - other_enter > mind[STATION, v] - v_enter
@@ -170,15 +190,42 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter,
 
 
 @compiled
-def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, drivers, mind):
+def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, world_of, weather, drivers, mind):
     """Third pass: every zone, for the first car of its pair."""
     for z in range(zone_pair.shape[1]):
         v, other = zone_pair[0, z], zone_pair[1, z]
         if state[ACTIVE, v] > 0.0 and state[ACTIVE, other] > 0.0:
             meet(
                 v, other, zone_span[0, z], zone_span[1, z], zone_span[2, z], zone_span[3, z],
-                state, parameter, points, path_first[v], path_count[v], drivers, mind,
+                weather[VISIBILITY, world_of[v]], state, parameter, points, path_first[v], path_count[v], drivers, mind,
             )  # fmt: skip
+
+
+@compiled
+def obstacles(state, parameter, world_of, weather, sweep, sweep_first, sweep_count, standing, drivers, mind):
+    """Fourth pass: the first object in sight that stands in the strip which the own body will sweep."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] == 0.0:
+            continue
+        bumper, reach = mind[STATION, v] + parameter[FRONT, v], 0.5 * parameter[WIDTH, v] + ELBOW_ROOM
+        for i in range(sweep_first[v], sweep_first[v] + sweep_count[v]):
+            gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
+            if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
+                if gap <= weather[VISIBILITY, world_of[v]]:
+                    stand_before(v, number, gap, state, drivers, mind)
+                break
+
+
+@compiled
+def stand_before(v, number, gap, state, drivers, mind):
+    """Object `number` is followed as a car that stands."""
+    wish = driver.following_acceleration(
+        state[V_X, v], mind[V_DESIRED, v], gap, state[V_X, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
+        drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
+    )  # fmt: skip
+    mind[FOLLOWING, v] = min(mind[FOLLOWING, v], wish)
+    if not gap >= mind[GAP, v]:
+        mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, 0.0
 
 
 @compiled
@@ -207,7 +254,7 @@ def steer_wish(v, state, parameter, drivers, mind):
 
 @compiled
 def decide(state, parameter, drivers, mind):
-    """Fourth pass: what every driver wants of pedals and wheel."""
+    """Fifth pass: what every driver wants of pedals and wheel."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
             continue
@@ -233,7 +280,7 @@ def is_free(x, y, first, count, state):
 def recirculate(
     returns, points, path_first, path_count, raised, world_of, first, count, state, wheels, ground, parameter, gears, mind
 ):  # fmt: skip
-    """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
+    """Sixth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:
             continue

@@ -8,6 +8,7 @@ import numpy as np
 from studio.application.host import Hosted
 from studio.road.shadow import Shadow
 from studio.world.fleet import Fleet
+from studio.world.state import OBJECT
 
 
 @dataclass
@@ -66,11 +67,51 @@ class Roads:
     phase_end: np.ndarray
     phase_state: np.ndarray
     shown: np.ndarray
-    weather: np.ndarray  # friction [1] per world
-    pieces: np.ndarray  # of patches, [row, piece]
+    weather: np.ndarray  # [row, world]
+    pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
     place_of: np.ndarray  # number of the map, per world
     shadow: Shadow  # the buildings of all maps
+
+
+@dataclass
+class Changes:
+    """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
+
+    moments: np.ndarray  # [row, change] of all beginnings, then of all ends
+    phase: np.ndarray  # int64[change]: BEFORE, ACTING, OVER
+    turned: np.ndarray  # [s] float64[2, change]: when it began and ended, not a number before
+    limits: list[tuple[int, np.ndarray, np.ndarray]]  # change, columns of points, speed there
+    free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
+
+
+@dataclass
+class Detours:
+    """Vehicles whose path passes works: which of its paths each has taken (`choice` is state), and all their paths."""
+
+    vehicle: np.ndarray  # int64[m]: columns
+    choice: np.ndarray  # int64[m]: bit b is work b
+    work: np.ndarray  # int64[MOST_WORKS, m]: change that work b is, -1 for none
+    base: np.ndarray  # int64[m]: column of `lines` with choice 0
+    lines: np.ndarray  # int64[LINE, line]
+    span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
+    held: np.ndarray  # int64[change]: vehicles that are still within it on the usual path
+    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of paths, by their first points
+
+
+@dataclass
+class Obstacles:
+    """Objects on the road, world after world, and for every vehicle those that it may run into on its path."""
+
+    table: np.ndarray  # [row, object]
+    first: np.ndarray  # per world
+    count: np.ndarray
+    standing: np.ndarray  # int64[object], 1 while it stands there
+    sweep: np.ndarray  # [row, object on a line]
+    counts: np.ndarray  # of these per line
+    sweep_first: np.ndarray  # per vehicle, on the line it is on
+    sweep_count: np.ndarray
+    names: tuple[str, ...]
 
 
 @dataclass
@@ -119,6 +160,9 @@ class World:
     roads: Roads
     units: Units
     events: Events
+    changes: Changes
+    detours: Detours
+    obstacles: Obstacles
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
@@ -132,6 +176,12 @@ class World:
         """Column of a vehicle; raises ValueError."""
         return int(self.worlds.first[world]) + self.names[world].index(name)
 
+    def name_of(self, number: int, world: int = 0) -> str:
+        """Name of the vehicle in a column, or of an object, OBJECT - i."""
+        if number <= OBJECT:
+            return self.obstacles.names[OBJECT - number]
+        return self.names[world][number - int(self.worlds.first[world])]
+
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""
         first = int(self.worlds.first[world])
@@ -139,9 +189,10 @@ class World:
 
     def moving_parts(self) -> list[np.ndarray]:
         """The arrays that change during a run."""
-        v, u, e = self.vehicles, self.units, self.events
-        memories = [hosted.memory for hosted in self.hosted]
-        return [v.state, v.wheels, v.mind, v.script, v.commands, u.sensors, u.sent, u.inbox, e.fired, e.hits, *memories]
+        v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
+        units = [u.sensors, u.sent, u.inbox]
+        happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
+        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(hosted.memory for hosted in self.hosted)]
 
     def digest(self) -> str:
         """SHA-256 of the moving parts and the clock."""

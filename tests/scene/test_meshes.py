@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from studio.scene import building, city, signal, tree, vehicle
+from studio.scene import building, city, obstacle, signal, tree, vehicle
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN, sky
@@ -189,3 +189,20 @@ def test_a_surface_of_one_colour_is_that_colour():
     triangle = surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "#336699")
     np.testing.assert_allclose(triangle.colors, np.tile(linear("#336699"), (3, 1)), rtol=1e-6)
     np.testing.assert_allclose(triangle.normals, np.tile([0, 0, 1], (3, 1)))
+
+
+@pytest.mark.parametrize(
+    ("shape", "size", "volume"),
+    [(obstacle.cone, (0.3, 0.3, 0.75), 0.003), (obstacle.barrier, (1.5, 0.5, 1.0), 0.02)],
+    ids=["cone", "barrier"],
+)
+def test_objects_have_their_size_stand_on_the_road_and_are_red_and_white(shape, size, volume):
+    body = shape()
+    low, high = body.vertices.min(axis=0), body.vertices.max(axis=0)
+    np.testing.assert_allclose(high - low, size, atol=0.01)
+    assert low[2] == pytest.approx(0.0, abs=1e-6) and (low[:2] + high[:2]) == pytest.approx([0.0, 0.0], abs=1e-6)
+    whole = solid(body)
+    assert whole.is_winding_consistent and whole.volume > volume
+    colours = {tuple(np.round(colour, 3)) for colour in body.colors}
+    white = np.round(linear(obstacle.WHITE), 3)
+    assert tuple(white.astype(np.float32).round(3)) in colours and len(colours) >= 3

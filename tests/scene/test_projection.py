@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from studio.scene import fleet, pose
+from studio.scene import fleet, light, pose
 from studio.scene.fleet import Look
+from studio.scene.obstacle import Place
 from studio.scene.projection import Scene
 from studio.scene.vehicle import Dimensions
 
@@ -178,3 +179,33 @@ def test_viser_does_not_print_an_address_of_its_own(capsys):
 def test_nobody_can_open_a_public_tunnel(scene):
     assert scene._server.request_share_url() is None
     assert scene._server._websock_server._host == "127.0.0.1"
+
+
+def test_objects_come_and_go(scene):
+    """One batch per kind; what does not stand is far below the ground; nothing is sent when nothing has changed."""
+    scene.show_obstacles([Place("cone", 1.0, 2.0, 0.0), Place("barrier", 5.0, 6.0, np.pi / 2), Place("cone", 3.0, 4.0, 0.0)])
+    cones, barriers = node(scene, "/obstacles/cones"), node(scene, "/obstacles/barriers")
+    assert (cones.batched_positions[:, 2] < -100.0).all() and (barriers.batched_positions[:, 2] < -100.0).all()
+    scene.update_obstacles(np.array([1, 1, 0], np.int8))
+    np.testing.assert_allclose(cones.batched_positions[0], [1.0, 2.0, 0.0])
+    assert cones.batched_positions[1, 2] < -100.0
+    np.testing.assert_allclose(barriers.batched_positions[0], [5.0, 6.0, 0.0])
+    np.testing.assert_allclose(barriers.batched_wxyzs[0], [np.sqrt(0.5), 0, 0, np.sqrt(0.5)], atol=1e-6)
+    before = cones.batched_positions
+    scene.update_obstacles(np.array([1, 1, 0], np.int8))
+    assert cones.batched_positions is before
+    scene.show_obstacles([])
+    assert node(scene, "/obstacles/cones") is None
+
+
+def test_fog_hides_what_is_farther_than_one_sees(scene, monkeypatch):
+    """The fog ends at the visibility, and hides the blue of the sky; in clear air both are as before."""
+    ends = []
+    monkeypatch.setattr(scene._server.scene, "configure_fog", lambda near, far, **look: ends.append(far))
+    clear = node(scene, "/city/sky").glb_data
+    scene.show_weather(120.0)
+    assert node(scene, "/city/sky").glb_data != clear
+    scene.show_weather(10_000.0)
+    scene.show_weather(20_000.0)
+    assert node(scene, "/city/sky").glb_data == clear
+    assert ends == [120.0, light.HAZE_FAR]

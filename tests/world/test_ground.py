@@ -1,4 +1,4 @@
-"""Friction under every wheel: weather, patches along a route, one side of it, worlds apart from each other."""
+"""Friction under every wheel: weather, slippery stretches, one side of them, worlds apart from each other."""
 
 import numpy as np
 import pytest
@@ -12,12 +12,14 @@ from studio.world.setting import setting
 from studio.world.state import MU, STATION, V_X
 from studio.world.tick import environment, tick
 
+ALONG = {"change": "friction", "route": "east_to_west"}
 
 
-def scenario(sample, road):
+def scenario(sample, *, weather=1.0, **stretches):
     """The sample's leader alone, on another surface."""
     document = yaml.safe_load(sample.read_text())
-    document |= {"road": road, "applications": {}, "triggers": {}, "traffic": {"count": 0}, "goals": {}}
+    changes = {name: {"do": ALONG | stretch} for name, stretch in stretches.items()}
+    document |= {"weather": {"friction": weather}, "changes": changes, "applications": {}, "triggers": {}, "traffic": {"count": 0}, "goals": {}}
     document["vehicles"] = {"leader": document["vehicles"]["leader"]}
     return setting(complete(document, "surface"), sample.parent, "surface")
 
@@ -28,16 +30,16 @@ def wheels(world):
 
 
 def test_weather_is_everywhere(sample):
-    world = build([scenario(sample, {"friction": 0.4})])
+    world = build([scenario(sample, weather=0.4)])
     environment(world)
     assert (world.vehicles.ground[MU] == 0.4).all()
     assert (world.vehicles.ground[:MU] == 0.0).all()
 
 
-def test_a_patch_comes_wheel_by_wheel(sample):
+def test_a_stretch_comes_wheel_by_wheel(sample):
     """Front wheels first, by the wheelbase; after it the weather's friction again; only the left side where it says so."""
-    patch = {"route": "east_to_west", "start": 400.0, "end": 420.0, "friction": 0.2, "side": "left", "width": 3.5}
-    world = build([scenario(sample, {"friction": 0.9, "patches": {"ice": patch}})])
+    ice = {"start": 400.0, "end": 420.0, "friction": 0.2, "side": "left", "width": 3.5}
+    world = build([scenario(sample, weather=0.9, ice=ice)])
     seen = []
     for _ in range(600):
         tick(world)
@@ -50,20 +52,20 @@ def test_a_patch_comes_wheel_by_wheel(sample):
     assert rear_enters == pytest.approx(400.0 + 1.423, abs=0.6)
 
 
-def test_a_later_patch_covers_an_earlier_one(sample):
-    patches = {
-        "wet": {"route": "east_to_west", "start": 300.0, "end": 500.0, "friction": 0.6, "width": 10.0},
-        "ice": {"route": "east_to_west", "start": 350.0, "end": 370.0, "friction": 0.1, "width": 10.0},
+def test_a_later_stretch_covers_an_earlier_one(sample):
+    stretches = {
+        "wet": {"start": 300.0, "end": 500.0, "friction": 0.6, "width": 10.0},
+        "ice": {"start": 350.0, "end": 370.0, "friction": 0.1, "width": 10.0},
     }
     for order, expected in ((("wet", "ice"), 0.1), (("ice", "wet"), 0.6)):
-        world = build([scenario(sample, {"patches": {name: patches[name] for name in order}})])
+        world = build([scenario(sample, **{name: stretches[name] for name in order})])
         environment(world)
         assert (wheels(world) == expected).all()
 
 
 def test_a_batch_has_its_own_roads(sample):
-    dry = scenario(sample, {})
-    icy = scenario(sample, {"patches": {"ice": {"route": "east_to_west", "start": 300, "end": 500, "friction": 0.1, "width": 20}}})
+    dry = scenario(sample)
+    icy = scenario(sample, ice={"start": 300, "end": 500, "friction": 0.1, "width": 20})
     world = build([dry, icy])
     environment(world)
     assert world.vehicles.ground[MU].reshape(4, 2).T.tolist() == [[1.0] * 4, [0.1] * 4]
@@ -73,7 +75,7 @@ def test_ice_lengthens_the_way_to_a_stop(sample):
     """The same driver needs several times the distance from 13 m/s to a stop where the road is icy."""
     ways = []
     for friction in (1.0, 0.15):
-        run = simulation(scenario(sample, {"friction": friction}))
+        run = simulation(scenario(sample, weather=friction))
         for _ in range(500):
             run.world.vehicles.script[:, 0] = (8.0, 100.0, -1.0)
             run.advance()
@@ -84,16 +86,16 @@ def test_ice_lengthens_the_way_to_a_stop(sample):
 
 
 @pytest.mark.parametrize(
-    ("patch", "field"),
+    ("stretch", "field"),
     [
-        ({"route": "nowhere"}, "road.patches.ice.route"),
-        ({"end": 100_000.0}, "road.patches.ice.end"),
-        ({"end": 10.0}, "road.patches.ice"),
-        ({"friction": -1.0}, "road.patches.ice.friction"),
-        ({"side": "top"}, "road.patches.ice.side"),
+        ({"route": "nowhere"}, "changes.ice.do.route"),
+        ({"end": 100_000.0}, "changes.ice.do.end"),
+        ({"end": 10.0}, "changes.ice.do"),
+        ({"friction": -1.0}, "changes.ice.do.friction"),
+        ({"side": "top"}, "changes.ice.do.side"),
     ],
 )
-def test_bad_patches_are_named(sample, patch, field):
+def test_bad_stretches_are_named(sample, stretch, field):
     with pytest.raises(ScenarioError) as caught:
-        scenario(sample, {"patches": {"ice": {"route": "east_to_west", "start": 50.0, "end": 60.0, "friction": 0.2} | patch}})
-    assert any(field in problem.where for problem in caught.value.problems)
+        scenario(sample, ice={"start": 50.0, "end": 60.0, "friction": 0.2} | stretch)
+    assert any(problem.where.endswith(f": {field}") for problem in caught.value.problems)

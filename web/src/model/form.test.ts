@@ -77,6 +77,26 @@ describe("the form", () => {
     expect(vehicles?.sections[0]?.sections[0]?.title).toBe("Start");
   });
 
+  it("says in the title which of several changes of the road it is", () => {
+    const kinds = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
+    const alternative = ([change, properties]: [string, object]) => ({
+      type: "object",
+      properties: { change: { const: change }, ...properties },
+    });
+    const entry = {
+      type: "object",
+      properties: { do: { oneOf: Object.entries(kinds).map(alternative), title: "Change" } },
+    };
+    const changing = {
+      ...source(),
+      schema: { properties: { changes: { type: "object", additionalProperties: entry, title: "Changes" } } },
+      document: { changes: { slow: { do: { change: "limit", speed: 8.3 } }, ice: { do: { change: "friction", width: 2 } } } },
+    };
+    const [all] = sections(changing);
+    expect(all?.sections.map(({ sections: [inner] }) => inner?.title)).toEqual(["Change: limit", "Change: friction"]);
+    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual(["changes.slow.do.speed", "changes.ice.do.width"]);
+  });
+
   it("marks what is changed and counts it", () => {
     const changed = sections(source({ "radio.delay": 0.3 }));
     expect(field("radio.delay", { "radio.delay": 0.3 })).toMatchObject({

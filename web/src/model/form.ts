@@ -71,6 +71,8 @@ const ORDER = [
   "vehicles",
   "traffic",
   "triggers",
+  "changes",
+  "weather",
   "clock",
   "goals",
   "recording",
@@ -109,9 +111,18 @@ function objectSection(source: Source, path: string, schema: Schema, value: Tree
     // A title given to a property names the section; that of a class of entries does not tell them apart.
     const inner = section.sections.at(-1);
     const title = schema.properties?.[key]?.title;
-    if (inner?.path === below && title) inner.title = words(title);
+    if (inner?.path === below && title) inner.title = words(title) + variant(source, schema, key, value);
   }
   return section;
+}
+
+/** Which of several alternatives an entry is: its constant is not among the fields. */
+function variant(source: Source, schema: Schema, key: string, value: Tree): string {
+  const child = childSchema(schema, key);
+  if (!child.oneOf) return "";
+  const chosen = Object.values(resolve(child, source.schema, value[key]).properties ?? {});
+  const constant = chosen.find((property) => property.const !== undefined)?.const;
+  return typeof constant === "string" ? `: ${words(constant).toLowerCase()}` : "";
 }
 
 function emptySection(path: string, schema: Schema): Section {

@@ -1,0 +1,123 @@
+"""Lines: every path that a vehicle of a batch of worlds may take, in one array of points, with what stands along it.
+
+    lines_of(settings)   →  Lines      the usual path of every vehicle, and those that lead it around works
+    zones(...)           →  arrays     where the lines that are taken just now run close to each other
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.road import conflict
+from studio.road.path import Path
+from studio.world.setting import Setting
+from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.way import MOST_WORKS, Way
+from studio.world.world import Detours, Worlds
+
+Zones = dict[tuple[int, int], np.ndarray]
+
+
+class Laid(NamedTuple):
+    """A path of a world, and the column of its first point."""
+
+    world: int
+    path: Path
+    first: int
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """All lines; the number of the usual one and the way of every vehicle; all points [row, point]."""
+
+    laid: list[Laid]
+    base: np.ndarray
+    ways: list[Way]
+    points: np.ndarray
+
+
+def lines_of(settings: Sequence[Setting]) -> Lines:
+    """The lines of all vehicles. Those on one path share its points, within a world whose roads change, else in the batch."""
+    laid: list[Laid] = []
+    numbers: dict[tuple[int, int], int] = {}
+    points: list[np.ndarray] = []
+    first_of: dict[tuple[int, int], int] = {}
+
+    def lay(w: int, path: Path) -> None:
+        key = (w if settings[w].sites else -1, id(path))
+        if key not in first_of:
+            first_of[key] = sum(each.shape[1] for each in points)
+            points.append(path.points)
+        laid.append(Laid(w, path, first_of[key]))
+
+    base, ways = [], []
+    for w, each in enumerate(settings):
+        for car in each.cars:
+            way = each.works.way(car.path)
+            if (w, id(car.path)) not in numbers:
+                numbers[w, id(car.path)] = len(laid)
+                for path in way.paths:
+                    lay(w, path)
+            base.append(numbers[w, id(car.path)])
+            ways.append(way)
+    return Lines(laid, np.array(base), ways, np.concatenate(points, axis=1))
+
+
+def stops_of(lines: Lines, link_base: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """How many stop lines each line has; station and link of all."""
+    stops = [[(s, link + link_base[w]) for s, link in path.stop_lines] for w, path, _ in lines.laid]
+    flat = np.array([stop for each in stops for stop in each]).reshape(-1, 2)
+    return np.array([len(each) for each in stops]), flat[:, 0].copy(), flat[:, 1].astype(np.int64)
+
+
+def table_of(lines: Lines, stop_counts: np.ndarray, object_counts: np.ndarray) -> np.ndarray:
+    """int64[LINE, line]."""
+    counts = [each.path.points.shape[1] for each in lines.laid]
+    return np.array([[each.first for each in lines.laid], counts, starts(stop_counts), stop_counts, starts(object_counts), object_counts])
+
+
+def starts(counts: np.ndarray) -> np.ndarray:
+    """Where each of several parts that stand one after another begins."""
+    return np.concatenate([[0], np.cumsum(counts)[:-1]])
+
+
+def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table: np.ndarray, known: Zones) -> Detours:
+    """The vehicles whose path passes works, all on their usual path."""
+    vehicles = np.array([v for v, way in enumerate(lines.ways) if way.works], dtype=np.int64)
+    first = starts(np.array([len(each.sites) for each in settings]))
+    work = np.full((MOST_WORKS, vehicles.size), -1)
+    span = np.full((2 * MOST_WORKS, table.shape[1]), np.nan)
+    for j, v in enumerate(vehicles):
+        way = lines.ways[v]
+        count, number = len(way.works), lines.base[v]
+        work[:count, j] = np.array(way.works) + first[worlds.of[v]]
+        span[: 2 * count, number : number + len(way.paths)] = way.spans.reshape(len(way.paths), -1).T
+    return Detours(
+        vehicle=vehicles,
+        choice=np.zeros(vehicles.size, dtype=np.int64),
+        work=work,
+        base=lines.base[vehicles],
+        lines=table,
+        span=span,
+        held=np.zeros(sum(len(each.sites) for each in settings), dtype=np.int64),
+        known=known,
+    )
+
+
+def zones(worlds: Worlds, points: np.ndarray, path_first: np.ndarray, path_count: np.ndarray, known: Zones):
+    """Zones of every ordered pair of vehicles of one world on the lines they are on; a pair of lines is looked at once."""
+    pairs, spans = [], []
+    for first, count in zip(worlds.first, worlds.count, strict=True):
+        for i in range(first, first + count):
+            for j in range(first, first + count):
+                if i == j:
+                    continue
+                key = (int(path_first[i]), int(path_first[j]))
+                if key not in known:
+                    known[key] = conflict.zones(points, path_first[i], path_count[i], path_first[j], path_count[j])
+                pairs += [(i, j)] * len(known[key])
+                spans.append(known[key])
+    table = np.concatenate(spans) if spans else np.zeros((0, 4))
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T.copy(), table.T.copy()

@@ -1,0 +1,38 @@
+"""The sample with changes of the road, and ways to drive through it."""
+
+import numpy as np
+import yaml
+
+from studio.application.setup import complete
+from studio.world.build import build
+from studio.world.setting import setting
+from studio.world.state import STATION, V_X
+from studio.world.tick import tick
+
+SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
+
+
+def scenario(sample, changes, *, alone=True, **parts):
+    """The sample with these changes; its leader alone, or everybody."""
+    document = yaml.safe_load(sample.read_text())
+    document |= {"changes": changes, "triggers": {}, "goals": {}}
+    if alone:
+        document |= {"applications": {}, "traffic": {"count": 0}}
+        document["vehicles"] = {"leader": document["vehicles"]["leader"]}
+    return setting(complete(document | parts, "changing"), sample.parent, "changing")
+
+
+def drive(setting, seconds):
+    """Station and speed of the first car at every tick, and the world after it."""
+    world, seen = build([setting]), []
+    for _ in range(round(seconds / world.clock.tick)):
+        tick(world)
+        seen.append((world.vehicles.mind[STATION, 0], world.vehicles.state[V_X, 0]))
+    return *np.array(seen).T, world
+
+
+def run_for(settings, seconds):
+    made = build(settings)
+    for _ in range(round(seconds / made.clock.tick)):
+        tick(made)
+    return made
