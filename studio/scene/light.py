@@ -43,8 +43,14 @@ def light(server: viser.ViserServer) -> None:
     scene.add_light_directional(
         "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
     )
-    scene.configure_fog(HAZE_NEAR, HAZE_FAR, color=linear8(HAZE))
+    haze(server, reach=0.0)
     scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
+
+
+def haze(server: viser.ViserServer, *, reach: float) -> None:
+    """Haze that leaves a map of this half extent [m] clear when it is seen as a whole; it must end before the ground does."""
+    near = max(HAZE_NEAR, 0.9 * reach)
+    server.scene.configure_fog(near, max(HAZE_FAR, min(near + HAZE_FAR, 0.97 * SKY_RADIUS)), color=linear8(HAZE))
 
 
 def on_level_ground(colour: str) -> np.ndarray:

@@ -12,7 +12,7 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
-from studio.scene.light import SKY_RADIUS, light
+from studio.scene.light import SKY_RADIUS, haze, light
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
@@ -47,6 +47,7 @@ class Scene:
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._look_at(reach=_reach(network))
+            haze(self._server, reach=_reach(network))
 
     def _clear_city(self) -> None:
         for node in self._city:

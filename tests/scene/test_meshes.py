@@ -74,7 +74,6 @@ def test_the_file_holds_what_was_put_in():
     (mesh,) = scene.geometry.values()
     np.testing.assert_allclose(mesh.vertices, shape.vertices, atol=1e-6)
     np.testing.assert_array_equal(mesh.faces, shape.faces)
-    # normals are kept to half a degree, colours to 16 bits
     document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
     look = document["materials"][0]["pbrMetallicRoughness"]
     assert look == {"metallicFactor": 0.0, "roughnessFactor": 0.28}
