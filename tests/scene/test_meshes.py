@@ -3,13 +3,15 @@
 import io
 import json
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
 from PIL import Image
 
-from studio.scene import building, city, signal, tree, vehicle
+from studio.road.network import Post, Wall
+from studio.scene import building, city, signal, tree, upright, vehicle
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN, sky
@@ -188,3 +190,27 @@ def test_a_surface_of_one_colour_is_that_colour():
     triangle = surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], "#336699")
     np.testing.assert_allclose(triangle.colors, np.tile(linear("#336699"), (3, 1)), rtol=1e-6)
     np.testing.assert_allclose(triangle.normals, np.tile([0, 0, 1], (3, 1)))
+
+
+def test_the_city_of_an_imported_map_is_kept_and_that_of_a_hand_made_one_is_not(town, tmp_path, monkeypatch):
+    monkeypatch.setenv("STUDIO_CACHE", str(tmp_path))
+    made = city.city(town)
+    assert not list(tmp_path.rglob("*.pickle"))
+    imported = replace(town, digest="0" * city.DIGEST_LENGTH)
+    first, second = city.city(imported), city.city(imported)
+    assert len(list(tmp_path.rglob("*.pickle"))) == 1
+    assert [layer.data for layer in made.layers] == [layer.data for layer in first.layers] == [layer.data for layer in second.layers]
+    np.testing.assert_array_equal(first.trees, second.trees)
+
+
+def test_walls_and_posts_have_their_sizes_and_stand_on_the_ground(town):
+    wall = Wall("wall", np.array([[0.0, 10.0, 10.0], [0.0, 0.0, 5.0]]), 2.0, 0.25)
+    mesh = upright.barrier(wall)
+    assert (mesh.vertices[:, 2].min(), mesh.vertices[:, 2].max()) == (0.0, 2.0)
+    a, b, c = (mesh.vertices[mesh.faces[:, i]].astype(float) for i in range(3))
+    normals = np.cross(b - a, c - a) / 2.0
+    # two stretches, each with two long faces, two ends and a top; all face outward: the top up
+    assert np.linalg.norm(normals, axis=1).sum() == pytest.approx(2 * 2.0 * 15.0 + 4 * 2.0 * 0.25 + 0.25 * 15.0)
+    assert normals[:, 2].sum() == pytest.approx(0.25 * 15.0)
+    post = upright.post(Post("bollard", 3.0, 4.0, 0.9, 0.16))
+    assert post.vertices.mean(axis=0)[:2] == pytest.approx([3.0, 4.0], abs=0.01) and np.ptp(post.vertices[:, 2]) == pytest.approx(0.9)
