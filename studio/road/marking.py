@@ -42,7 +42,9 @@ TURNS = {"straight": "straight", "left": "left", "right": "right", "slight_left"
 def marking_mesh(network: Network, form: shapely.Geometry) -> Mesh:
     """Everything that is painted on a road of this plane shape, and the lines of parking spaces beside it."""
     pieces = painted(network, form)
-    return merged([flat(each, MARKING) for each in pieces[~is_quad(pieces)]] + [quad_mesh(pieces[is_quad(pieces)]), space_mesh(network.scenery.spaces), *arrow_mesh(network)])
+    quick = is_quad(pieces)
+    others = [flat(each, MARKING) for each in pieces[~quick]]
+    return merged([quad_mesh(pieces[quick]), *others, space_mesh(network.scenery.spaces), *arrow_mesh(network)])
 
 
 def painted(network: Network, form: shapely.Geometry) -> np.ndarray:
@@ -167,7 +169,8 @@ def arrow(lane: Lane, tip: float, ways: set[str]) -> Mesh:
     """An arrow on a lane whose tip lies at this arc length [m]."""
     base, ahead = curve.along(lane.centre, np.array([tip - ARROW_LENGTH, tip])).T
     t = (ahead - base) / max(1e-9, np.hypot(*(ahead - base)))
-    pieces = [STEM if "straight" in ways else STEM[:1] + [(2.4, -0.08), (2.4, 0.08)] + STEM[3:], *(each for way in sorted(ways) for each in HEADS[way])]
+    stem = STEM if "straight" in ways else [STEM[0], (2.4, -0.08), (2.4, 0.08), STEM[3]]
+    pieces = [stem, *(each for way in sorted(ways) for each in HEADS[way])]
     turn = np.array([[t[0], -t[1]], [t[1], t[0]]])
     return merged([flat(shapely.Polygon((turn @ np.array(piece).T).T + base), MARKING) for piece in pieces])
 
