@@ -33,6 +33,7 @@ STRIPE = 0.5  # [m] of a zebra, and as much between two
 BROKEN, GAP = 0.5, 0.2  # [m] of the lines of a crossing with lights
 STOPPED_BY = 0.6  # [m] lane markings end before a painted crossing
 ARROW_LENGTH, ARROW_BEFORE, ARROW_ROOM = 5.0, 4.0, 14.0  # [m] of an arrow, from its tip to the lane's end, of lane it needs
+INSIDE = 0.5  # [m] from a junction's edge, where lanes reach into it
 AISLE_ARROWS = 14.0  # [m] between the arrows of a one-way aisle
 SPACE_LINE = 0.1  # [m]
 TURNS = {"straight": "straight", "left": "left", "right": "right", "slight_left": "left", "slight_right": "right"}
@@ -41,21 +42,31 @@ TURNS = {"straight": "straight", "left": "left", "right": "right", "slight_left"
 def marking_mesh(network: Network, form: shapely.Geometry) -> Mesh:
     """Everything that is painted on a road of this plane shape, and the lines of parking spaces beside it."""
     pieces = painted(network, form)
-    return merged([flat(each, MARKING) for each in pieces[~is_quad(pieces)]] + [quad_mesh(pieces[is_quad(pieces)]), space_mesh(network.scenery.spaces), *arrow_mesh(network)])
+    quick = is_quad(pieces)
+    others = [flat(each, MARKING) for each in pieces[~quick]]
+    return merged([quad_mesh(pieces[quick]), *others, space_mesh(network.scenery.spaces), *arrow_mesh(network)])
 
 
 def painted(network: Network, form: shapely.Geometry) -> np.ndarray:
     """All lines and crossings as plane shapes; lane markings keep off junctions and painted crossings."""
     roads = [road.id for road in network.roads.values() if not road.internal]
     middles = shapely.union_all([middle_line(network, road) for road in roads])
-    middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junction_form(network))
-    dashes = [line for road in roads for line in road_lines(network, road)]
+    junctions = junction_form(network)
+    middles = middles.intersection(form.buffer(-MIDDLE_INSET)).difference(junctions)
+    dashes = outside([line for road in roads for line in road_lines(network, road)], junctions.buffer(-INSIDE))
     stops = [stop_line(network, link) for link in range(len(network.signals))]
     shown = [crossing for crossing in network.scenery.crossings if crossing.marking != "none"]
     covered = [ground_of(crossing).buffer(STOPPED_BY, join_style="mitre") for crossing in shown]
     lines = without(np.array([*dashes, *stops, *polygons(middles), *polygons(edge_lines(network, form))]), covered)
     crossed = np.array([piece for crossing in shown for piece in crossing_pieces(crossing)], dtype=object)
     return np.concatenate([lines, within(crossed, form)])
+
+
+def outside(pieces: list[shapely.Geometry], form: shapely.Geometry) -> np.ndarray:
+    """The pieces whose middle does not lie on a plane shape."""
+    shapely.prepare(form)
+    known = np.array(pieces, dtype=object)
+    return known[~shapely.contains(form, shapely.centroid(known))]
 
 
 def without(pieces: np.ndarray, covered: list[shapely.Geometry]) -> np.ndarray:
@@ -158,7 +169,8 @@ def arrow(lane: Lane, tip: float, ways: set[str]) -> Mesh:
     """An arrow on a lane whose tip lies at this arc length [m]."""
     base, ahead = curve.along(lane.centre, np.array([tip - ARROW_LENGTH, tip])).T
     t = (ahead - base) / max(1e-9, np.hypot(*(ahead - base)))
-    pieces = [STEM if "straight" in ways else STEM[:1] + [(2.4, -0.08), (2.4, 0.08)] + STEM[3:], *(each for way in sorted(ways) for each in HEADS[way])]
+    stem = STEM if "straight" in ways else [STEM[0], (2.4, -0.08), (2.4, 0.08), STEM[3]]
+    pieces = [stem, *(each for way in sorted(ways) for each in HEADS[way])]
     turn = np.array([[t[0], -t[1]], [t[1], t[0]]])
     return merged([flat(shapely.Polygon((turn @ np.array(piece).T).T + base), MARKING) for piece in pieces])
 

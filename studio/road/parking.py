@@ -163,7 +163,9 @@ def note_kerbs(found: Survey, ways: list[Way]) -> None:
         found.notes.guess("parking along a kerb", what, spot_of(way), source="parking:* of the way", sure="medium")
 
 
-def taken_by(areas: tuple[Area, ...], buildings: tuple[Building, ...], crossings: tuple[Crossing, ...], spaces: np.ndarray, trees: np.ndarray) -> list:
+def taken_by(
+    areas: tuple[Area, ...], buildings: tuple[Building, ...], crossings: tuple[Crossing, ...], spaces: np.ndarray, trees: np.ndarray
+) -> list[shapely.Geometry]:
     """The plane shapes on which no space is laid."""
     forms = [polygon(area) for area in areas if area.kind in ("parking", "water")]
     forms += [shapely.Polygon(building.outline.T) for building in buildings if building.base < OVERHEAD]

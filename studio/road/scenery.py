@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -11,7 +12,7 @@ from studio.road.crossing import crossings
 from studio.road.kind import BARRIERS, POSTS, area_kind, metres
 from studio.road.network import Area, Building, Post, Scenery, Wall
 from studio.road.osm import Box, Shape, Survey
-from studio.road.plane import lines, polygons, rings
+from studio.road.plane import lines, polygon, polygons, rings
 from studio.road.site import Site
 
 LEVEL = 3.0  # [m] one floor
@@ -20,6 +21,8 @@ GROUNDS = ("sand", "square", "parking", "green", "water")  # from below
 TREE_SPACING = 9.0  # [m] in a row
 BOLLARD_SPACING = 1.8  # [m] in a line
 KERB = 0.3  # [m] between the road and a wall
+PASSAGE = 4.5  # [m] clear height over a road (StVZO § 32: vehicles are 4.00 m high at the most)
+TOUCH = 0.5  # [m²] of a building on the road is a matter of the mapper's pencil
 LARGEST_HEIGHT = 900.0  # [m] above this the tag is a slip
 COLOURS = {
     **{"white": "#f4f4f2", "grey": "#9a9a98", "gray": "#9a9a98", "black": "#303030", "brown": "#8a6a4f"},
@@ -32,7 +35,7 @@ def scenery(found: Survey, site: Site) -> Scenery:
     """Everything beside the roads of a site; what is guessed or skipped is noted."""
     shapes = [(shape, shape_form(shape, site.box)) for shape in found.shapes]
     shapes = [(shape, form) for shape, form in shapes if not form.is_empty and form.intersects(site.bounds)]
-    standing, ground = tuple(buildings(shapes, site.bounds)), tuple(areas(shapes, site.bounds))
+    standing, ground = tuple(passable(buildings(shapes, site.bounds), site.road)), tuple(areas(shapes, site.bounds))
     crossed, planted, spaces = tuple(crossings(found, site)), trees(found, site), parking.mapped(found, site, shapes)
     beside = parking.along_kerbs(found, site, parking.taken_by(ground, standing, crossed, spaces, planted))
     return Scenery(
@@ -70,6 +73,21 @@ def buildings(shapes, bounds) -> Iterator[Building]:
         drawn = kind == "part" or (kind == "building" and not is_told_by_parts(form, tree))
         if drawn and bounds.contains(form.centroid):
             yield from prisms(shape, form)
+
+
+def passable(standing: Iterator[Building], road: shapely.Geometry) -> Iterator[Building]:
+    """The buildings with a passage where one stands over the road; what is too low for one ends at the kerb."""
+    for building in standing:
+        form = polygon(building)
+        over = road.intersection(form) if building.base < PASSAGE and road.intersects(form) else shapely.Polygon()
+        if over.area < TOUCH:
+            yield building
+            continue
+        for one in polygons(form.difference(over.buffer(KERB, join_style="mitre"))):
+            yield replace(building, **dict(zip(("outline", "holes"), rings(one), strict=True)))
+        if building.height > PASSAGE + 1.0:
+            for one in polygons(form.intersection(over.buffer(KERB, join_style="mitre"))):
+                yield replace(building, **dict(zip(("outline", "holes"), rings(one), strict=True)), base=PASSAGE)
 
 
 def is_told_by_parts(form: shapely.Geometry, tree: shapely.STRtree) -> bool:

@@ -123,7 +123,8 @@ def stretch(plan: Drawing, kind: str, name: str, start, end, ahead: tuple[int, i
         arriving = at_end.turns(ahead) if kind == "main" and at_end and at_end.signalled and high == length else ""
         back = (-ahead[0], -ahead[1])
         leaving = at_start.turns(back) if kind == "main" and at_start and at_start.signalled and low == 0.0 else ""
-        line(plan, places if kind != "south" else places[::-1], {"name": name, **TAGS[kind], **lanes(kind, arriving, leaving), **KERBS.get(kind, {})})
+        text = {"name": name, **TAGS[kind], **lanes(kind, arriving, leaving), **KERBS.get(kind, {})}
+        line(plan, places if kind != "south" else places[::-1], text)
     for s in zebras(kind, at_start, at_end, length):
         plan.node(a + s * step, highway="crossing", crossing="zebra")
     for crossing, at in ((at_start, a), (at_end, b)):

@@ -9,7 +9,7 @@ import numpy as np
 from studio.scene.shape import Surface
 
 # component and target codes of the glTF 2.0 specification, sections 3.6.2 and 5.11
-BYTE, UNSIGNED_SHORT, FLOAT, UNSIGNED_INT = 5120, 5123, 5126, 5125
+UNSIGNED_SHORT, FLOAT, UNSIGNED_INT = 5123, 5126, 5125
 VERTICES, INDICES = 34962, 34963
 
 
@@ -49,8 +49,8 @@ class _Buffer:
         self.data += data + b"\0" * (-len(data) % 4)
         return len(self.views) - 1
 
-    def add_array(self, array: np.ndarray, *, component: int, target: int, kind: str, stride: int = 0, **limits) -> int:
-        view = self.add(np.ascontiguousarray(array).tobytes(), target=target, **({"byteStride": stride} if stride else {}))
+    def add_array(self, array: np.ndarray, *, component: int, target: int, kind: str, **limits) -> int:
+        view = self.add(np.ascontiguousarray(array).tobytes(), target=target)
         self.accessors.append(
             {"bufferView": view, "componentType": component, "count": len(array), "type": kind, **limits}
         )
@@ -70,8 +70,6 @@ def glb(mesh: Surface, material: Material, *, uv: np.ndarray | None = None) -> b
     }
     if material.unlit:
         document["extensionsUsed"] = ["KHR_materials_unlit"]
-    else:
-        document["extensionsUsed"] = document["extensionsRequired"] = ["KHR_mesh_quantization"]
     if material.image:
         document |= _texture(buffer, material.image)
     document |= {
@@ -92,9 +90,7 @@ def _primitive(buffer: _Buffer, mesh: Surface, uv: np.ndarray | None, *, lit: bo
         "COLOR_0": buffer.add_array(_shades(mesh.colors), component=UNSIGNED_SHORT, target=VERTICES, kind="VEC4", normalized=True),
     }
     if lit:
-        attributes["NORMAL"] = buffer.add_array(
-            _directions(mesh.normals), component=BYTE, target=VERTICES, kind="VEC3", normalized=True, stride=4
-        )
+        attributes["NORMAL"] = buffer.add_array(mesh.normals, kind="VEC3", **place)
     if uv is not None:
         attributes["TEXCOORD_0"] = buffer.add_array(uv.astype(np.float32), kind="VEC2", **place)
     short = len(vertices) <= 2**16 - 1
@@ -108,13 +104,6 @@ def _shades(colors: np.ndarray) -> np.ndarray:
     alpha = np.ones((len(colors), 4))
     alpha[:, : colors.shape[1]] = colors
     return np.round(np.clip(alpha, 0.0, 1.0) * 65535.0).astype(np.uint16)
-
-
-def _directions(normals: np.ndarray) -> np.ndarray:
-    # eight bits tell a direction to half a degree; a fourth byte keeps them in step (KHR_mesh_quantization)
-    padded = np.zeros((len(normals), 4), np.int8)
-    padded[:, :3] = np.round(normals * 127.0)
-    return padded
 
 
 def _texture(buffer: _Buffer, image: bytes) -> dict:

@@ -45,6 +45,7 @@ def light(server: viser.ViserServer) -> None:
     scene.add_light_directional(
         "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
     )
+<<<<<<< HEAD
     air(server, HAZE_FAR)
 
 
@@ -54,6 +55,16 @@ def air(server: viser.ViserServer, visibility: float) -> None:
     server.scene.configure_fog(HAZE_NEAR * far / HAZE_FAR, far, color=linear8(HAZE))
     dome = glb(sky(FOGGY if visibility < FOG else SKY), Material(unlit=True))
     server.scene.add_glb("/city/sky", dome, cast_shadow=False, receive_shadow=False)
+=======
+    haze(server, reach=0.0)
+    scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
+>>>>>>> scenery
+
+
+def haze(server: viser.ViserServer, *, reach: float) -> None:
+    """Haze that leaves a map of this half extent [m] clear when it is seen as a whole; it must end before the ground does."""
+    near = max(HAZE_NEAR, 0.9 * reach)
+    server.scene.configure_fog(near, max(HAZE_FAR, min(near + HAZE_FAR, 0.97 * SKY_RADIUS)), color=linear8(HAZE))
 
 
 def on_level_ground(colour: str) -> np.ndarray:

@@ -12,8 +12,12 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
+<<<<<<< HEAD
 from studio.scene.light import HAZE_FAR, SKY_RADIUS, air, light
 from studio.scene.obstacle import Obstacles, Place
+=======
+from studio.scene.light import SKY_RADIUS, haze, light
+>>>>>>> scenery
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
@@ -50,6 +54,7 @@ class Scene:
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._look_at(reach=_reach(network))
+            haze(self._server, reach=_reach(network))
 
     def _clear_city(self) -> None:
         for node in self._city:

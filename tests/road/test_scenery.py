@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 
-from studio.road import kind, load, marking, osm, parking, surface
+from studio.road import kind, load, marking, osm, parking, scenery, surface
 from studio.road.network import SPACE_HEADING, SPACE_LENGTH, SPACE_WIDTH, Area, Crossing, Scenery
 from studio.road.plane import polygon, rectangles
 from tests.road.conftest import lane, network
@@ -259,10 +259,23 @@ def test_posts_and_rows_of_trees(plan, tmp_path):
     plan.node(7.0, 0.5, power="pole")
     plan.way([(20, 20), (20, 38)], barrier="bollard")
     plan.way([(40, 20), (40, 74)], natural="tree_row")
-    scenery = plan.load(tmp_path).scenery
-    assert [post.kind for post in scenery.posts] == ["lamp", "bollard", *["bollard"] * 11]  # the pole stands on the road
-    assert scenery.posts[1].height == 0.7
-    assert np.diff(np.sort(scenery.trees[1])) == pytest.approx(9.0, abs=0.01) and scenery.trees.shape[1] == 7
+    found = plan.load(tmp_path).scenery
+    assert [post.kind for post in found.posts] == ["lamp", "bollard", *["bollard"] * 11]  # the pole stands on the road
+    assert found.posts[1].height == 0.7
+    assert np.diff(np.sort(found.trees[1])) == pytest.approx(9.0, abs=0.01) and found.trees.shape[1] == 7
+
+
+def test_a_building_over_the_road_has_a_passage_and_a_low_one_ends_at_the_kerb(plan, tmp_path):
+    """The street is 6.4 m wide, and 0.3 m on both sides stay free: 7 m of the 40 m."""
+    plan.way([(-150, 0), (150, 0)], **STREET)
+    plan.area(0.0, 0.0, 12.0, 40.0, building="yes", height="20")
+    plan.area(50.0, 0.0, 10.0, 40.0, building="yes", height="4")
+    buildings = plan.load(tmp_path).scenery.buildings
+    over = [building for building in buildings if building.base > 0.0]
+    assert [building.base for building in over] == [scenery.PASSAGE]
+    assert polygon(over[0]).area == pytest.approx(12.0 * 7.0, rel=0.01)
+    assert sum(polygon(building).area for building in buildings if building.height == 20.0) == pytest.approx(12.0 * 40.0, rel=0.01)
+    assert sum(polygon(building).area for building in buildings if building.height == 4.0) == pytest.approx(10.0 * 33.0, rel=0.01)
 
 
 # -- ground and holes ------------------------------------------------------------------------------
@@ -276,11 +289,11 @@ def test_a_multipolygon_keeps_its_holes(plan, tmp_path):
     plan.relation([(house, "outer"), *((yard, "inner") for yard in yards)], building="yes")
     lake, island = plan.area(60.0, 60.0, 60.0, 60.0), plan.area(60.0, 60.0, 20.0, 20.0, natural="wood")
     plan.relation([(lake, "outer"), (island, "inner")], natural="water")
-    scenery = plan.load(tmp_path).scenery
-    (building,) = scenery.buildings
+    found = plan.load(tmp_path).scenery
+    (building,) = found.buildings
     assert len(building.holes) == 2
     assert polygon(building).area == pytest.approx(40 * 30 - 8 * 10 - 6 * 12, rel=1e-3)
-    areas = {area.kind: polygon(area).area for area in scenery.areas}
+    areas = {area.kind: polygon(area).area for area in found.areas}
     assert areas == pytest.approx({"water": 60**2 - 20**2, "green": 20**2}, rel=1e-3)
 
 

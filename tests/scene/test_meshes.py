@@ -3,13 +3,19 @@
 import io
 import json
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
 from PIL import Image
 
+<<<<<<< HEAD
 from studio.scene import building, city, obstacle, signal, tree, vehicle
+=======
+from studio.road.network import Post, Wall
+from studio.scene import building, city, signal, tree, upright, vehicle
+>>>>>>> scenery
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN, sky
@@ -74,7 +80,6 @@ def test_the_file_holds_what_was_put_in():
     (mesh,) = scene.geometry.values()
     np.testing.assert_allclose(mesh.vertices, shape.vertices, atol=1e-6)
     np.testing.assert_array_equal(mesh.faces, shape.faces)
-    # normals are kept to half a degree, colours to 16 bits
     document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
     look = document["materials"][0]["pbrMetallicRoughness"]
     assert look == {"metallicFactor": 0.0, "roughnessFactor": 0.28}
@@ -191,6 +196,7 @@ def test_a_surface_of_one_colour_is_that_colour():
     np.testing.assert_allclose(triangle.normals, np.tile([0, 0, 1], (3, 1)))
 
 
+<<<<<<< HEAD
 @pytest.mark.parametrize(
     ("shape", "size", "volume"),
     [(obstacle.cone, (0.3, 0.3, 0.75), 0.003), (obstacle.barrier, (1.5, 0.5, 1.0), 0.02)],
@@ -206,3 +212,27 @@ def test_objects_have_their_size_stand_on_the_road_and_are_red_and_white(shape, 
     colours = {tuple(np.round(colour, 3)) for colour in body.colors}
     white = np.round(linear(obstacle.WHITE), 3)
     assert tuple(white.astype(np.float32).round(3)) in colours and len(colours) >= 3
+=======
+def test_the_city_of_an_imported_map_is_kept_and_that_of_a_hand_made_one_is_not(town, tmp_path, monkeypatch):
+    monkeypatch.setenv("STUDIO_CACHE", str(tmp_path))
+    made = city.city(town)
+    assert not list(tmp_path.rglob("*.pickle"))
+    imported = replace(town, digest="0" * city.DIGEST_LENGTH)
+    first, second = city.city(imported), city.city(imported)
+    assert len(list(tmp_path.rglob("*.pickle"))) == 1
+    assert [layer.data for layer in made.layers] == [layer.data for layer in first.layers] == [layer.data for layer in second.layers]
+    np.testing.assert_array_equal(first.trees, second.trees)
+
+
+def test_walls_and_posts_have_their_sizes_and_stand_on_the_ground(town):
+    wall = Wall("wall", np.array([[0.0, 10.0, 10.0], [0.0, 0.0, 5.0]]), 2.0, 0.25)
+    mesh = upright.barrier(wall)
+    assert (mesh.vertices[:, 2].min(), mesh.vertices[:, 2].max()) == (0.0, 2.0)
+    a, b, c = (mesh.vertices[mesh.faces[:, i]].astype(float) for i in range(3))
+    normals = np.cross(b - a, c - a) / 2.0
+    # two stretches, each with two long faces, two ends and a top; all face outward: the top up
+    assert np.linalg.norm(normals, axis=1).sum() == pytest.approx(2 * 2.0 * 15.0 + 4 * 2.0 * 0.25 + 0.25 * 15.0)
+    assert normals[:, 2].sum() == pytest.approx(0.25 * 15.0)
+    post = upright.post(Post("bollard", 3.0, 4.0, 0.9, 0.16))
+    assert post.vertices.mean(axis=0)[:2] == pytest.approx([3.0, 4.0], abs=0.01) and np.ptp(post.vertices[:, 2]) == pytest.approx(0.9)
+>>>>>>> scenery
