@@ -204,7 +204,8 @@ def open_sky(shadow, m, x, y):
 def sky_above(shadow, m, x, y):
     """Share of the hemisphere above a place that no building hides: the mean of 1 - sin(horizon) over all azimuths.
 
-    Above the elevation e lies the share 1 - sin(e) of a sector of the hemisphere. Under a building there is no sky.
+    Above the elevation e lies the share 1 - sin(e) of a sector of the hemisphere. Under a building there is no sky, and below
+    one that hangs in the air none is counted.
     """
     hidden = 0.0
     for k in range(AZIMUTHS):
@@ -220,6 +221,7 @@ def steepest(shadow, m, x0, y0, x1, y1):
     frame = shadow.grid.frame
     rise = 0.0
     low, high = columns_passed(frame, m, min(x0, x1), max(x0, x1))
+    south, north = 0, -1
     for column in range(low, high + 1):
         if x0 <= x1:
             first, last = rows_passed(frame, m, column, x0, y0, x1, y1)
@@ -228,7 +230,10 @@ def steepest(shadow, m, x0, y0, x1, y1):
         for row in range(first, last + 1):
             cell = int(frame[CELLS, m]) + row * int(frame[COLUMNS, m]) + column
             for k in range(shadow.grid.first[cell], shadow.grid.first[cell + 1]):
-                rise = max(rise, rise_of(shadow, shadow.grid.item[k], x0, y0, x1, y1))
+                b = shadow.grid.item[k]
+                if not is_passed_before(shadow.spans, b, column, row, first, low, south, north):
+                    rise = max(rise, rise_of(shadow, b, x0, y0, x1, y1))
+        south, north = first, last
     return rise
 
 

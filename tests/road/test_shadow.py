@@ -146,6 +146,29 @@ def test_maps_side_by_side_hide_what_each_hides_alone():
 # -- the sky ---------------------------------------------------------------------------------------
 
 
+def horizon(here, x, y, azimuths):
+    """Sine of the elevation of the highest top at each azimuth, every building cut with every line by shapely."""
+    forms = [(shapely.Polygon(each.outline.T, [hole.T for hole in each.holes]), each.height - EYE) for each in here.scenery.buildings]
+    spot = shapely.Point(x, y)
+    if any(form.contains(spot) for form, height in forms if height > 0.0):
+        return np.ones(len(azimuths))
+    near = [(form, height) for form, height in forms if height > 0.0 and form.distance(spot) < SKY_REACH]
+    found = []
+    for angle in azimuths:
+        line = shapely.LineString([(x, y), (x + SKY_REACH * np.cos(angle), y + SKY_REACH * np.sin(angle))])
+        rises = [height / spot.distance(form.intersection(line)) for form, height in near if form.intersects(line)]
+        found.append(np.sin(np.arctan(max(rises, default=0.0))))
+    return np.array(found)
+
+
+def test_the_sky_of_a_real_place_is_that_of_shapely(here):
+    azimuths = 2.0 * pi * (np.arange(24) + 0.5) / 24
+    rng = np.random.default_rng(8)
+    for lane in rng.choice([each.id for each in here.lanes], 6):
+        x, y = here.lanes[lane].centre[:, 0]
+        assert sky_above(shadow_of(here), 0, x, y) == pytest.approx(1.0 - horizon(here, x, y, azimuths).mean(), abs=1e-9)
+
+
 def test_the_sky_in_a_round_court():
     """A court of 30 m radius, walls that rise 20 m above the eye: 1 - sin(atan(2/3)) of the sky is open."""
     angle = 2.0 * pi * np.arange(720) / 720
