@@ -45,26 +45,20 @@ def light(server: viser.ViserServer) -> None:
     scene.add_light_directional(
         "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
     )
-<<<<<<< HEAD
     air(server, HAZE_FAR)
 
 
-def air(server: viser.ViserServer, visibility: float) -> None:
-    """Everything fades into the haze; in fog it is gone where one sees no farther [m], and the sky as well."""
-    far = min(visibility, HAZE_FAR)
-    server.scene.configure_fog(HAZE_NEAR * far / HAZE_FAR, far, color=linear8(HAZE))
+def air(server: viser.ViserServer, visibility: float, *, reach: float = 0.0) -> None:
+    """Everything fades into the haze; in fog it is gone where one sees no farther [m], and the sky as well.
+
+    The haze leaves a map of half extent `reach` [m] clear when it is seen as a whole; it ends before the ground does.
+    """
+    near = max(HAZE_NEAR, 0.9 * reach)
+    far = max(HAZE_FAR, min(near + HAZE_FAR, 0.97 * SKY_RADIUS))
+    thin = min(1.0, visibility / far)
+    server.scene.configure_fog(near * thin, far * thin, color=linear8(HAZE))
     dome = glb(sky(FOGGY if visibility < FOG else SKY), Material(unlit=True))
     server.scene.add_glb("/city/sky", dome, cast_shadow=False, receive_shadow=False)
-=======
-    haze(server, reach=0.0)
-    scene.add_glb("/city/sky", glb(sky(), Material(unlit=True)), cast_shadow=False, receive_shadow=False)
->>>>>>> scenery
-
-
-def haze(server: viser.ViserServer, *, reach: float) -> None:
-    """Haze that leaves a map of this half extent [m] clear when it is seen as a whole; it must end before the ground does."""
-    near = max(HAZE_NEAR, 0.9 * reach)
-    server.scene.configure_fog(near, max(HAZE_FAR, min(near + HAZE_FAR, 0.97 * SKY_RADIUS)), color=linear8(HAZE))
 
 
 def on_level_ground(colour: str) -> np.ndarray:

@@ -12,12 +12,8 @@ import viser
 from studio.road.network import Network
 from studio.scene import city, tree
 from studio.scene.fleet import Fleet, Look
-<<<<<<< HEAD
 from studio.scene.light import HAZE_FAR, SKY_RADIUS, air, light
 from studio.scene.obstacle import Obstacles, Place
-=======
-from studio.scene.light import SKY_RADIUS, haze, light
->>>>>>> scenery
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
@@ -36,7 +32,7 @@ class Scene:
         self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
         self._obstacles = Obstacles(self._server, [])
-        self._visibility = HAZE_FAR
+        self._visibility, self._reach = HAZE_FAR, 0.0
         light(self._server)
         self._look_at(reach=150.0)
 
@@ -54,7 +50,8 @@ class Scene:
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._look_at(reach=_reach(network))
-            haze(self._server, reach=_reach(network))
+            self._reach = _reach(network)
+            air(self._server, self._visibility, reach=self._reach)
 
     def _clear_city(self) -> None:
         for node in self._city:
@@ -97,7 +94,7 @@ class Scene:
         far = min(visibility, HAZE_FAR)
         with self._lock, self._server.atomic():
             if far != self._visibility:
-                air(self._server, far)
+                air(self._server, far, reach=self._reach)
                 self._visibility = far
 
     def update(self, poses: np.ndarray) -> None:

@@ -10,12 +10,8 @@ import pytest
 import trimesh
 from PIL import Image
 
-<<<<<<< HEAD
-from studio.scene import building, city, obstacle, signal, tree, vehicle
-=======
 from studio.road.network import Post, Wall
-from studio.scene import building, city, signal, tree, upright, vehicle
->>>>>>> scenery
+from studio.scene import building, city, obstacle, signal, tree, upright, vehicle
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN, sky
@@ -196,7 +192,6 @@ def test_a_surface_of_one_colour_is_that_colour():
     np.testing.assert_allclose(triangle.normals, np.tile([0, 0, 1], (3, 1)))
 
 
-<<<<<<< HEAD
 @pytest.mark.parametrize(
     ("shape", "size", "volume"),
     [(obstacle.cone, (0.3, 0.3, 0.75), 0.003), (obstacle.barrier, (1.5, 0.5, 1.0), 0.02)],
@@ -212,7 +207,8 @@ def test_objects_have_their_size_stand_on_the_road_and_are_red_and_white(shape, 
     colours = {tuple(np.round(colour, 3)) for colour in body.colors}
     white = np.round(linear(obstacle.WHITE), 3)
     assert tuple(white.astype(np.float32).round(3)) in colours and len(colours) >= 3
-=======
+
+
 def test_the_city_of_an_imported_map_is_kept_and_that_of_a_hand_made_one_is_not(town, tmp_path, monkeypatch):
     monkeypatch.setenv("STUDIO_CACHE", str(tmp_path))
     made = city.city(town)
@@ -235,4 +231,3 @@ def test_walls_and_posts_have_their_sizes_and_stand_on_the_ground(town):
     assert normals[:, 2].sum() == pytest.approx(0.25 * 15.0)
     post = upright.post(Post("bollard", 3.0, 4.0, 0.9, 0.16))
     assert post.vertices.mean(axis=0)[:2] == pytest.approx([3.0, 4.0], abs=0.01) and np.ptp(post.vertices[:, 2]) == pytest.approx(0.9)
->>>>>>> scenery
