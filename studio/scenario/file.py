@@ -11,6 +11,7 @@ from pydantic import ValidationError
 from studio.errors import Problem, ScenarioError, nearest
 from studio.scenario.schema import Scenario, located
 
+MOVED = {"road": "its friction is `weather.friction` now, its patches are `changes` of the kind friction"}
 SIZE_LIMIT = 4_000_000  # [B] of a scenario file
 
 
@@ -85,7 +86,7 @@ def problem(finding: dict, where: str, model: type, under: str) -> Problem:
     value, remedy = short(finding["input"]), ""
     if finding["type"] == "extra_forbidden":
         what, value = "is not a field that exists here", ""
-        remedy = nearest(str(finding["loc"][-1]), fields_at(model, finding["loc"][:-1]))
+        remedy = MOVED.get(path) or nearest(str(finding["loc"][-1]), fields_at(model, finding["loc"][:-1]))
     elif finding["type"] == "missing":
         what, value, remedy = "is missing", "", "add it"
     return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)

@@ -8,7 +8,7 @@ from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.obstacle import Place
 from studio.scene.vehicle import Dimensions
-from studio.world.build import vehicles_of
+from studio.world.build import at_start
 from studio.world.obstacle import WORDS, things
 from studio.world.setting import Setting
 from studio.world.state import *  # noqa: F403 - the names of the rows
@@ -34,7 +34,7 @@ def frame(world: World, seen: np.ndarray) -> Frame:
 def first_frame(setting: Setting) -> Frame:
     """The picture at the start."""
     standing = [int(setting.sites[each.change].begins.time == 0.0) for each in things(setting.sites)]
-    return Frame(poses(vehicles_of(list(setting.cars))), first_lights(setting), np.array(standing, dtype=np.int8))
+    return Frame(poses(at_start(setting)), first_lights(setting), np.array(standing, dtype=np.int8))
 
 
 def places(setting: Setting) -> list[Place]:
@@ -72,7 +72,7 @@ def blend(before: np.ndarray, after: np.ndarray, share: float) -> np.ndarray:
 
 def looks(setting: Setting) -> list[Look]:
     """How the vehicles look, in the order of their columns."""
-    parameter = vehicles_of(list(setting.cars)).parameter
+    parameter = at_start(setting).parameter
     heights = [car.model.values.body.height for car in setting.cars]
     return [Look(car.name, car.colour, dimensions(parameter[:, v], heights[v])) for v, car in enumerate(setting.cars)]
 

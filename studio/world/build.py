@@ -10,9 +10,11 @@ import numpy as np
 from studio.application import registry
 from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
+from studio.conventions import GRAVITY
+from studio.model.driver import sight_speed
 from studio.road import shadow
 from studio.road.shadow import Shadow
-from studio.scenario.schema import Friction
+from studio.scenario.schema import Driver, Friction, Weather
 from studio.world import ground
 from studio.world.change import changes_of
 from studio.world.control import wheel_torque
@@ -31,7 +33,7 @@ def build(settings: Sequence[Setting]) -> World:
     clock = settings[0].scenario.clock
     cars = [car for each in settings for car in each.cars]
     worlds = worlds_of(settings)
-    vehicles = vehicles_of(cars)
+    vehicles = vehicles_of(cars, [each.scenario.weather for each in settings for _ in each.cars])
     lines = lines_of(settings)
     stops = stops_of(lines, starts(np.array([len(each.network.signals) for each in settings])))
     obstacles = obstacles_of(settings, lines)
@@ -69,15 +71,15 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
     )
 
 
-def vehicles_of(cars: list[Car]) -> Vehicles:
-    """State, parameters and minds at the start: on the path, rolling without slip."""
+def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
+    """State, parameters and minds at the start: on the path, rolling without slip; every car with its weather."""
     n = len(cars)
     starts = [Start(car.model, *pose(car.path, car.station), car.speed) for car in cars]
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     return Vehicles(
         **vars(fleet(starts, ground=ground_of(cars))),
-        drivers=np.array([[getattr(car.driver, row.name) for row in DRIVER] for car in cars]).T.copy(),
+        drivers=np.array([driver_rows(car.driver, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
         script=np.tile([[0.0], [-np.inf], [0.0]], n),
         returns=np.array([int(car.returns) for car in cars]),
@@ -85,13 +87,25 @@ def vehicles_of(cars: list[Car]) -> Vehicles:
     )
 
 
-def ground_of(cars: list[Car]) -> np.ndarray:
+def ground_of(cars: Sequence[Car]) -> np.ndarray:
     """The ground under the cars at their start: level where their paths are."""
     under = level_ground(len(cars))
     for v, car in enumerate(cars):
         if ground.is_raised(car.path):
             ground.touch_all(v, len(cars), float(car.station), car.path.points, 0, car.path.points.shape[1], under)
     return under
+
+
+def at_start(setting: Setting) -> Vehicles:
+    """The vehicles of a setting before it is built."""
+    return vehicles_of(setting.cars, [setting.scenario.weather] * len(setting.cars))
+
+
+def driver_rows(driver: Driver, weather: Weather) -> list[float]:
+    """What a driver is like, how far one sees, and how fast this lets him go: braking in comfort, or as hard as the road lets."""
+    braking = min(driver.deceleration, weather.friction * GRAVITY)
+    own = [getattr(driver, row.name) for row in DRIVER[:SIGHT]]
+    return [*own, weather.visibility, sight_speed(weather.visibility, braking)]
 
 
 def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, zone_pair, zone_span) -> Roads:
@@ -123,7 +137,7 @@ def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
         if isinstance(site.change.do, Friction)
     ]
     return {
-        "weather": np.array([[getattr(each.scenario.weather, row.name) for row in WEATHER] for each in settings]).T.copy(),
+        "weather": np.array([each.scenario.weather.friction for each in settings]),
         "pieces": np.concatenate([np.zeros((len(PIECE), 0)), *found], axis=1),
         "near": np.zeros(ground.MOST_NEAR, dtype=np.int64),
     }

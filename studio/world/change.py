@@ -80,6 +80,7 @@ def turn(world: World) -> None:
         return
     if proceed(world.clock.time, c.moments, v.state, r.points, r.path_first, r.path_count, v.mind, c.phase, c.turned):
         post_limits(c, r.points)
+        r.pieces[PIECE_ACTS] = c.phase[r.pieces[PIECE_CHANGE].astype(np.int64)] == ACTING
     chosen = d.choice.copy()
     if choose(c.phase, d.vehicle, d.work, d.base, d.span, v.state, v.parameter, v.mind, d.held, d.choice, chosen):
         go_over(world, chosen)

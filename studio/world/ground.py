@@ -88,27 +88,27 @@ def friction_at(x, y, friction, near, found, table):
 
 
 @compiled
-def near_pieces(v, world, state, table, phase, near):
+def near_pieces(v, world, state, table, near):
     """Fills `near` with the pieces around a vehicle whose change acts; how many there are."""
     found = 0
     for i in range(table.shape[1]):
         dx, dy = table[PIECE_X, i] - state[X, v], table[PIECE_Y, i] - state[Y, v]
         is_near = table[PIECE_WORLD, i] == world and dx * dx + dy * dy < NEAR * NEAR
-        if is_near and phase[int(table[PIECE_CHANGE, i])] == ACTING and found < near.size:
+        if is_near and table[PIECE_ACTS, i] > 0.0 and found < near.size:
             near[found] = i
             found += 1
     return found
 
 
 @compiled
-def lay(state, parameter, world_of, weather, table, phase, near, ground):
-    """Second pass: friction under all wheels; weather float64[WEATHER, world]."""
+def lay(state, parameter, world_of, weather, table, near, ground):
+    """Second pass: friction under all wheels; weather float64[world]."""
     n = state.shape[1]
     for v in range(n):
-        found = near_pieces(v, world_of[v], state, table, phase, near)
+        found = near_pieces(v, world_of[v], state, table, near)
         c, s = cos(state[PSI, v]), sin(state[PSI, v])
         for corner in range(4):
             x = parameter[L_F, v] if corner < 2 else -parameter[L_R, v]
             y = 0.5 * side_of(corner) * (parameter[TRACK_F, v] if corner < 2 else parameter[TRACK_R, v])
             at_x, at_y = state[X, v] + x * c - y * s, state[Y, v] + x * s + y * c
-            ground[MU, corner * n + v] = friction_at(at_x, at_y, weather[FRICTION, world_of[v]], near, found, table)
+            ground[MU, corner * n + v] = friction_at(at_x, at_y, weather[world_of[v]], near, found, table)

@@ -49,7 +49,7 @@ def nearest_target(v, first, count, state, parameter, sensor_set):
 
 @compiled
 def nearest_barrier(v, best, best_forward, best_left, first, count, state, parameter, sensor_set, table, standing):
-    """The same with the barriers that stand there, of which the radar sees the near edge. A cone of plastic sends nothing back."""
+    """The same among the barriers that stand there, of which the radar sees the near edge. A cone of plastic sends nothing back."""
     kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
     for i in range(first, first + count):
         if standing[i] == 0 or table[O_KIND, i] != BARRIER:
@@ -84,8 +84,7 @@ def forget(v, sensors):
 
 
 @compiled
-def sense(k, state, parameter, sensor_set, world_of, entity, first, count, table, first_object, object_count, standing, seed,
-          sensors):  # fmt: skip
+def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed, sensors):
     """First pass: the front sensor of every car."""
     for v in range(state.shape[1]):
         w = world_of[v]
@@ -93,11 +92,23 @@ def sense(k, state, parameter, sensor_set, world_of, entity, first, count, table
         if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0:
             continue
         other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
-        if object_count[w] > 0:
-            other, forward, left = nearest_barrier(
-                v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
-            )
-        if other != -1:
+        if other >= 0:
+            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
+
+
+@compiled
+def sense_barriers(k, state, parameter, sensor_set, world_of, entity, first, count, table, first_object, object_count, standing,
+                   seed, sensors):  # fmt: skip
+    """First pass, where objects stand: a barrier that is nearer than the car takes its place."""
+    for v in range(state.shape[1]):
+        w = world_of[v]
+        if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0 or object_count[w] == 0:
+            continue
+        other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
+        other, forward, left = nearest_barrier(
+            v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
+        )
+        if other <= OBJECT:
             report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
 
 

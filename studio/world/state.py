@@ -88,13 +88,6 @@ GROUND = (
 )
 (HEIGHT, SLOPE_X, SLOPE_Y, MU) = range(len(GROUND))
 
-# Weather, per world.
-WEATHER = (
-    Row("friction", "1", "relative to the tyre's test track"),
-    Row("visibility", "m", "drivers see nothing beyond"),
-)
-(FRICTION, VISIBILITY) = range(len(WEATHER))
-
 # Changes of the road: each begins and ends at a moment, which is a time or a place that a vehicle passes.
 MOMENT = (
     Row("time", "s", "infinite when a vehicle makes it"),
@@ -125,9 +118,10 @@ PIECE = (
     Row("friction", "1", "relative to the tyre's test track"),
     Row("world", "1", "number of the world"),
     Row("change", "1", "number of the change that it belongs to"),
+    Row("acts", "1", "1 while this change does"),
 )
 (
-    PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD, PIECE_CHANGE,
+    PIECE_X, PIECE_Y, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_FRICTION, PIECE_WORLD, PIECE_CHANGE, PIECE_ACTS,
 ) = range(len(PIECE))  # fmt: skip
 
 # Objects on the road: boxes at rest.
@@ -302,8 +296,10 @@ DRIVER = (
     Row("speed_factor", "1", "wanted speed over the permitted one"),
     Row("steering_gain", "1/s", "how fast an offset is steered away"),
     Row("yaw_damping", "s", "how much a wrong yaw rate is corrected"),
+    Row("sight", "m", "how far the weather lets the driver see"),
+    Row("sight_speed", "m/s", "from which the driver stops within sight"),
 )
-(COMFORT, BRAKE_COMFORT, HEADWAY, STANDSTILL, SPEED_FACTOR, STEER_GAIN, YAW_DAMPING) = range(len(DRIVER))
+(COMFORT, BRAKE_COMFORT, HEADWAY, STANDSTILL, SPEED_FACTOR, STEER_GAIN, YAW_DAMPING, SIGHT, SIGHT_SPEED) = range(len(DRIVER))
 
 # What a driver knows and wants at this tick.
 MIND = (

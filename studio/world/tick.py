@@ -37,38 +37,39 @@ def part(world: World) -> None:
 
 def environment(world: World) -> None:
     """Changes of the road, lights, triggers, and the ground under the wheels."""
-    v, r, e, c, time = world.vehicles, world.roads, world.events, world.changes, world.clock.time
+    v, r, e, time = world.vehicles, world.roads, world.events, world.clock.time
     change.turn(world)
     ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
-    ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, c.phase, r.near, v.ground)
+    ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
     control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
 
 
 def look(world: World) -> None:
     """Drivers find themselves on their path and see who, or what, is ahead."""
-    v, r, w, o = world.vehicles, world.roads, world.worlds, world.obstacles
+    v, r, o = world.vehicles, world.roads, world.obstacles
     traffic.orient(
         v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
-        r.stop_link, r.shown, w.of, r.weather, v.drivers, v.mind,
+        r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
     traffic.meetings(
-        v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, w.of, r.weather, v.drivers,
-        v.mind,
-    )  # fmt: skip
+        v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, v.drivers, v.mind
+    )
     if o.standing.size:
-        traffic.obstacles(
-            v.state, v.parameter, w.of, r.weather, o.sweep, o.sweep_first, o.sweep_count, o.standing, v.drivers, v.mind
-        )
+        traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, v.drivers, v.mind)
 
 
 def sense(world: World) -> None:
     """Sensors measure, satellites tell where one is."""
     v, u, w, o, r, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.clock
     perception.sense(
-        clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, o.table, o.first, o.count, o.standing,
-        w.seed, u.sensors,
-    )  # fmt: skip
+        clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, w.seed, u.sensors
+    )
+    if o.standing.size:
+        perception.sense_barriers(
+            clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, o.table, o.first, o.count, o.standing,
+            w.seed, u.sensors,
+        )  # fmt: skip
     perception.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.sensors)
 
 

@@ -8,7 +8,6 @@ first, drives ahead at the distance that the stretches give.
 from math import cos, inf, nan, sin
 
 from studio.compiled import compiled
-from studio.conventions import GRAVITY
 from studio.model import driver
 from studio.road.path import (
     PATH_CURVATURE,
@@ -78,7 +77,7 @@ def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, st
 
 @compiled
 def orient(state, parameter, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
-           world_of, weather, drivers, mind):  # fmt: skip
+           drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
@@ -86,11 +85,10 @@ def orient(state, parameter, points, path_first, path_count, stop_first, stop_co
         locate(v, state, parameter, points, path_first[v], path_count[v], mind)
         if mind[STATION, v] > (path_count[v] - 1) * PATH_SPACING - ARRIVAL:
             state[ACTIVE, v] = 0.0
-        w = world_of[v]
         permitted = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
-        mind[V_DESIRED, v] = min(permitted, safe_speed(v, weather[FRICTION, w], weather[VISIBILITY, w], drivers))
+        mind[V_DESIRED, v] = min(permitted, drivers[SIGHT_SPEED, v])
         mind[RED_STATION, v] = next_red(
-            v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, weather[VISIBILITY, w]
+            v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, drivers[SIGHT, v]
         )
         forget(v, mind)
 
@@ -103,12 +101,6 @@ def permitted_speed(v, state, points, first, count, mind):
     return min(
         interpolate(points, first, PATH_SPEED, clip(here, count)), interpolate(points, first, PATH_SPEED, clip(ahead, count))
     )
-
-
-@compiled
-def safe_speed(v, friction, sight, drivers):
-    """Speed [m/s] from which the driver stops within sight [m], braking in comfort or as hard as the road lets."""
-    return driver.sight_speed(sight, min(drivers[BRAKE_COMFORT, v], friction * GRAVITY))
 
 
 @compiled
@@ -158,22 +150,22 @@ def goes_first(v, other, d_v, d_other, zone_start, state, mind):
 
 
 @compiled
-def is_unseen(v, other, sight, state, parameter):
+def is_unseen(v, other, state, parameter, drivers):
     """Whether the other car is farther from the own front bumper than one sees."""
     dx, dy = state[X, other] - state[X, v], state[Y, other] - state[Y, v]
-    reach = sight + parameter[FRONT, v] + parameter[LENGTH, other] - parameter[FRONT, other]
+    reach = drivers[SIGHT, v] + parameter[FRONT, v] + parameter[LENGTH, other] - parameter[FRONT, other]
     return dx * dx + dy * dy > reach * reach
 
 
 @compiled
-def meet(v, other, v_enter, v_leave, other_enter, other_leave, sight, state, parameter, points, first, count, drivers, mind):
+def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
     """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     bumper_other = mind[STATION, other] + parameter[FRONT, other]
     rear_other = bumper_other - parameter[LENGTH, other]
     if bumper - parameter[LENGTH, v] > v_leave or rear_other > other_leave or v_enter - bumper > HORIZON:
         return
-    if is_unseen(v, other, sight, state, parameter):
+    if is_unseen(v, other, state, parameter, drivers):
         return
     gap = (rear_other - other_enter) - (bumper - v_enter)
     in_front = mind[STATION, other] - other_enter > mind[STATION, v] - v_enter
@@ -190,19 +182,19 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, sight, state, par
 
 
 @compiled
-def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, world_of, weather, drivers, mind):
+def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, drivers, mind):
     """Third pass: every zone, for the first car of its pair."""
     for z in range(zone_pair.shape[1]):
         v, other = zone_pair[0, z], zone_pair[1, z]
         if state[ACTIVE, v] > 0.0 and state[ACTIVE, other] > 0.0:
             meet(
                 v, other, zone_span[0, z], zone_span[1, z], zone_span[2, z], zone_span[3, z],
-                weather[VISIBILITY, world_of[v]], state, parameter, points, path_first[v], path_count[v], drivers, mind,
+                state, parameter, points, path_first[v], path_count[v], drivers, mind,
             )  # fmt: skip
 
 
 @compiled
-def obstacles(state, parameter, world_of, weather, sweep, sweep_first, sweep_count, standing, drivers, mind):
+def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, drivers, mind):
     """Fourth pass: the first object in sight that stands in the strip which the own body will sweep."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
@@ -211,7 +203,7 @@ def obstacles(state, parameter, world_of, weather, sweep, sweep_first, sweep_cou
         for i in range(sweep_first[v], sweep_first[v] + sweep_count[v]):
             gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
             if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
-                if gap <= weather[VISIBILITY, world_of[v]]:
+                if gap <= drivers[SIGHT, v]:
                     stand_before(v, number, gap, state, drivers, mind)
                 break
 

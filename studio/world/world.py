@@ -67,7 +67,7 @@ class Roads:
     phase_end: np.ndarray
     phase_state: np.ndarray
     shown: np.ndarray
-    weather: np.ndarray  # [row, world]
+    weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
     place_of: np.ndarray  # number of the map, per world

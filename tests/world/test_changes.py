@@ -1,6 +1,7 @@
 """What changes about the road while a world runs: limits, friction and sight, begun by a time or by a vehicle."""
 
 import copy
+import re
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.model.driver import FOG_SPEED, REACTION, sight_speed
 from studio.road.path import PATH_SPEED
+from studio.scenario.schema import Scenario, unit_at
 from studio.world.build import build
 from studio.world.state import DETECTED, FRONT, GAP, MU, RANGE, RANGE_RATE, RED_STATION, STATION, TARGET, V_DESIRED, V_X
 from studio.world.tick import tick
@@ -194,6 +196,33 @@ def test_what_is_beyond_sight_is_not_reacted_to(sample):
 def test_nobody_collides_in_fog(sample):
     world = run_for([scenario(sample, {}, alone=False, weather={"visibility": 40.0})], 40)
     assert world.events.hits_found == 0
+
+
+# -- the schema ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("path", "unit"),
+    [
+        ("changes.x.do.speed", "m/s"), ("changes.x.do.taper", "m"), ("changes.x.do.friction", "1"), ("changes.x.start.time", "s"),
+        ("vehicles.a.position.along", "m"), ("weather.visibility", "m"), ("changes.x.do.nothing", ""),
+    ],
+)  # fmt: skip
+def test_fields_of_alternatives_have_their_unit(path, unit):
+    assert unit_at(Scenario, path) == unit
+
+
+def test_the_readme_shows_changes_that_are_valid(sample, root):
+    (block,) = re.findall(r"```yaml\n(changes:.*?)```", (root / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    shown = yaml.safe_load(block)
+    made = scenario(sample, shown["changes"], weather=shown["weather"])
+    assert [site.name for site in made.sites] == ["roadworks", "slow", "spill"]
+
+
+def test_what_has_moved_is_told_where_it_is(sample):
+    with pytest.raises(ScenarioError) as caught:
+        scenario(sample, {}, road={"friction": 0.7})
+    assert "weather.friction" in caught.value.problems[0].remedy
 
 
 # -- bad input -----------------------------------------------------------------------------------------

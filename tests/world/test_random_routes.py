@@ -21,6 +21,7 @@ from studio.world.build import build
 from studio.world.setting import Car, Setting
 from studio.world.state import ACTIVE, FRONT, STATION, V_X, X, Y
 from studio.world.tick import tick
+from studio.world.way import Works
 
 ROOT = Path(__file__).parents[2]
 PLACES = {
@@ -73,8 +74,8 @@ def setting(network: Network, driven: Driven) -> Setting:
             "vehicles": {"car": {"route": "way", "position": {"along": 0}, "speed": 0}}}  # fmt: skip
     near_light = any(s < 40.0 for s, _ in driven.path.stop_lines)
     speed = 0.0 if near_light else float(min(8.0, driven.path.points[PATH_SPEED, 3:20].min()))
-    car = Car("car", catalogue.find_vehicle("bmw_320i"), driven.path, 3.0, speed, Driver(), FrontSensor(range=0.0), Gps(), "#2f6fde")
-    return Setting(Scenario.model_validate(text), network, (car,))
+    car = Car("car", catalogue.find_vehicle("bmw_320i"), driven.path, 3.0, speed, Driver(), FrontSensor(range=0.0), "#2f6fde", Gps())
+    return Setting(Scenario.model_validate(text), network, (car,), (), Works(()))
 
 
 def drive(network: Network, ways: list[Driven]) -> None:
