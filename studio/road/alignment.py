@@ -31,11 +31,13 @@ THROUGH = 1.0  # [m] the same in a junction, where the line is netconvert's gues
 WAVELENGTH = 30.0  # [m] shorter waves are corners of the map, not bends of the road
 COMFORT = 3.0  # [m/s²] across, at the speed limit
 CORNER = np.radians(40.0)  # [rad] a connection that turns more is no continuation
-SHARPEST = 0.15  # [1/m] of a turn: a car's full lock is about 0.18
+SHARPEST = 0.15  # [1/m] of a turn
+LOCK = 0.19  # [1/m] a car's full lock
+SET_BACKS = 2  # times that ends are set back
 EASED = 0.3  # of a turn's length, over which its curvature grows; the same share at its end
 STEADY = 0.03  # [1/m²] how fast curvature may grow: at 5 m/s the front wheels turn by 0.4 rad/s
 MOST_SETBACK = 9.0  # [m]
-AT_SIGNAL = 1.0  # [m] a stop line stays near the signal that is mapped
+AT_SIGNAL = 0.5  # [m] a stop line stays near the signal that is mapped
 MOST_SHARE = 0.4  # of a road's length, set back at either end
 LEAST = 0.5  # [m] of a way through a junction
 REACH = 20.0  # [m] how far the point where two lanes meet is looked for
@@ -115,38 +117,50 @@ def turned(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def set_back(net: Net, onward: dict[int, Connection]) -> Net:
-    """The network with the ends of its roads set back where a turn needs room."""
-    through = {id(connection) for connection in onward.values()}
-    needed = defaultdict(float)
+    """The network with the ends of its roads set back where a turn needs room; in a bend a lane's new end has another direction."""
+    for _ in range(SET_BACKS):
+        net = set_back_once(net, onward)
+    return net
+
+
+def set_back_once(net: Net, onward: dict[int, Connection]) -> Net:
+    """The same, by the directions that the lanes have now. A stop line stays by its signal unless no car could turn there."""
+    through = {(connection.from_lane, connection.to_lane) for connection in onward.values()}
+    eased, tight = defaultdict(float), defaultdict(float)
     for connection in net.connections:
-        if id(connection) not in through and connection.direction != "turn":
-            before, behind = lacking(*ends(net, connection))
-            start, end = (net.lanes[lane].road for lane in (connection.from_lane, connection.to_lane))
+        if (connection.from_lane, connection.to_lane) in through or connection.direction == "turn":
+            continue
+        start, end = (net.lanes[lane].road for lane in (connection.from_lane, connection.to_lane))
+        for needed, curvature in ((eased, None), (tight, LOCK)):
+            before, behind = lacking(*ends(net, connection), curvature=curvature)
             needed[start, -1] = max(needed[start, -1], before)
             needed[end, 0] = max(needed[end, 0], behind)
     lines = {}
     for road in net.roads.values():
         most = min(MOST_SETBACK, MOST_SHARE * min(net.lanes[lane].length for lane in road.lanes))
-        at_signal = min(most, AT_SIGNAL) if net.signalled & set(road.lanes) else most
-        first, last = min(most, needed[road.id, 0]), min(at_signal, needed[road.id, -1])
+        wanted = eased[road.id, -1]
+        if net.signalled & set(road.lanes):
+            wanted = max(min(wanted, AT_SIGNAL), tight[road.id, -1])
+        first, last = min(most, eased[road.id, 0]), min(most, wanted)
         if first > 0.0 or last > 0.0:
             lines |= {lane: shortened(net.lanes[lane].centre, first, last) for lane in road.lanes}
     return redrawn(net, lines)
 
 
-def lacking(start: np.ndarray, direction: np.ndarray, end: np.ndarray, after: np.ndarray) -> tuple[float, float]:
-    """How much room a turn lacks before it and behind it [m].
+def lacking(start: np.ndarray, direction: np.ndarray, end: np.ndarray, after: np.ndarray, *, curvature: float | None = None) -> tuple[float, float]:
+    """How much room a turn lacks before it and behind it [m], for this curvature [1/m] or the gentlest that suits it.
 
     Aside by d within a length L along 10 u³ - 15 u⁴ + 6 u⁵, the curvature reaches 5.77 d / L² and grows by 60 d / L³.
     """
     theta, apart = turned(direction, after), end - start
     if theta < np.radians(20.0):
         aside = abs(direction[0] * apart[1] - direction[1] * apart[0])
-        room = max(np.sqrt(5.77 * aside / SHARPEST), np.cbrt(60.0 * aside / STEADY)) - apart @ direction
-        return (max(0.0, room / 2.0),) * 2
+        room = np.sqrt(5.77 * aside / (curvature or SHARPEST)) - apart @ direction
+        steady = 0.0 if curvature else np.cbrt(60.0 * aside / STEADY) - apart @ direction
+        return (max(0.0, room / 2.0, steady / 2.0),) * 2
     if theta > np.radians(150.0):
         return 0.0, 0.0  # turning back needs width, not length
-    needs = legs(bow(theta)) / gentlest(theta)
+    needs = legs(bow(theta)) / (curvature or gentlest(theta))
     before, behind = np.linalg.solve(np.column_stack([direction, after]), apart)
     return max(0.0, needs - before), max(0.0, needs - behind)
 

@@ -44,8 +44,8 @@ def here(places, name):
     return places[name]
 
 
-def test_all_small_places_are_here():
-    assert len(FILES) == 7
+def test_all_places_are_here():
+    assert len(FILES) == 8
 
 
 def test_drive_side_and_country(here, name):

@@ -34,11 +34,12 @@ LONGEST_TIME = 900.0  # [s] for 4 km through a city with its lights
 SETTLED = 3.0  # [s] after the start
 LATERAL = 2.5  # [m/s²] that paths allow in bends
 SAMPLE = 10  # ticks between two looks at where the cars are
+NEARBY = 40.0  # [m] along the way, by which its parts may be longer or shorter than their lanes
 
 
 @dataclass
 class Driven:
-    """One way with what its car did: places now and then, largest speed over what is permitted, lateral acceleration, red lights."""
+    """One way with what its car did: place and station now and then, largest speed over what is permitted, lateral acceleration, red lights."""
 
     lanes: LanePath
     path: road_path.Path
@@ -100,18 +101,21 @@ def drive(network: Network, ways: list[Driven]) -> None:
             passed = [k for k in stops if before[i] + v.parameter[FRONT, i] < r.stop_station[k] <= s[i] + v.parameter[FRONT, i]]
             way.red += sum(shown[r.stop_link[k]] in (RED, RED_AMBER) for k in passed)
             if world.clock.k % SAMPLE == 0 and not way.arrived:
-                way.places.append(v.state[[X, Y], i].copy())
+                way.places.append((*v.state[[X, Y], i], s[i]))
         before = s.copy()
 
 
 def offset(network: Network, way: Driven) -> float:
-    """Largest distance of the car from the lanes of its way [m], lane changes apart."""
+    """Largest distance of the car from the lanes of its way [m], lane changes apart; of other parts of the way it may be near."""
     stretches = road_path.stretches(network, way.lanes)
-    places = np.array(way.places).T
-    away = np.array([np.min([curve.distances(places, lane.centre) for lane in used], axis=0) for used in stretches])
+    *places, station = np.array(way.places).T
+    ends = np.cumsum([np.mean([lane.length for lane in used]) for used in stretches])
+    away = np.array([np.min([curve.distances(np.array(places), lane.centre) for lane in used], axis=0) for used in stretches])
+    starts = np.concatenate([[0.0], ends[:-1]])
+    here = (station > starts[:, None] - NEARBY) & (station < ends[:, None] + NEARBY)
+    away = np.where(here, away, np.inf)
     alone = np.array([len(used) == 1 for used in stretches])
-    nearest = away.argmin(axis=0)
-    return float(away.min(axis=0)[alone[nearest]].max(initial=0.0))
+    return float(away.min(axis=0)[alone[away.argmin(axis=0)]].max(initial=0.0))
 
 
 def is_drivable(network: Network, way: Driven) -> bool:
