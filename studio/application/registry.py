@@ -6,6 +6,7 @@ given once.
 """
 
 import sys
+import threading
 import traceback
 from collections import namedtuple
 from dataclasses import dataclass
@@ -53,6 +54,7 @@ class Application:
 
 
 _registered: dict[str, Application] = {}
+_loading = threading.RLock()  # the page asks for several things at once
 
 
 def register(name: str, module: ModuleType) -> Application:
@@ -141,7 +143,8 @@ def load_folder(folder: Path) -> list[Application]:
 
 def known() -> dict[str, Application]:
     """All applications by name."""
-    load_all()
+    with _loading:
+        load_all()
     return dict(sorted(_registered.items()))
 
 

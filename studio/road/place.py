@@ -8,7 +8,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from studio.errors import MapError
 from studio.road import folder, kept
 from studio.road.correction import Corrections
 from studio.road.network import Connection, Net, Network

@@ -18,7 +18,7 @@ import numpy as np
 
 from studio.compiled import compiled
 from studio.road import grid
-from studio.road.grid import CELLS, COLUMNS, ROWS, SIZE, SOUTH, WEST, Grid, columns_passed, rows_passed
+from studio.road.grid import CELLS, COLUMNS, ROWS, SOUTH, WEST, Grid, columns_passed, rows_passed
 from studio.road.index import once
 from studio.road.network import Building, Network
 

@@ -17,6 +17,10 @@ from studio.scene.obstacle import Obstacles, Place
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
+COMPACT = 500.0  # [m] half extent of a map that can be seen as a whole
+CLOSER = 280.0  # [m] the same of the part of a larger one that is seen first
+STEEPNESS = 0.36  # height of the overview over its half extent
+CLEARANCE = 1.25  # the same over the highest building
 
 
 class Scene:
@@ -34,23 +38,23 @@ class Scene:
         self._obstacles = Obstacles(self._server, [])
         self._visibility, self._reach = HAZE_FAR, 0.0
         light(self._server)
-        self._look_at(reach=150.0)
+        self._look_at(np.zeros(2), 150.0, STEEPNESS * 150.0)
 
     @property
     def port(self) -> int:
         """The port of the viser server, for the relay."""
         return self._server.get_port()
 
-    def show_city(self, network: Network) -> None:
-        """Show this map instead of the one before."""
+    def show_city(self, network: Network, around: np.ndarray | None = None) -> None:
+        """Show this map instead of the one before; a large one is first seen `around` these places, float64[2, n] [m]."""
         made = city.city(network)
         with self._lock, self._server.atomic():
             self._clear_city()
             self._city = [self._add(layer) for layer in made.layers]
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
-            self._look_at(reach=_reach(network))
             self._reach = _reach(network)
+            self._look_at(*_overview(network, around))
             air(self._server, self._visibility, reach=self._reach)
 
     def _clear_city(self) -> None:
@@ -65,11 +69,11 @@ class Scene:
             f"/city/{layer.name}", layer.data, position=place, cast_shadow=False, receive_shadow=False
         )
 
-    def _look_at(self, *, reach: float) -> None:
-        """The overview: from the south, over the middle to the horizon."""
+    def _look_at(self, middle: np.ndarray, reach: float, height: float) -> None:
+        """The overview: from the south, over the middle to the horizon, from this height [m]."""
         camera = self._server.initial_camera
-        camera.position = np.array([0.24, -0.80, 0.36]) * reach
-        camera.look_at = np.array([0.0, 0.0, 0.05 * reach])
+        camera.position = np.array([*middle, 0.0]) + [0.24 * reach, -0.80 * reach, height]
+        camera.look_at = np.array([*middle, 0.05 * reach])
         camera.fov, camera.near, camera.far = FIELD_OF_VIEW, 0.5, 2.5 * SKY_RADIUS
 
     def show_vehicles(self, looks: Sequence[Look]) -> None:
@@ -145,3 +149,13 @@ def _reach(network: Network) -> float:
     """About half the extent of the streets [m], but never so little that one sees nothing."""
     points = np.concatenate([lane.centre for lane in network.lanes], axis=1)
     return max(60.0, 0.8 * float(np.percentile(np.hypot(*points), 90)))
+
+
+def _overview(network: Network, around: np.ndarray | None) -> tuple[np.ndarray, float, float]:
+    """What the overview looks at [m], the half extent of it, and from what height: over the roofs."""
+    middle, reach = np.zeros(2), _reach(network)
+    if reach > COMPACT and around is not None and around.size:
+        middle, reach = around.mean(axis=1), CLOSER
+    eye = middle + np.array([0.24, -0.80]) * reach
+    near = [b.height for b in network.scenery.buildings if np.hypot(*(b.outline.mean(axis=1) - eye)) < 0.8 * reach]
+    return middle, reach, max(STEEPNESS * reach, CLEARANCE * max(near, default=0.0))

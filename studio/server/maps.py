@@ -17,7 +17,7 @@ import numpy as np
 import yaml
 
 from studio.errors import MapError, Problem, ScenarioError, StudioError, UnknownError, nearest
-from studio.road import folder, load
+from studio.road import folder, load, osm
 from studio.road.network import Network
 from studio.road.place import attribution, licence, name_of
 from studio.road.reader import ENDINGS, ending_of

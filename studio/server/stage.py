@@ -4,11 +4,13 @@ import threading
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
 from studio.server.frame import Frame, first_frame, looks, places
 from studio.server.live import LiveRun
-from studio.world.setting import Setting
+from studio.world.setting import Setting, position
 
 
 @dataclass
@@ -34,7 +36,8 @@ class Stage:
     def set_up(self, prepared: Setting) -> None:
         """City, vehicles and objects, as far as they are others than before; the weather."""
         if self.city != prepared.network.digest:
-            self.scene.show_city(prepared.network)
+            named = [car for car in prepared.cars if not car.returns]
+            self.scene.show_city(prepared.network, np.array([position(car.path, car.station) for car in named]).T)
             self.city = prepared.network.digest
         cast = tuple(looks(prepared))
         if self.cast != cast:

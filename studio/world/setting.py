@@ -16,7 +16,6 @@ from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uni
 from studio.road import path as road_path
 from studio.road.network import Network
 from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
-from studio.road.reader import ENDINGS
 from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel

@@ -2,6 +2,8 @@
 
 import math
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -107,3 +109,20 @@ def test_a_broken_contract_is_told_at_once(tmp_path, lines):
     path.write_text(f"{BROKEN}\n{lines}\n")
     with pytest.raises(ApplicationError, match=WRONG[lines]):
         registry.load_file(path)
+
+
+def test_many_may_ask_at_once_for_the_first_time():
+    """In a process of its own: whoever comes first registers the built-ins, the others wait."""
+    code = """
+import threading
+from studio.application import registry
+start, found = threading.Barrier(8), []
+def ask():
+    start.wait()
+    found.append(sorted(registry.known()))
+threads = [threading.Thread(target=ask) for _ in range(8)]
+[each.start() for each in threads]; [each.join() for each in threads]
+assert len(found) == 8 and all(each == found[0] and "acc" in each for each in found), found
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr

@@ -7,12 +7,13 @@ import pytest
 
 from studio import job
 from studio.store.runs import open_runs
+from tests.server.server import START_PATIENCE
 
 SCENARIO = "grosser_stern_platoon"
 SHORT = {"clock.duration": 3}
 
 
-def finished(client, run, patience=60.0):
+def finished(client, run, patience=START_PATIENCE):
     """The run when it is over."""
     until = time.monotonic() + patience
     while time.monotonic() < until:
