@@ -99,7 +99,7 @@ class Maps:
         """Writes a scenario with one car on this map; returns its id. Raises UnknownError or MapError."""
         path = self.find(name)
         found = trip(load(path) if path.is_dir() else load(path, radius=USUAL_RADIUS))
-        base = f"{plain_name(name_of(path))}_drive"
+        base = f"{plain_name(title_of(path))}_drive"
         return write_new(self.scenarios, base, scenario_text(name, found, attribution(path), licence(path)))
 
     def users(self, path: Path) -> list[str]:
@@ -192,8 +192,12 @@ def row(path: Path) -> answer.MapRow:
         known["bytes"] = size_of(path)
     except MapError as error:
         known |= {"problem": str(error), "bytes": 0}
-    title = path.name if path.is_dir() else name_of(path)
-    return answer.MapRow(id=path.name, title=title, kind="import" if path.is_dir() else "file", **known)
+    return answer.MapRow(id=path.name, title=title_of(path), kind="import" if path.is_dir() else "file", **known)
+
+
+def title_of(path: Path) -> str:
+    """What a map is called: an import's folder, or a file without its ending."""
+    return path.name if path.is_dir() else name_of(path)
 
 
 def report_of(path: Path) -> dict[str, Any]:
