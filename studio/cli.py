@@ -452,7 +452,7 @@ def print_import(out: Path, network, as_json: bool) -> None:
         print_json(json.loads((out / folder.REPORT).read_text(encoding="utf-8")))
         return
     print_table(["what", "how many", "remark"], rows(network.report))
-    print(f"{out}: {network.name}. {network.attribution}")
+    print(f"{out}: {network.name}. {network.attribution}".rstrip())
 
 
 def run_json(row) -> dict[str, Any]:

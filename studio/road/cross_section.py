@@ -6,17 +6,35 @@ A mapped width is often that of the whole carriageway with its parked cars, or o
 import re
 
 from studio.road.bend import is_one_way
-from studio.road.osm import Way, spot_of
+from studio.road.osm import MOST_LANES, Way, spot_of
 from studio.road.report import Notes
 
 NARROWEST, WIDEST_LANE = 2.5, 4.5  # [m] of a lane (RASt 06: 2.75 to 3.50 m; a lone one up to 4.5 m)
+COUNTS = ("lanes", "lanes:forward", "lanes:backward")
 BUS_COUNTS = ("lanes:psv", "lanes:bus")
 PER_LANE = ("bus:lanes", "psv:lanes", "access:lanes", "vehicle:lanes", "motor_vehicle:lanes")
 
 
 def mended(way: Way, notes: Notes, *, left_hand: bool) -> Way:
     """The way with a width that its lanes can have, and with its bus lanes at the kerb."""
-    return with_bus_lanes(with_width(way, notes), notes, left_hand=left_hand)
+    return with_bus_lanes(with_width(with_counts(way, notes), notes), notes, left_hand=left_hand)
+
+
+def with_counts(way: Way, notes: Notes) -> Way:
+    """The way without numbers of lanes that cannot be read or meant; they are noted."""
+    bad = {key: way.tags[key] for key in COUNTS if key in way.tags and not is_count(way.tags[key])}
+    for key, text in bad.items():
+        notes.skip("lanes", f"{key}={text[:40]}", spot_of(way), f"no number of lanes from 1 to {MOST_LANES}")
+    return way.with_tags({key: value for key, value in way.tags.items() if key not in bad}) if bad else way
+
+
+def is_count(text: str) -> bool:
+    """Whether a tag is a number of lanes that a way can have.
+
+    >>> is_count("3"), is_count("2.5"), is_count("99999"), is_count("abc")
+    (True, False, False, False)
+    """
+    return text.isdecimal() and len(text) < 6 and 0 < int(text) <= MOST_LANES
 
 
 def with_width(way: Way, notes: Notes) -> Way:

@@ -5,6 +5,7 @@ Corrections that an earlier import of the same folder has are kept and applied t
 
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from studio.errors import MapError, Problem, nearest
@@ -128,4 +129,4 @@ def again(
     folder.write(
         network, found.map, out, bbox=found.bbox, parking_aisles=found.parking_aisles, corrections=corrections, made_of=found
     )
-    return network
+    return replace(network, name=found.name)

@@ -265,7 +265,7 @@
       paint();
     }
     if (city !== shownCity && city !== null) {
-      if (shownCity !== null) show("overview");
+      if (shownCity !== null || view.vehicle === null) show("overview");
       shownCity = city;
     }
     if (!ready && client()?.cameraControl && client()?.scene) {

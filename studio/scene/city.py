@@ -31,6 +31,7 @@ MAKERS = (
     *("marking.py", "plane.py", "surface.py", "curve.py"),
     *(f"../scene/{name}.py" for name in ("building", "city", "colour", "glb", "light", "shape", "signal", "tree", "upright")),
 )
+BEYOND = 2000.0  # [m] of ground around the map
 SPACE_MARGIN = 0.35  # [m] of ground around a space, to its neighbour and to the lane
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
 
@@ -68,13 +69,19 @@ def layers(network: Network) -> list[Layer]:
     """Everything of the city that never moves, from the ground up; each is one draw call."""
     form = roads.road_form(network)
     return [
-        Layer("ground", glb(ground(), Material(unlit=True)), GROUND),
+        Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND),
         *_areas(network),
         _flat("road", roads.road_mesh(form), ROAD),
         _flat("markings", marking.marking_mesh(network, form), MARKING),
         *_buildings(network),
         *_uprights(network),
     ]
+
+
+def horizon(network: Network) -> float:
+    """How far ground and sky reach [m]: well beyond the map."""
+    x0, y0, x1, y1 = network.bounds
+    return max(SKY_RADIUS, BEYOND + float(np.hypot(max(-x0, x1), max(-y0, y1))))
 
 
 def ground(*, radius: float = SKY_RADIUS) -> Surface:

@@ -48,16 +48,17 @@ def light(server: viser.ViserServer) -> None:
     air(server, HAZE_FAR)
 
 
-def air(server: viser.ViserServer, visibility: float, *, reach: float = 0.0) -> None:
+def air(server: viser.ViserServer, visibility: float, *, reach: float = 0.0, radius: float = SKY_RADIUS) -> None:
     """Everything fades into the haze; in fog it is gone where one sees no farther [m], and the sky as well.
 
-    The haze leaves a map of half extent `reach` [m] clear when it is seen as a whole; it ends before the ground does.
+    The haze leaves a map of half extent `reach` [m] clear when it is seen as a whole; it ends before the ground does, whose
+    `radius` [m] is the sky's.
     """
     near = max(HAZE_NEAR, 0.9 * reach)
-    far = max(HAZE_FAR, min(near + HAZE_FAR, 0.97 * SKY_RADIUS))
+    far = max(HAZE_FAR, min(near + HAZE_FAR, 0.97 * radius))
     thin = min(1.0, visibility / far)
     server.scene.configure_fog(near * thin, far * thin, color=linear8(HAZE))
-    dome = glb(sky(FOGGY if visibility < FOG else SKY), Material(unlit=True))
+    dome = glb(sky(FOGGY if visibility < FOG else SKY, radius=radius), Material(unlit=True))
     server.scene.add_glb("/city/sky", dome, cast_shadow=False, receive_shadow=False)
 
 

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import numpy as np
 import rich
+import shapely
 import viser
 
 from studio.road.network import Network
@@ -17,10 +18,11 @@ from studio.scene.obstacle import Obstacles, Place
 from studio.scene.signal import Lamps
 
 FIELD_OF_VIEW = np.radians(42.0)
-COMPACT = 500.0  # [m] half extent of a map that can be seen as a whole
-CLOSER = 280.0  # [m] the same of the part of a larger one that is seen first
-STEEPNESS = 0.36  # height of the overview over its half extent
-CLEARANCE = 1.25  # the same over the highest building
+COMPACT = 700.0  # [m] half extent of a map that can be seen as a whole
+CLOSER = 150.0  # [m] the same of the part of a larger one that is seen first
+FROM = np.array([0.24, -0.80, 0.36])  # the overview's place over its half extent: in the south
+SIGHT = 20.0  # [m] to both sides of the line of sight
+TURNS = np.radians([0, 45, -45, 90, -90, 135, -135, 180])  # of this place, where houses stand in the way
 
 
 class Scene:
@@ -36,9 +38,9 @@ class Scene:
         self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
         self._obstacles = Obstacles(self._server, [])
-        self._visibility, self._reach = HAZE_FAR, 0.0
+        self._visibility, self._reach, self._horizon = HAZE_FAR, 0.0, SKY_RADIUS
         light(self._server)
-        self._look_at(np.zeros(2), 150.0, STEEPNESS * 150.0)
+        self._look_at(np.zeros(2), 150.0, 150.0 * FROM)
 
     @property
     def port(self) -> int:
@@ -54,8 +56,9 @@ class Scene:
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._reach = _reach(network)
+            self._horizon = city.horizon(network)
             self._look_at(*_overview(network, around))
-            air(self._server, self._visibility, reach=self._reach)
+            air(self._server, self._visibility, reach=self._reach, radius=self._horizon)
 
     def _clear_city(self) -> None:
         for node in self._city:
@@ -69,12 +72,12 @@ class Scene:
             f"/city/{layer.name}", layer.data, position=place, cast_shadow=False, receive_shadow=False
         )
 
-    def _look_at(self, middle: np.ndarray, reach: float, height: float) -> None:
-        """The overview: from the south, over the middle to the horizon, from this height [m]."""
+    def _look_at(self, middle: np.ndarray, reach: float, away: np.ndarray) -> None:
+        """The overview: from so far `away`, float64[3] [m], over the middle to the horizon."""
         camera = self._server.initial_camera
-        camera.position = np.array([*middle, 0.0]) + [0.24 * reach, -0.80 * reach, height]
+        camera.position = np.array([*middle, 0.0]) + away
         camera.look_at = np.array([*middle, 0.05 * reach])
-        camera.fov, camera.near, camera.far = FIELD_OF_VIEW, 0.5, 2.5 * SKY_RADIUS
+        camera.fov, camera.near, camera.far = FIELD_OF_VIEW, 0.5, 2.5 * self._horizon
 
     def show_vehicles(self, looks: Sequence[Look]) -> None:
         """Show these vehicles instead of those before; they stay hidden until the first `update`."""
@@ -98,7 +101,7 @@ class Scene:
         far = min(visibility, HAZE_FAR)
         with self._lock, self._server.atomic():
             if far != self._visibility:
-                air(self._server, far, reach=self._reach)
+                air(self._server, far, reach=self._reach, radius=self._horizon)
                 self._visibility = far
 
     def update(self, poses: np.ndarray) -> None:
@@ -151,11 +154,28 @@ def _reach(network: Network) -> float:
     return max(60.0, 0.8 * float(np.percentile(np.hypot(*points), 90)))
 
 
-def _overview(network: Network, around: np.ndarray | None) -> tuple[np.ndarray, float, float]:
-    """What the overview looks at [m], the half extent of it, and from what height: over the roofs."""
+def _overview(network: Network, around: np.ndarray | None) -> tuple[np.ndarray, float, np.ndarray]:
+    """What the overview looks at [m], the half extent of it, and from how far away: from where no house hides it."""
     middle, reach = np.zeros(2), _reach(network)
     if reach > COMPACT and around is not None and around.size:
         middle, reach = around.mean(axis=1), CLOSER
-    eye = middle + np.array([0.24, -0.80]) * reach
-    near = [b.height for b in network.scenery.buildings if np.hypot(*(b.outline.mean(axis=1) - eye)) < 0.8 * reach]
-    return middle, reach, max(STEEPNESS * reach, CLEARANCE * max(near, default=0.0))
+    places = [reach * _turned(FROM, angle) for angle in TURNS]
+    return middle, reach, min(places, key=lambda away: _hidden(network, middle, away))  # of equal ones the first
+
+
+def _turned(place: np.ndarray, angle: float) -> np.ndarray:
+    """A place turned about the vertical [rad]."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * place[0] - s * place[1], s * place[0] + c * place[1], place[2]])
+
+
+def _hidden(network: Network, middle: np.ndarray, away: np.ndarray) -> float:
+    """How far houses rise above the line of sight from there to the middle [m]; below the eye's place they count as well."""
+    sight = shapely.LineString([middle, middle + away[:2]]).buffer(SIGHT)
+    most = 0.0
+    for each in network.scenery.buildings:
+        form = shapely.Polygon(each.outline.T)
+        if form.intersects(sight):
+            share = shapely.Point(middle).distance(form) / np.hypot(*away[:2])
+            most = max(most, each.height - share * away[2])
+    return most

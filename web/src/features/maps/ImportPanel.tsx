@@ -1,6 +1,6 @@
 /** The ways to a new map: a file, or the name or the box of a place. */
 
-import { Button, FileButton, Text, TextInput, Tooltip } from "@mantine/core";
+import { Button, Checkbox, FileButton, Text, TextInput, Tooltip } from "@mantine/core";
 import { type FormEvent, type RefObject, useRef, useState } from "react";
 import { useDownload } from "../../api/maps";
 import type { MapJob } from "../../model/map";
@@ -14,6 +14,8 @@ import classes from "./Maps.module.css";
 export interface Wishes {
   name: string;
   bbox: string;
+  /** An import of the same name is made anew; its corrections are kept. */
+  replace: boolean;
 }
 
 interface Props {
@@ -37,8 +39,8 @@ export function ImportPanel({ wishes, onWishes, onFiles, onStarted, field }: Pro
       <div className={classes.way}>
         <h2>From a file</h2>
         <Text size="xs" c="dimmed">
-          OpenStreetMap data: .osm, .osm.gz, .osm.pbf, or .json from an Overpass server. Drop it anywhere on this
-          page, or choose it:
+          OpenStreetMap data (.osm, .osm.gz, .osm.pbf, or .json from an Overpass server) or OpenDRIVE (.xodr). Drop it
+          anywhere on this page, or choose it:
         </Text>
         <FileButton onChange={take} resetRef={reset} multiple inputProps={INPUT}>
           {(props) => (
@@ -67,6 +69,15 @@ export function ImportPanel({ wishes, onWishes, onFiles, onStarted, field }: Pro
           value={wishes.bbox}
           onChange={(event) => onWishes({ ...wishes, bbox: event.currentTarget.value })}
         />
+        <Checkbox
+          size="xs"
+          mt="xs"
+          label="Replace a map of the same name"
+          description="its corrections are kept and applied again"
+          data-testid="replace"
+          checked={wishes.replace}
+          onChange={(event) => onWishes({ ...wishes, replace: event.currentTarget.checked })}
+        />
       </div>
     </section>
   );
@@ -83,7 +94,7 @@ function DownloadForm({ wishes, onStarted, field }: DownloadProps) {
   const submit = (event: FormEvent) => {
     event.preventDefault();
     const name = wishes.name.trim();
-    download.mutate({ ...placeOrBox(text), ...(name ? { name } : {}), replace: false }, { onSuccess: onStarted });
+    download.mutate({ ...placeOrBox(text), ...(name ? { name } : {}), replace: wishes.replace }, { onSuccess: onStarted });
   };
   return (
     <form className={classes.way} onSubmit={submit}>

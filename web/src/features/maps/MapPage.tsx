@@ -85,7 +85,7 @@ function Head({ map }: { map: MapRow }) {
         {map.title}
       </Title>
       <Text size="xs" c="dimmed" truncate>
-        {map.attribution} · {map.licence}
+        {[map.attribution, map.licence].filter(Boolean).join(" · ")}
       </Text>
       <div className={classes.ways}>
         {map.kind === "import" ? (

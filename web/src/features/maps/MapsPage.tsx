@@ -17,7 +17,7 @@ import { useEnds, useRefresh, useSend } from "./imports";
 import { Jobs } from "./Jobs";
 import classes from "./Maps.module.css";
 
-const NO_WISHES: Wishes = { name: "", bbox: "" };
+const NO_WISHES: Wishes = { name: "", bbox: "", replace: false };
 
 export function MapsPage() {
   const { data, error, refetch } = useQuery(maps);
