@@ -12,10 +12,12 @@ from studio.world.tick import tick
 SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
 
 
-def scenario(sample, changes, *, alone=True, **parts):
-    """The sample with these changes; its leader alone, or everybody."""
+def scenario(sample, changes, *, alone=True, lane=None, **parts):
+    """The sample with these changes; its leader alone, or everybody; on this lane of three, or that of their route."""
     document = yaml.safe_load(sample.read_text())
     document |= {"changes": changes, "triggers": {}, "goals": {}}
+    for vehicle in document["vehicles"].values() if lane is not None else ():
+        vehicle["position"] = {"road": "340498991", "lane": lane, "offset": vehicle["position"]["along"]}
     if alone:
         document |= {"applications": {}, "traffic": {"count": 0}}
         document["vehicles"] = {"leader": document["vehicles"]["leader"]}

@@ -31,10 +31,11 @@ def test_a_sample_is_of_one_instant(sample):
 
 
 def test_acceleration_is_the_derivative_of_speed(sample):
-    """Once the start has settled; within a tick the acceleration is that of its end."""
+    """Once the start has settled; within a tick the acceleration is that of its end, so it is off by no more than it changed."""
     run = result(sample)
     speed, acceleration = run.trace("leader.speed"), run.trace("leader.acceleration")
-    np.testing.assert_allclose(np.diff(speed)[25:] / 0.02, acceleration[26:], atol=0.02)
+    off = np.abs(np.diff(speed)[25:] / 0.02 - acceleration[26:])
+    assert (off <= 0.02 + np.abs(np.diff(acceleration)[25:])).all()
 
 
 def test_silence_is_not_freshness(sample):
@@ -59,7 +60,7 @@ def test_an_annotated_speed_stands_where_the_route_has_it(sample):
     """At 1000 m along the route 5 m/s, whether a car starts along the route or on its second road."""
     changes = {"routes.east_to_west.speeds": [{"at": 1000, "speed": 5.0}]}
     along = job.prepare(job.load(sample, changes)).cars[0].path
-    by_road = {"vehicles.leader.position": {"road": "206170873#1", "lane": 0, "offset": 10}}
+    by_road = {"vehicles.leader.position": {"road": "206170873#1", "lane": 2, "offset": 10}}
     other = next(car for car in job.prepare(job.load(sample, changes | by_road)).cars if car.name == "leader").path
 
     def place(path):

@@ -8,7 +8,7 @@ import pytest
 from studio.errors import MapError
 from studio.road import load
 from studio.road.motorway import LANE_WIDTH, motorway
-from studio.road.path import PATH_CURVATURE, path
+from studio.road.path import PATH_CURVATURE, WAVELENGTH, path
 from studio.road.reference_line import ReferenceLine
 from studio.road.route import all_routes, connect
 from studio.road.xodr import document
@@ -41,11 +41,11 @@ def test_elements_join_in_place_heading_curvature_and_height(length, lanes, radi
 def test_130_km_h_needs_little_side_force_and_curvature_never_jumps(own_cache):
     """On every lane at most v²/(R - t) with t the farthest lane; a clothoid changes curvature by 1/(R L) a metre.
 
-    The first and the last metre do not count: a path's curvature there is from one side.
+    The first and the last metres do not count: a path is smoothed there from one side.
     """
     network = load(SAMPLE)
     for way in all_routes(network):
-        curvature = path(network, way).points[PATH_CURVATURE, 1:-1]
+        curvature = path(network, way).points[PATH_CURVATURE, int(3 * WAVELENGTH) : -int(3 * WAVELENGTH)]
         assert LIMIT**2 * np.abs(curvature).max() < 1.05 * LIMIT**2 / (1000.0 - 13.0) < 1.5
         assert np.abs(np.diff(curvature)).max() < 1.3 / (1000.0 * 160.0)
 

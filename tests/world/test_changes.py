@@ -69,11 +69,11 @@ def test_a_limit_comes_and_goes(sample):
 
 
 def test_a_limit_stands_on_a_lane_of_a_road_too(sample):
-    """The same stretch named by its road."""
-    by_road = SLOW | {"road": "340498991", "route": None, "lane": 1}
+    """The same stretch named by its road, to the metre: its line is not that of the route to the millimetre."""
+    by_road = SLOW | {"road": "340498991", "route": None, "lane": 2}
     route, road = (drive(scenario(sample, {"slow": {"do": do}}), 20)[2] for do in (SLOW, by_road))
     speeds = [made.roads.points[PATH_SPEED] for made in (route, road)]
-    assert np.abs(speeds[0] - speeds[1]).max() < 0.3
+    assert (np.abs(speeds[0] - speeds[1]) > 0.3).sum() <= 1 and (speeds[0] < 8.4).sum() > 80
 
 
 # -- when ----------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Lanes that are closed or shifted while a world runs: the lines around them, who takes which, and what stands there."""
 
 import copy
+from functools import partial
 
 import numpy as np
 import pytest
@@ -16,8 +17,10 @@ from studio.world.build import build
 from studio.world.setting import pose
 from studio.world.state import ACTIVE, CONE, FRONT, LENGTH, O_KIND, OFFSET, STATION, X, Y
 from studio.world.tick import tick
-from tests.changing import drive, run_for, scenario
+from tests import changing
+from tests.changing import drive, run_for
 
+scenario = partial(changing.scenario, lane=1)  # the cars come along the middle lane
 ROAD, LANE_WIDTH = "340498991", 3.2  # three lanes; the sample's leader comes along the middle one
 CLOSED = {"change": "close_lane", "road": ROAD, "lane": 1, "start": 460, "end": 520, "taper": 40}
 WORKS = {"works": {"do": CLOSED}}
@@ -102,7 +105,7 @@ def test_led_paths_have_zones_of_their_own(sample):
 
 def two_lanes():
     """Two cars side by side, one on the closed lane and one on the lane that it is led onto."""
-    one = {"route": "east_to_west", "position": {"along": 380}, "speed": 13.0}
+    one = {"route": "east_to_west", "position": {"road": ROAD, "lane": 1, "offset": 380}, "speed": 13.0}
     other = {"route": "east_to_west", "position": {"road": ROAD, "lane": 2, "offset": 376}, "speed": 13.0}
     return {"leader": one, "other": other}
 
