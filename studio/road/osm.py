@@ -7,10 +7,12 @@ the box that was asked for, so everything is cut at the box around the mapped co
 import gzip
 import math
 import tempfile
+import threading
 import zlib
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -49,6 +51,12 @@ ACCESS = ("motorcar", "motor_vehicle", "vehicle", "access")  # the more exact fi
 SMALL_WAYS = {"service", "track", "road", "busway"}  # cars can drive there, but they are not built
 
 
+@lru_cache(maxsize=64)
+def projector(projection: str, thread: int) -> pyproj.Proj:
+    """The projection, made once for each thread: making one takes longer than using it, and it must not be shared."""
+    return pyproj.Proj(projection)
+
+
 @dataclass(frozen=True)
 class Box:
     """A box in degrees, with the projection to local metres whose origin is its centre."""
@@ -71,11 +79,11 @@ class Box:
 
     def local(self, latitude, longitude) -> np.ndarray:
         """Positions in local metres, float64[2, n]."""
-        return np.array(pyproj.Proj(self.projection)(longitude, latitude), dtype=float)
+        return np.array(projector(self.projection, threading.get_ident())(longitude, latitude), dtype=float)
 
     def degrees(self, points: np.ndarray) -> list[tuple[float, float]]:
         """Longitude and latitude of local points [deg]."""
-        longitude, latitude = pyproj.Proj(self.projection)(*points, inverse=True)
+        longitude, latitude = projector(self.projection, threading.get_ident())(*points, inverse=True)
         return list(zip(np.atleast_1d(longitude).tolist(), np.atleast_1d(latitude).tolist(), strict=True))
 
     def bounds(self) -> tuple[float, float, float, float]:
