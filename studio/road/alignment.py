@@ -32,7 +32,6 @@ WAVELENGTH = 30.0  # [m] shorter waves are corners of the map, not bends of the 
 COMFORT = 3.0  # [m/s²] across, at the speed limit
 CORNER = np.radians(40.0)  # [rad] a connection that turns more is no continuation
 SHARPEST = 0.15  # [1/m] of a turn
-LOCK = 0.19  # [1/m] a car's full lock
 SET_BACKS = 2  # times that ends are set back
 EASED = 0.3  # of a turn's length, over which its curvature grows; the same share at its end
 STEADY = 0.03  # [1/m²] how fast curvature may grow: at 5 m/s the front wheels turn by 0.4 rad/s
@@ -131,7 +130,7 @@ def set_back_once(net: Net, onward: dict[int, Connection]) -> Net:
         if (connection.from_lane, connection.to_lane) in through or connection.direction == "turn":
             continue
         start, end = (net.lanes[lane].road for lane in (connection.from_lane, connection.to_lane))
-        for needed, curvature in ((eased, None), (tight, LOCK)):
+        for needed, curvature in ((eased, None), (tight, curve.LOCK)):
             before, behind = lacking(*ends(net, connection), curvature=curvature)
             needed[start, -1] = max(needed[start, -1], before)
             needed[end, 0] = max(needed[end, 0], behind)

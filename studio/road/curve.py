@@ -3,6 +3,7 @@
 import numpy as np
 
 BESIDE = 0.5  # [m]
+LOCK = 0.19  # [1/m] the sharpest curve that a car can drive, with the wheels at full lock
 
 
 def stations(points: np.ndarray) -> np.ndarray:

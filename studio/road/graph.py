@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.compiled import compiled
+from studio.road.curve import LOCK
 from studio.road.index import LANE_LENGTH, LANE_SPEED, P_HEADING, P_S, POINT_COUNT, POINT_FIRST, Index, index_of, once
 from studio.road.network import Connection, Lane, Network
 from studio.road.signals import GREEN, Signals
@@ -26,8 +27,7 @@ CHANGE_ROOM = 12.0  # [m] of road that one lane change needs at the very least
 CHANGE_EASE = 50.0  # [m] of road on which a lane change is comfortable
 CLOSED_TIME = 75.0  # [s] a lane that cars keep out of is used only where nothing else leads on
 YIELD_TIME = 1.5  # [s] mean wait for others: the default of SUMO's router, weights.minor-penalty
-NARROW = 0.19  # [1/m] a car's full lock; what bends more is driven only where nothing else leads on
-NARROW_TIME = 75.0  # [s]
+NARROW_TIME = 75.0  # [s] a turn that no car gets round is driven only where nothing else leads on
 BACK_TIME = 15.0  # [s] a turn back
 BEND_REACH = 6.0  # [m] before and behind a place, on which its curvature is taken
 LATERAL = 2.5  # [m/s²] in bends, as the paths have it
@@ -226,7 +226,7 @@ def wait(connection: Connection, waits: np.ndarray) -> float:
 
 def unwanted(network: Network, connection: Connection) -> float:
     """What it costs to use a connection that is there, but not for a car [s]."""
-    return closed(network.lanes[connection.to_lane]) + (NARROW_TIME if connection.sharpest > NARROW else 0.0)
+    return closed(network.lanes[connection.to_lane]) + (NARROW_TIME if connection.sharpest > LOCK else 0.0)
 
 
 def mean_waits(signals: Signals) -> np.ndarray:

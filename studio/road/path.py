@@ -26,7 +26,6 @@ WAVELENGTH = 12.0  # [m] shorter waves are corners where lanes meet
 HEIGHT_WAVELENGTH = 60.0  # [m] the same of its height
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
-SHARPEST = 0.19  # [1/m] curvature that a car can still drive; with more, its full lock does not suffice
 ROOM = (1.3, 2.5)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next
 ROOM_REACH = 10.0  # [m] before and behind the bend
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
@@ -205,7 +204,7 @@ def smooth(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
     height = np.interp(s, own, height)
     for room in (*ROOM, np.inf):
         line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
-        sharp = np.abs(curvature_of(line)) > SHARPEST
+        sharp = np.abs(curvature_of(line)) > curve.LOCK
         if room == np.inf or not sharp.any():
             return line, height
         corridor = np.where(

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from studio.road import curve
 from studio.road.alignment import STEADY
+from studio.road.curve import LOCK
 from studio.road.path import (
     CORRIDOR,
     PATH_SPACING,
@@ -15,7 +16,6 @@ from studio.road.path import (
     PATH_SPEED,
     PATH_X,
     PATH_Y,
-    SHARPEST,
     interpolate,
     path,
     project,
@@ -36,7 +36,7 @@ def test_points_are_one_metre_apart(paths):
 def test_heading_is_continuous_and_points_ahead(paths):
     for one in paths:
         heading = one.points[PATH_HEADING]
-        assert np.abs(np.diff(heading)).max() < SHARPEST * PATH_SPACING
+        assert np.abs(np.diff(heading)).max() < LOCK * PATH_SPACING
         chord = np.unwrap(np.arctan2(*np.diff(one.points[[PATH_X, PATH_Y]])[::-1]))
         middle = (heading[1:] + heading[:-1]) / 2.0
         assert np.abs(np.angle(np.exp(1j * (chord - middle)))).max() < 0.02
@@ -53,14 +53,14 @@ def test_curvature_is_the_change_of_heading(paths):
 def test_curvature_is_bounded_and_steady(paths):
     """Within what turns are drawn for."""
     for one in paths:
-        assert np.abs(one.points[PATH_CURVATURE]).max() < SHARPEST
+        assert np.abs(one.points[PATH_CURVATURE]).max() < LOCK
         assert np.abs(np.diff(one.points[PATH_CURVATURE])).max() < STEADY * PATH_SPACING
 
 
 def test_no_bend_is_taken_too_fast(paths):
     for one in paths:
         assert (one.points[PATH_SPEED] ** 2 * np.abs(one.points[PATH_CURVATURE])).max() <= LATERAL + 1e-9
-        assert np.sqrt(LATERAL / SHARPEST) < one.points[PATH_SPEED].min() and one.points[PATH_SPEED].max() <= 50 / 3.6 + 0.01
+        assert np.sqrt(LATERAL / LOCK) < one.points[PATH_SPEED].min() and one.points[PATH_SPEED].max() <= 50 / 3.6 + 0.01
         slowing = -np.diff(one.points[PATH_SPEED] ** 2) / 2.0
         assert slowing.max() <= BRAKING + 1e-9
 

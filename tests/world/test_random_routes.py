@@ -10,7 +10,7 @@ import pytest
 from studio.errors import RouteError
 from studio.road import curve, load
 from studio.road import path as road_path
-from studio.road.graph import NARROW
+from studio.road.curve import LOCK
 from studio.road.network import Network
 from studio.road.path import PATH_CURVATURE, PATH_SPEED
 from studio.road.route import LanePath, connect
@@ -122,7 +122,7 @@ def is_drivable(network: Network, way: Driven) -> bool:
     """Whether no turn on the way is narrower than a car can drive."""
     onto = set(zip(way.lanes.lanes, way.lanes.lanes[1:], strict=False))
     used = [c for c in network.connections if c.via and (c.from_lane, c.via[0]) in onto and (c.via[-1], c.to_lane) in onto]
-    return max((c.sharpest for c in used), default=0.0) <= NARROW
+    return max((c.sharpest for c in used), default=0.0) <= LOCK
 
 
 @pytest.fixture(scope="module", params=PLACES)
