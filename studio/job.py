@@ -22,7 +22,7 @@ import numpy as np
 from studio.application import setup
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured, registered
-from studio.compiled import DIGEST
+from studio.compiled import source_digest
 from studio.errors import Problem, ScenarioError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
@@ -131,7 +131,7 @@ def prepare(loaded: Loaded) -> Setting:
 @cache
 def code_version() -> str:
     """Version of the package and digest of the sources that compute."""
-    return f"{version('cooperative-adas-studio')}+{DIGEST}"
+    return f"{version('cooperative-adas-studio')}+{source_digest()}"
 
 
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
