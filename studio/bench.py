@@ -3,6 +3,8 @@
     dynamics    one vehicle step is one integration step (5 ms) of one car with the whole model, nothing else
     tick        one vehicle tick is one tick (20 ms, four steps) of one car in the whole world: lights, drivers, sensors,
                 radio, applications, integration, collisions
+    advance     the same with recording and events, for platoons on a motorway that is as long as their number asks, so
+                that the density is always the same; `ratio` is what all of it costs over the integration of its vehicles alone
 
 Medians of several repeats; machine and versions stand beside the figures.
 """
@@ -11,8 +13,11 @@ import multiprocessing
 import os
 import platform
 import statistics
+import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -20,16 +25,25 @@ from typing import Any
 import numpy as np
 
 from studio import job
+from studio.application import setup
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.errors import Problem, ServerError
+from studio.execution.simulation import Simulation, simulation
+from studio.road.motorway import motorway
 from studio.scenario import catalogue
 from studio.world import fleet
 from studio.world.build import build
 from studio.world.fleet import Fleet, Start
 from studio.world.state import RING, U_DRIVE, U_STEER
+from studio.world.setting import Setting, setting
 from studio.world.tick import tick
 
 FLEETS = (1, 8, 100, 1000, 10_000)
+CROWDS = (25, 100, 300, 1000)
+PLATOON, GAP, EVERY = 5, 25.0, 200.0  # cars of a platoon, [m] from one to the next, [m] from platoon to platoon
+LANES, MARGIN = 3, 1000.0  # of each direction; [m] of road before the last car and ahead of the first
+ROADS = {"eastbound": "motorway", "westbound": "-motorway"}
+MEASURED = 20_000  # vehicle ticks that one repeat takes
 DEVICE_FLEETS = (1000, 10_000, 100_000)
 REPEATS = 5
 SPAN = 0.2  # [s] of real time that one repeat takes at least
@@ -69,6 +83,91 @@ def whole_tick(sample: Path) -> float:
     """Vehicle ticks a second on one core in a scenario."""
     world = build([job.prepare(job.load(sample))])
     return rate(lambda: tick(world), world.size)
+
+
+# -- the whole advance -----------------------------------------------------------------------------
+
+
+def crowd(count: int) -> Setting:
+    """`count` cars in platoons on all lanes of both directions of a motorway, everything on in each of them."""
+    rows = -(-count // (PLATOON * 2 * LANES))
+    with tempfile.TemporaryDirectory() as folder:
+        road = motorway(length=2.0 * MARGIN + rows * EVERY, lanes=LANES)
+        (Path(folder) / "motorway.xodr").write_text(road, encoding="utf-8")
+        return setting(setup.complete(crowd_document(count), "the crowd"), Path(folder), "the crowd")
+
+
+def crowd_document(count: int) -> dict[str, Any]:
+    """Its scenario: the first car of every platoon leads, the others follow it with CACC; one brakes at times."""
+    names = [f"car_{i}" for i in range(count)]
+    platoons = [names[i : i + PLATOON] for i in range(0, count, PLATOON)]
+    return {
+        "title": f"{count} cars in platoons",
+        "map": {"file": "motorway.xodr"},
+        "clock": {"duration": 60},
+        "routes": {name: {"roads": [road], "speeds": [{"at": 0, "speed": 30}]} for name, road in ROADS.items()},
+        "vehicles": {name: crowd_vehicle(i) for i, name in enumerate(names)},
+        "applications": {
+            f"platoon_{k}": {"application": "cacc", "vehicles": members[1:], "listens_to": members[:-1]}
+            for k, members in enumerate(platoons)
+            if len(members) > 1
+        },
+        "triggers": {"brake": {"time": 1, "vehicle": names[0], "do": {"maneuver": "brake", "deceleration": 2}}},
+    }
+
+
+def crowd_vehicle(i: int) -> dict[str, Any]:
+    """Car i: its platoon's place on the motorway, and its own within the platoon."""
+    platoon, place = divmod(i, PLATOON)
+    row, lane = divmod(platoon, 2 * LANES)
+    route, road = list(ROADS.items())[lane // LANES]
+    offset = MARGIN + EVERY * (row + lane / (2 * LANES)) - place * GAP
+    return {"route": route, "position": {"road": road, "lane": lane % LANES, "offset": offset}, "speed": 30}
+
+
+def advance(count: int) -> dict[str, Any]:
+    """Vehicle ticks a second of the whole advance, its cost over that of the integration alone, and what each part costs [s]."""
+    running = simulation(crowd(count))
+    ticks = max(MEASURED // count, 4)
+    running.advance()
+    whole, alone = [], []
+    for _ in range(REPEATS):
+        whole.append(seconds(lambda: repeated(running.advance, ticks)))
+        alone.append(seconds(integration(running, ticks)))
+    return {
+        "rate": count * ticks / statistics.median(whole),
+        "ratio": statistics.median(a / b for a, b in zip(whole, alone, strict=True)),
+        "parts": {name: each / (ticks * count) for name, each in parts(running, ticks).items()},
+    }
+
+
+def repeated(action: Callable[[], Any], times: int) -> None:
+    """Some action several times."""
+    for _ in range(times):
+        action()
+
+
+def integration(running: Simulation, ticks: int) -> Callable[[], None]:
+    """The motion of a run's vehicles for some ticks with the commands of now, on a copy of them."""
+    world, clock = running.world, running.world.clock
+    alone = replace(world.vehicles, state=world.vehicles.state.copy(), wheels=world.vehicles.wheels.copy())
+    return lambda: repeated(lambda: fleet.integrate(alone, clock.k, clock.tick, clock.step), ticks)
+
+
+def parts(running: Simulation, ticks: int) -> Counter[str]:
+    """Seconds that each part of a tick takes, summed over some ticks."""
+    spent: Counter[str] = Counter()
+    for _ in range(ticks):
+        for name, action in running.parts():
+            spent[name] += seconds(action)
+    return spent
+
+
+def seconds(action: Callable[[], Any]) -> float:
+    """How long something takes."""
+    began = time.perf_counter()
+    action()
+    return time.perf_counter() - began
 
 
 def all_cores(count: int = 1000) -> float:

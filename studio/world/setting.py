@@ -71,7 +71,7 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     network = place(scenario, folder, where)
     refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
     models = models_of(scenario, folder, where)
-    paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
+    paths = paths_of(scenario, network, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     check_starts(cars, where)
     found = sites(scenario, network)
@@ -212,6 +212,18 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     return found
 
 
+def paths_of(scenario: Scenario, network: Network, where: str) -> dict[str, road_path.Path]:
+    """The line of every named vehicle; those that start alike on the same route share one."""
+    made: dict[tuple, road_path.Path] = {}
+    found = {}
+    for name, vehicle in scenario.vehicles.items():
+        key = vehicle.route, vehicle.position.road, vehicle.position.lane
+        if key not in made:
+            made[key] = path_of(name, scenario, network, where)
+        found[name] = made[key]
+    return found
+
+
 def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road_path.Path:
     """The line that a named vehicle drives, with the speeds of its route."""
     vehicle = scenario.vehicles[name]
@@ -338,14 +350,18 @@ def position(path: road_path.Path, station: float) -> tuple[float, float]:
 
 def check_starts(cars: list[Car], where: str) -> None:
     """No two named cars may start in the same place."""
-    for i, car in enumerate(cars):
-        for other in cars[:i]:
-            (x, y), (a, b) = position(car.path, car.station), position(other.path, other.station)
+    cells: dict[tuple[int, int], list[tuple[float, float, str]]] = {}
+    for car in cars:
+        x, y = position(car.path, car.station)
+        column, row = int(x // CAR_LENGTH), int(y // CAR_LENGTH)
+        around = [each for i in (-1, 0, 1) for j in (-1, 0, 1) for each in cells.get((column + i, row + j), [])]
+        for a, b, other in around:
             if (x - a) ** 2 + (y - b) ** 2 < CAR_LENGTH**2:
-                what = f"starts where {other.name!r} starts"
+                what = f"starts where {other!r} starts"
                 field = f"{where}: vehicles.{car.name}.position"
                 remedy = f"place it at least {CAR_LENGTH:g} m away"
                 raise ScenarioError(f"{where} is not a valid scenario.", [Problem(field, what, remedy=remedy)])
+        cells.setdefault((column, row), []).append((x, y, car.name))
 
 
 def free_place(i: int, scenario: Scenario, ways, taken, works: Works) -> tuple[road_path.Path, float] | None:
