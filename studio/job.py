@@ -165,20 +165,20 @@ def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> 
     )
 
 
-def outcome(loaded: Loaded, finished: Simulation) -> Run:
-    """What a finished simulation brought."""
+def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
+    """What a finished simulation brought for one of its worlds."""
     wall = time.perf_counter() - finished.started
-    record = finished.record()
+    case, record = finished.cases[number], finished.record(number)
     metrics = measure_all(record)
     return Run(
         record=record,
         metrics=metrics,
         unmet=unmet(loaded.scenario.goals, metrics),
         channels=tuple(loaded.scenario.recording.channels),
-        status=finished.status,
-        error=finished.error,
-        state_hash=finished.world.digest(),
-        sim_time_s=round(finished.time, 9),
+        status=case.status,
+        error=case.error,
+        state_hash=case.state_hash,
+        sim_time_s=round(case.time, 9),
         wall_time_s=round(wall, 3),
     )
 

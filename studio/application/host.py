@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from math import nan
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numba import literal_unroll
@@ -49,12 +50,24 @@ def run(columns, parameters, memory, observed, commands):
 FLAGS = ("detected", "received")
 
 
+class Group(NamedTuple):
+    """An application group of a world: its place among all groups, its name, and which of the hosted cars are its."""
+
+    world: int
+    place: int
+    name: str
+    cars: slice
+
+
 @dataclass
 class Hosted:
-    """One application on its cars: columns [car], parameters, memory and observed, [row, car]."""
+    """One application on its cars: columns [car], parameters, memory and observed, [row, car].
+
+    A compiled application is hosted once for all its groups, an ordinary one group by group.
+    """
 
     application: Application
-    group: str
+    groups: list[Group]
     columns: np.ndarray
     links: np.ndarray  # link that each car listens to, -1 when none
     parameters: np.ndarray
@@ -67,9 +80,8 @@ class Hosted:
         try:
             self.run(self.columns, self.parameters, self.memory, self.observed, commands)
         except (Exception, SystemExit) as error:
-            raise ApplicationError(
-                f"The application {self.application.name!r} of group {self.group!r} raised:\n{traceback.format_exc()}"
-            ) from error
+            names = ", ".join(dict.fromkeys(repr(group.name) for group in self.groups))
+            raise ApplicationError(f"The application {self.application.name!r} of group {names} raised:\n{traceback.format_exc()}") from error
 
 
 def observation_rows() -> list[str]:

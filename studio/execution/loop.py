@@ -15,9 +15,8 @@ SLOWEST, FASTEST = 0.1, 8.0
 def as_fast_as_possible(simulation: Simulation, progress: Callable[[float], None] = lambda share: None) -> None:
     """Runs to the end; `progress` gets the share done, 0 to 1."""
     while not simulation.is_over:
-        simulation.advance()
-        if simulation.world.clock.k % REPORT_EVERY == 0:
-            progress(min(simulation.world.clock.k / simulation.ticks, 1.0))
+        simulation.advance(REPORT_EVERY)
+        progress(min(simulation.world.clock.k / simulation.ticks, 1.0))
     progress(1.0)
 
 

@@ -3,18 +3,19 @@
     build([settings])   →  World         arrays, one column per vehicle, world after world
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from studio.application import registry
 from studio.application.contract import ACTUATORS
-from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
+from studio.application.host import Group, Hosted, compiled_loop, first_memory, observation_rows, python_loop
 from studio.conventions import GRAVITY
 from studio.model.driver import sight_speed
 from studio.road import shadow
 from studio.road.shadow import Shadow
-from studio.scenario.schema import Driver, Friction, Weather
+from studio.scenario.schema import Application, Driver, Friction, Weather
 from studio.world import ground
 from studio.world.change import changes_of
 from studio.world.control import wheel_torque
@@ -196,8 +197,9 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: list[Car]) -> Un
 
 def links_of(each: Setting, first: int) -> list[tuple[int, int]]:
     """Receiver and sender columns, in the order of the groups."""
+    numbers = {name: first + i for i, name in enumerate(each.names)}
     return [
-        (first + each.names.index(receiver), first + each.names.index(sender))
+        (numbers[receiver], numbers[sender])
         for group in each.scenario.applications.values()
         for receiver, sender in zip(group.vehicles, group.listens_to, strict=False)
     ]
@@ -221,34 +223,59 @@ def events_of(settings: Sequence[Setting], worlds: Worlds) -> Events:
     )
 
 
+class Crew(NamedTuple):
+    """The cars of an application group before they are hosted: their columns, and the link that each listens to, -1 for none."""
+
+    world: int
+    place: int
+    name: str
+    group: Application
+    columns: np.ndarray
+    links: np.ndarray
+
+
 def hosts(settings: Sequence[Setting], worlds: Worlds) -> list[Hosted]:
-    """Every application group of every world, with the links that its cars listen to."""
-    found, link = [], 0
-    for each, first in zip(settings, worlds.first, strict=True):
+    """Every application, a compiled one once for all groups of all worlds, in the order in which the files name them."""
+    together: dict[tuple[str, int], list[Crew]] = {}
+    for crew in crews(settings, worlds):
+        own = -1 if registry.find(crew.group.application).compiled else crew.place
+        together.setdefault((crew.group.application, own), []).append(crew)
+    return [hosted(registry.find(name), found) for (name, _), found in together.items()]
+
+
+def crews(settings: Sequence[Setting], worlds: Worlds) -> Iterator[Crew]:
+    """Every application group of every world."""
+    link, place = 0, 0
+    for w, (each, first) in enumerate(zip(settings, worlds.first, strict=True)):
+        numbers = {name: first + i for i, name in enumerate(each.names)}
         for name, group in each.scenario.applications.items():
             heard = len(group.listens_to)
-            columns = np.array([first + each.names.index(vehicle) for vehicle in group.vehicles], dtype=np.int64)
+            columns = np.array([numbers[vehicle] for vehicle in group.vehicles], dtype=np.int64)
             links = np.arange(link, link + heard) if heard else np.full(columns.size, -1)
-            found.append(hosted(name, group, columns, links))
-            link += heard
-    return found
+            yield Crew(w, place, name, group, columns, links)
+            link, place = link + heard, place + 1
 
 
-def hosted(name: str, group, columns: np.ndarray, links: np.ndarray) -> Hosted:
-    """One group on its host."""
-    application = registry.find(group.application)
-    values = [float(value) for value in application.parameters(group.parameters).values()]
-    n = columns.size
+def hosted(application: registry.Application, found: list[Crew]) -> Hosted:
+    """Some groups of one application on their host."""
+    columns = np.concatenate([crew.columns for crew in found])
+    ends = np.cumsum([crew.columns.size for crew in found]).tolist()
     return Hosted(
         application=application,
-        group=name,
+        groups=[Group(crew.world, crew.place, crew.name, slice(end - crew.columns.size, end)) for crew, end in zip(found, ends, strict=True)],
         columns=columns,
-        links=links,
-        parameters=np.tile(np.array(values)[:, None], n),
-        memory=np.tile(np.array(first_memory(application))[:, None], n),
-        observed=np.zeros((len(observation_rows()), n)),
+        links=np.concatenate([crew.links for crew in found]),
+        parameters=np.concatenate([parameters_of(application, crew) for crew in found], axis=1),
+        memory=np.tile(np.array(first_memory(application))[:, None], columns.size),
+        observed=np.zeros((len(observation_rows()), columns.size)),
         run=compiled_loop(application) if application.compiled else python_loop(application),
     )
+
+
+def parameters_of(application: registry.Application, crew: Crew) -> np.ndarray:
+    """Parameters of all cars of a group, [row, car]."""
+    values = [float(value) for value in application.parameters(crew.group.parameters).values()]
+    return np.tile(np.array(values)[:, None], crew.columns.size)
 
 
 def settle(world: World) -> None:

@@ -133,6 +133,7 @@ def changes_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines) -> Cha
     limits = [each for number, (w, site) in enumerate(placed) for each in limits_of(number, site, w, lines)]
     limited_at = np.unique(np.concatenate([np.zeros(0, np.int64), *(columns for _, columns, _ in limits)]))
     return Changes(
+        world=np.array([w for w, _ in placed], dtype=np.int64),
         moments=np.array([(each.time, columns.get((w, each.vehicle), -1), each.station) for w, each in occasions]).reshape(-1, 3).T.copy(),
         phase=np.zeros(len(placed), dtype=np.int64),
         turned=np.full((2, len(placed)), np.nan),

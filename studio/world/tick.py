@@ -4,10 +4,21 @@ At a tick everybody meets: lights change, triggers fire, drivers look around, se
 applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps.
 """
 
+from collections.abc import Callable
+
 from studio.application.host import Hosted
+from studio.errors import ApplicationError
 from studio.world import change, collision, control, fleet, ground, perception, traffic
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import World
+
+
+Refuse = Callable[[Hosted, ApplicationError], None]
+
+
+def let_through(_hosted: Hosted, error: ApplicationError) -> None:
+    """An application that fails ends everything."""
+    raise error
 
 
 def tick(world: World) -> None:
@@ -16,14 +27,17 @@ def tick(world: World) -> None:
     part(world)
 
 
-def meet(world: World) -> None:
-    """What happens at one instant; afterwards everything that is known belongs to the same time."""
+def meet(world: World, refuse: Refuse = let_through) -> None:
+    """What happens at one instant; afterwards everything that is known belongs to the same time.
+
+    `refuse` is told of applications that fail.
+    """
     environment(world)
     look(world)
     sense(world)
     communicate(world)
     think(world)
-    applications(world)
+    applications(world, refuse)
     act(world)
 
 
@@ -89,11 +103,14 @@ def think(world: World) -> None:
     traffic.decide(v.state, v.parameter, v.drivers, v.mind)
 
 
-def applications(world: World) -> None:
+def applications(world: World, refuse: Refuse = let_through) -> None:
     """Every application sees its observation and decides."""
     for hosted in world.hosted:
         observe(world, hosted)
-        hosted.decide(world.vehicles.app_command)
+        try:
+            hosted.decide(world.vehicles.app_command)
+        except ApplicationError as error:
+            refuse(hosted, error)
 
 
 def observe(world: World, hosted: Hosted) -> None:

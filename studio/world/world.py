@@ -1,14 +1,15 @@
 """The world: all arrays of a batch of runs, in one place. One copy of it is a snapshot, its bytes are the hash."""
 
 import hashlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.application.host import Hosted
+from studio.application.host import Group, Hosted
 from studio.road.shadow import Shadow
 from studio.world.fleet import Fleet
-from studio.world.state import OBJECT
+from studio.world.state import ACTIVE, OBJECT, RING
 
 
 @dataclass
@@ -78,6 +79,7 @@ class Roads:
 class Changes:
     """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
 
+    world: np.ndarray  # number of the world, per change
     moments: np.ndarray  # [row, change] of all beginnings, then of all ends
     phase: np.ndarray  # int64[change]: BEFORE, ACTING, OVER
     turned: np.ndarray  # [s] float64[2, change]: when it began and ended, not a number before
@@ -177,37 +179,63 @@ class World:
         return int(self.worlds.first[world]) + self.names[world].index(name)
 
     def name_of(self, number: int, world: int = 0) -> str:
-        """Name of the vehicle in a column, or of an object, OBJECT - i."""
+        """Name of a vehicle by its number in its world, or of an object, OBJECT - i."""
         if number <= OBJECT:
-            return self.obstacles.names[OBJECT - number]
-        return self.names[world][number - int(self.worlds.first[world])]
+            return self.obstacles.names[self.objects(world)][OBJECT - number]
+        return self.names[world][number]
 
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""
         first = int(self.worlds.first[world])
         return slice(first, first + int(self.worlds.count[world]))
 
+    def objects(self, world: int = 0) -> slice:
+        """Columns of the objects of one world."""
+        first = int(self.obstacles.first[world])
+        return slice(first, first + int(self.obstacles.count[world]))
+
     def moving_parts(self) -> list[np.ndarray]:
         """The arrays that change during a run."""
         v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
         units = [u.sensors, u.sent, u.inbox]
         happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
-        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(hosted.memory for hosted in self.hosted)]
+        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
-    def digest(self) -> str:
-        """SHA-256 of the moving parts and the clock."""
+    def digest(self, number: int | None = None) -> str:
+        """SHA-256 of the moving parts and the clock; of one world's, which do not depend on the batch that it runs in."""
         digest = hashlib.sha256(str(self.clock.k).encode())
-        for part in self.moving_parts():
+        for part in self.moving_parts() if number is None else self.parts_of(number):
             digest.update(np.ascontiguousarray(part).tobytes())
         return digest.hexdigest()
 
-    def world_digest(self, world: int) -> str:
-        """SHA-256 of the state of one world's vehicles, which does not depend on the batch they ran in."""
-        columns = self.columns(world)
-        digest = hashlib.sha256(str(self.clock.k).encode())
-        digest.update(np.ascontiguousarray(self.vehicles.state[:, columns]).tobytes())
-        digest.update(np.ascontiguousarray(self.wheel_columns(columns)).tobytes())
-        return digest.hexdigest()
+    def parts_of(self, number: int) -> Iterator[np.ndarray]:
+        """The shares of one world in the moving parts."""
+        v, u, e, c, o, d = self.vehicles, self.units, self.events, self.changes, self.obstacles, self.detours
+        columns, of = self.columns(number), self.worlds.of
+        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.script, 1), (v.commands, RING), (u.sensors, 1), (u.sent, RING)
+        for part, groups in per_vehicle:
+            yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
+        yield u.inbox[:, of[u.link_receiver] == number]
+        yield e.fired[of[e.trigger_vehicle] == number]
+        share = e.hits.shape[1] // e.found.size
+        yield e.hits[:, number * share : (number + 1) * share]
+        yield c.phase[c.world == number]
+        yield c.turned[:, c.world == number]
+        yield o.standing[self.objects(number)]
+        yield d.choice[of[d.vehicle] == number]
+        yield from (memory for group, memory in self.memories() if group.world == number)
+
+    def memories(self) -> list[tuple[Group, np.ndarray]]:
+        """What each application group remembers, group by group."""
+        found = [(group, hosted.memory[:, group.cars]) for hosted in self.hosted for group in hosted.groups]
+        return sorted(found, key=lambda each: each[0].place)
+
+    def leave(self, number: int) -> None:
+        """The vehicles of a world take no part any more, nor do its applications."""
+        columns = self.columns(number)
+        self.vehicles.state[ACTIVE, columns] = 0.0
+        self.vehicles.returns[columns] = 0
+        self.hosted = [hosted for hosted in self.hosted if {group.world for group in hosted.groups} != {number}]
 
     def wheel_columns(self, columns: slice) -> np.ndarray:
         """Wheel state [row, corner, vehicle] of some vehicles."""
