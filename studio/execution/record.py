@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.errors import UnknownError, nearest
+from studio.vehicle.state import ACTIVE
 from studio.world.channel import BY_NAME, CHANNELS, TIME_GAP, sample
-from studio.world.state import ACTIVE, SENT
+from studio.world.unit import SENT
 from studio.world.world import World
 
 ROLLING = 0.5  # [m/s] below this speed a time gap says nothing

@@ -8,22 +8,13 @@ import numpy as np
 
 from studio.errors import ApplicationError
 from studio.execution.record import Chain, Happening, Record, Recorder
-from studio.world import broken
+from studio.vehicle import broken
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import ACTIVE, ROLL, V_X
 from studio.world.build import build
+from studio.world.mind import AHEAD, RED_STATION, STATION
 from studio.world.setting import Setting
-from studio.world.state import (
-    ACTIVE,
-    AHEAD,
-    FRONT,
-    HIT_FIRST,
-    HIT_SECOND,
-    HIT_SPEED,
-    HIT_TIME,
-    RED_STATION,
-    ROLL,
-    STATION,
-    V_X,
-)
+from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
 from studio.world.tick import environment, look, meet, part
 from studio.world.world import World
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from studio.application.host import Hosted
 from studio.road.shadow import Shadow
-from studio.world.fleet import Fleet
-from studio.world.state import OBJECT
+from studio.vehicle.fleet import Fleet
+from studio.world.street import OBJECT
 
 
 @dataclass
