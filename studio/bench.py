@@ -31,10 +31,10 @@ from studio.errors import Problem, ServerError
 from studio.execution.simulation import Simulation, simulation
 from studio.road.motorway import motorway
 from studio.scenario import catalogue
-from studio.world import fleet
+from studio.vehicle import fleet
+from studio.vehicle.command import RING, U_DRIVE, U_STEER
+from studio.vehicle.fleet import Fleet, Start
 from studio.world.build import build
-from studio.world.fleet import Fleet, Start
-from studio.world.state import RING, U_DRIVE, U_STEER
 from studio.world.setting import Setting, setting
 from studio.world.tick import tick
 
@@ -197,7 +197,7 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
 def run_device(progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
     """Vehicle steps a second on a GPU, and how far its result is from the CPU's; raises ServerError when there is none."""
     try:
-        from studio.world import cuda
+        from studio.vehicle import cuda
     except ImportError as error:
         raise no_device("the extra `cuda` is not installed", f"uv pip install 'cooperative-adas-studio[cuda]' ({error})") from None
     if not cuda.is_available():
@@ -222,7 +222,7 @@ def no_device(what: str, remedy: str) -> ServerError:
 
 def device_rate(count: int, ticks: int = 50) -> float:
     """Vehicle steps a second of a fleet on the GPU, `ticks` ticks in a launch."""
-    from studio.world import cuda
+    from studio.vehicle import cuda
 
     device = cuda.Device(cars(count))
 
@@ -235,7 +235,7 @@ def device_rate(count: int, ticks: int = 50) -> float:
 
 def device_difference(count: int = 1000, seconds: float = 10.0) -> float:
     """Largest distance [m] between the places of a car on GPU and CPU after a drive."""
-    from studio.world import cuda
+    from studio.vehicle import cuda
 
     here, there = cars(count), cars(count)
     device = cuda.Device(there)

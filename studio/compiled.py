@@ -35,7 +35,7 @@ import platformdirs
 from numba.core.caching import UserProvidedCacheLocator
 
 PACKAGE = Path(__file__).parent
-COMPILED_ROOMS = ("model", "road", "application", "world", "assess", "rig")
+COMPILED_ROOMS = ("model", "road", "application", "vehicle", "world", "assess", "rig")
 FORGOTTEN_AFTER = 60 * 86400.0  # [s]
 TOOLS = f"{numba.__version__} {llvmlite.__version__} {sys.version}"
 IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)|import[ \t]+([^\n]*))", re.MULTILINE)
@@ -89,7 +89,7 @@ def digest_of(*files: Path) -> str:
 
 def sources() -> Iterator[Path]:
     """The files that may hold compiled code."""
-    yield from (PACKAGE / "compiled.py", PACKAGE / "conventions.py")
+    yield from (PACKAGE / "compiled.py", PACKAGE / "conventions.py", PACKAGE / "rows.py")
     for room in COMPILED_ROOMS:
         yield from (PACKAGE / room).rglob("*.py")
 
@@ -163,4 +163,4 @@ inlined = compiled(forceinline=True)
 
 def is_warm() -> bool:
     """Whether the step of the vehicles has been compiled on this machine before."""
-    return any(folder_of(PACKAGE / "world" / "motion.py").glob("*.nbi"))
+    return any(folder_of(PACKAGE / "vehicle" / "motion.py").glob("*.nbi"))

@@ -30,7 +30,7 @@ from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
 from studio.scenario.schema import Scenario
 from studio.store.runs import Row, Runs
-from studio.world.fleet import rows_of
+from studio.vehicle.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
 
 LARGEST_SEED = 2**63 - 1

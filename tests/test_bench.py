@@ -5,7 +5,7 @@ import pytest
 
 from studio import bench
 from studio.errors import ServerError
-from studio.world import cuda, fleet
+from studio.vehicle import cuda, fleet
 
 
 def test_a_fleet_drives():

@@ -10,7 +10,7 @@ import pytest
 from studio import compiled
 from studio.compiled import PACKAGE, Locator, closure, digest_of, folder_of, imports
 
-MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("world", "motion.py"), ("model", "tyre.py"), ("assess", "safety.py")))
+MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("vehicle", "motion.py"), ("model", "tyre.py"), ("assess", "safety.py")))
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from studio.execution.record import Chain, Happening
 from studio.world import notice
 from studio.world.notice import Watch
 from studio.world.setting import Setting
-from studio.world.state import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
+from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
 from studio.world.world import World
 
 

@@ -9,12 +9,13 @@ from studio.application.host import Hosted
 from studio.errors import ApplicationError, Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.record import Happening, Record, Recorder
-from studio.world import broken, notice
+from studio.vehicle import broken
+from studio.vehicle.state import ACTIVE
+from studio.world import notice
 from studio.world.build import build
 from studio.world.line import starts
 from studio.world.notice import Watch
 from studio.world.setting import Setting
-from studio.world.state import ACTIVE
 from studio.world.tick import environment, look, meet, part
 from studio.world.world import World
 

@@ -27,9 +27,16 @@ from studio.errors import Problem, RunError, ScenarioError, UnknownError, neares
 from studio.rig import table
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.world import broken, fleet
-from studio.world.fleet import Fleet, Start
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle import broken, fleet
+from studio.vehicle.command import RING, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER
+from studio.vehicle.contact import SLOPE_X
+from studio.vehicle.fleet import Fleet, Start
+from studio.vehicle.parameter import BRAKE_MAX, DELAY_BRAKE, DELAY_DRIVE, G_RATIO, GEARS, IDLE, LIMIT, STEER_RATIO
+from studio.vehicle.state import (
+    A_X, A_Y, A_Z, ACCELERATOR, ALPHA, CLUTCH, DELTA, F_X, F_Y, F_Z, GEAR, J_GEAR, KAPPA, M_Z, NEXT_GEAR, NEXT_RATIO, OMEGA,
+    OMEGA_E, PITCH, PITCH_RATE, PRESSURE_F, PRESSURE_R, PSI, RATIO, ROLL, ROLL_RATE, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE,
+    TRAVEL, V_X, V_Y, YAW_RATE, X, Y, Z,
+)  # fmt: skip
 
 PERIOD = 0.01  # [s] between two rows of the result
 LONGEST = 3600.0  # [s] of inputs
@@ -103,8 +110,8 @@ def drive(
     """Drives a vehicle by a table of inputs: a CSV file, or columns by name.
 
     vehicle is a name of the catalogue, a path of a vehicle file, or a model; speed [m/s] at the start; tyre a .tir file, or a
-    name of the catalogue, for all wheels; changes by path (`body.mass`, `road.friction`, `road.slope`); step [s] of the integration; period [s] of the
-    result. Raises ScenarioError, UnknownError; RunError when a state is not finite any more.
+    name of the catalogue, for all wheels; changes by path (`body.mass`, `road.friction`, `road.slope`); step [s] of the
+    integration; period [s] of the result. Raises ScenarioError, UnknownError; RunError when a state is not finite any more.
     """
     model, road = prepared(vehicle, tyre, dict(changes or {}))
     given = given_inputs(inputs)

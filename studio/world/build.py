@@ -16,14 +16,19 @@ from studio.model.driver import sight_speed
 from studio.road import shadow
 from studio.road.shadow import Shadow
 from studio.scenario.schema import Application, Driver, Friction, Weather
+from studio.vehicle.command import RING, U_DRIVE
+from studio.vehicle.fleet import Start, fleet, level_ground
+from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
+from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world import ground
 from studio.world.change import changes_of
 from studio.world.control import wheel_torque
-from studio.world.fleet import Start, fleet, level_ground
 from studio.world.line import Lines, Zones, detours_of, lines_of, starts, stops_of, table_of, zones
+from studio.world.mind import DRIVER, MIND, SIGHT, STATION
 from studio.world.obstacle import obstacles_of
 from studio.world.setting import Car, Setting, pose
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
+from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
 
 MOST_HITS = 64  # collisions that are reported per world

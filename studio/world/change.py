@@ -12,11 +12,14 @@ from studio.compiled import compiled
 from studio.road.detour import limited
 from studio.road.path import PATH_SPEED, project
 from studio.scenario.schema import Limit
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.state import ACTIVE, X, Y
 from studio.world import obstacle
 from studio.world.line import Lines, zones
+from studio.world.mind import STATION
 from studio.world.setting import Setting
 from studio.world.site import Site
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.street import ACTING, AT, BY, OVER, PIECE_ACTS, PIECE_CHANGE, WHEN
 from studio.world.world import Changes, World, Worlds
 
 EARLY = 1e-9  # [s] a time that is a whole number of ticks must not come a tick late by rounding

@@ -7,7 +7,9 @@ D. Manocha, OBBTree, SIGGRAPH 1996). What happens after a contact is not claimed
 from math import cos, sin, sqrt
 
 from studio.compiled import compiled
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
+from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
+from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
 
 
 @compiled

@@ -15,8 +15,13 @@ from studio.compiled import compiled
 from studio.road.path import PATH_HEADING, PATH_HEIGHT, PATH_SLOPE, PATH_SPACING, PATH_X, PATH_Y, interpolate
 from studio.road.path import Path as RoadPath
 from studio.scenario.schema import Friction
-from studio.world.corner import side_of
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle.contact import HEIGHT, MU, SLOPE_X, SLOPE_Y
+from studio.vehicle.corner import side_of
+from studio.vehicle.parameter import L_F, L_R, TRACK_F, TRACK_R
+from studio.vehicle.state import PSI, X, Y
+from studio.world.street import (
+    PIECE, PIECE_ACTS, PIECE_CHANGE, PIECE_FRICTION, PIECE_HEADING, PIECE_LEFT, PIECE_RIGHT, PIECE_WORLD, PIECE_X, PIECE_Y,
+)  # fmt: skip
 
 NEAR = 12.0  # [m] a piece farther from the centre of gravity is under no wheel
 MOST_NEAR = 1000  # pieces that are looked at for one vehicle

@@ -13,7 +13,6 @@ import numpy as np
 from studio.road import conflict
 from studio.road.path import Path
 from studio.world.setting import Setting
-from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.way import MOST_WORKS, Way
 from studio.world.world import Detours, Worlds
 

@@ -9,17 +9,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from studio.compiled import compiled
-from studio.world.state import ACTIVE, AHEAD, FRONT, RED_STATION, ROLL, STATION, V_X, Row
+from studio.rows import Role, Table
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import ACTIVE, ROLL, V_X
+from studio.world.mind import AHEAD, RED_STATION, STATION
 from studio.world.world import World
 
-NOTICE = (
-    Row("time", "s", "at the end of the tick in which it was found"),
-    Row("kind", "1", "what has happened"),
-    Row("world", "1", "number of the world"),
-    Row("subject", "1", "number of the trigger, change or follower in the batch, of the collision or vehicle in its world"),
-    Row("other", "1", "number of the vehicle that has come between, -1 for none"),
-)
-(N_TIME, N_KIND, N_WORLD, N_SUBJECT, N_OTHER) = range(len(NOTICE))
+NOTICE = Table("notice", Role.RECORD, per="notice")
+N_TIME = NOTICE.row("time", "s", "at the end of the tick in which it was found")
+N_KIND = NOTICE.row("kind", "1", "what has happened")
+N_WORLD = NOTICE.row("world", "1", "number of the world")
+N_SUBJECT = NOTICE.row("subject", "1", "number of the trigger, change or follower in the batch, of the collision or vehicle in its world")
+N_OTHER = NOTICE.row("other", "1", "number of the vehicle that has come between, -1 for none")
 TRIGGERED, BEGUN, ENDED, HIT, ROLLED_OVER, ARRIVED, COMPANY, WAITS = range(8)
 
 AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits

@@ -11,8 +11,16 @@ from studio.model.random import (
     GPS_DRIFT, GPS_NOISE, MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, normal_pair, uniform,
 )  # fmt: skip
 from studio.road.shadow import EYE, open_sky, walls_between
+from studio.vehicle.command import RING, U
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.state import A_X, ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.collision import reach_along
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.street import BARRIER, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.unit import (
+    AZIMUTH, BUILDINGS, CANYON, DELAY, DETECTED, DRIFT_EAST, DRIFT_NORTH, DRIFT_SIGMA, DRIFT_TIME, EXPONENT, GPS_EAST,
+    GPS_NORTH, GPS_SIGMA, LOSS, LOSS_DISTANCE, M_ACCELERATION, M_INTENTION, M_SPEED, M_TRUE_X, M_TRUE_Y, M_X, M_Y, OPENING,
+    PERIOD, RADIO_RANGE, RANGE, RANGE_RATE, RANGE_SIGMA, RATE_SIGMA, REACH, SENT, TARGET, VARIATION,
+)  # fmt: skip
 
 EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
 PAIR = 65536  # a link is numbered receiver · PAIR + sender

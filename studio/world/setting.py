@@ -20,10 +20,10 @@ from studio.road.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Driver, FrontSensor, Gps, Place, Scenario
+from studio.vehicle.command import RING
+from studio.vehicle.fleet import check_step
 from studio.world.channel import BY_NAME
-from studio.world.fleet import check_step
 from studio.world.site import Site, joins, place_problems, sites
-from studio.world.state import RING
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise

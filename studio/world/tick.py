@@ -8,8 +8,9 @@ from collections.abc import Callable
 
 from studio.application.host import Hosted
 from studio.errors import ApplicationError
-from studio.world import change, collision, control, fleet, ground, perception, traffic
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle import fleet
+from studio.world import change, collision, control, ground, perception, traffic
+from studio.world.mind import STATION
 from studio.world.world import World
 
 
@@ -145,5 +146,6 @@ def recirculate(world: World) -> None:
     """Traffic that has arrived comes in again."""
     v, r, w = world.vehicles, world.roads, world.worlds
     traffic.recirculate(
-        v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, w.first, w.count, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
-    )
+        v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, w.first, w.count, v.state, v.wheels, v.ground,
+        v.parameter, v.gears, v.mind,
+    )  # fmt: skip

@@ -20,9 +20,16 @@ from studio.road.path import (
     project,
 )
 from studio.road.signals import GREEN, signal_state
+from studio.vehicle.parameter import C_FRONT, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, WIDTH
+from studio.vehicle.shift import start
+from studio.vehicle.state import ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.ground import touch_all
-from studio.world.shift import start
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.mind import (
+    AHEAD, AHEAD_SPEED, BRAKE_COMFORT, COMFORT, D_PSI, FOLLOWING, FRONT_OFFSET, GAP, HEADWAY, OFFSET, PATH_KAPPA, RED_STATION,
+    SIGHT, SIGHT_SPEED, SPEED_FACTOR, STANDSTILL, STATION, STEER_GAIN, STEER_WISH, STOPPING, V_DESIRED, WISH, YAW_DAMPING,
+    YIELDING,
+)  # fmt: skip
+from studio.world.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed

@@ -8,8 +8,10 @@ import numpy as np
 
 from studio.application.host import Group, Hosted
 from studio.road.shadow import Shadow
-from studio.world.fleet import Fleet
-from studio.world.state import ACTIVE, OBJECT, RING
+from studio.vehicle.command import RING
+from studio.vehicle.fleet import Fleet
+from studio.vehicle.state import ACTIVE
+from studio.world.street import OBJECT
 
 
 @dataclass

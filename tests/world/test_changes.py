@@ -15,9 +15,13 @@ from studio.execution.simulation import simulation
 from studio.model.driver import FOG_SPEED, REACTION, sight_speed
 from studio.road.path import PATH_SPEED
 from studio.scenario.schema import Scenario, unit_at
+from studio.vehicle.contact import MU
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import V_X
 from studio.world.build import build
-from studio.world.state import DETECTED, FRONT, GAP, MU, RANGE, RANGE_RATE, RED_STATION, STATION, TARGET, V_DESIRED, V_X
+from studio.world.mind import GAP, RED_STATION, STATION, V_DESIRED
 from studio.world.tick import tick
+from studio.world.unit import DETECTED, RANGE, RANGE_RATE, TARGET
 from tests.changing import SLOW, drive, run_for, scenario
 
 # -- limits --------------------------------------------------------------------------------------------

@@ -13,9 +13,12 @@ from studio.execution.simulation import simulation
 from studio.road.conflict import zones
 from studio.road.detour import STEEPEST, place_at, stations_on
 from studio.road.path import PATH_CURVATURE, PATH_HEADING, PATH_SPEED, PATH_X, PATH_Y, ease
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.state import ACTIVE, X, Y
 from studio.world.build import build
+from studio.world.mind import OFFSET, STATION
 from studio.world.setting import pose
-from studio.world.state import ACTIVE, CONE, FRONT, LENGTH, O_KIND, OFFSET, STATION, X, Y
+from studio.world.street import CONE, O_KIND
 from studio.world.tick import tick
 from tests import changing
 from tests.changing import drive, run_for

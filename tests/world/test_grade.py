@@ -7,12 +7,13 @@ from studio.application.setup import complete
 from studio.conventions import GRAVITY
 from studio.scene import pose
 from studio.server.frame import poses
+from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_GEAR, U_PEDAL
+from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
+from studio.vehicle.parameter import C_D, C_ROLL, MASS, RADIUS, H
+from studio.vehicle.state import GEAR, NEXT_GEAR, NEXT_RATIO, PITCH, PITCH_RATE, PSI, RATIO, TORQUE_DRIVE, V_UP, V_X, X, Y, Z
 from studio.world.build import build
+from studio.world.mind import STATION
 from studio.world.setting import setting
-from studio.world.state import (
-    C_D, C_ROLL, GEAR, H, HEIGHT, MASS, NEXT_GEAR, NEXT_RATIO, PITCH, PITCH_RATE, PSI, RADIUS, RATIO, RING, SLOPE_X, SLOPE_Y, STATION,
-    TORQUE_DRIVE, U_BRAKE, U_DRIVE, U_GEAR, U_PEDAL, V_UP, V_X, X, Y, Z,
-)  # fmt: skip
 from studio.world.tick import environment, part, tick
 from tests.proving_ground import heavier
 

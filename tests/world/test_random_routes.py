@@ -17,9 +17,11 @@ from studio.road.route import LanePath, connect
 from studio.road.signals import RED, RED_AMBER
 from studio.scenario import catalogue
 from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
+from studio.world.mind import STATION
 from studio.world.setting import Car, Setting
-from studio.world.state import ACTIVE, FRONT, STATION, V_X, X, Y
 from studio.world.tick import tick
 from studio.world.way import Works
 

@@ -11,14 +11,14 @@ from studio.model import satellite
 from studio.model.random import GPS_NOISE, normal, normal_pair
 from studio.road import shadow
 from studio.road.network import Building
+from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
 from studio.world import perception
 from studio.world.build import build
 from studio.world.channel import CHANNELS, sample as channels
-from studio.world.state import (
-    ACTIVE, CANYON, DRIFT_SIGMA, DRIFT_TIME, GPS_EAST, GPS_NORTH, GPS_SET, GPS_SIGMA, M_TRUE_X, M_TRUE_Y, M_X, M_Y, SENSOR, SENT,
-    VEHICLE, X, Y,
-)  # fmt: skip
 from studio.world.tick import meet, tick
+from studio.world.unit import (
+    CANYON, DRIFT_SIGMA, DRIFT_TIME, GPS_EAST, GPS_NORTH, GPS_SET, GPS_SIGMA, M_TRUE_X, M_TRUE_Y, M_X, M_Y, SENSOR, SENT,
+)  # fmt: skip
 
 TICK = 0.02
 COURT = Building(np.array([[-50.0, 50.0, 50.0, -50.0], [-50.0, -50.0, 50.0, 50.0]]), (), 10.0, 0.0, "")

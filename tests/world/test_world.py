@@ -8,8 +8,10 @@ import pytest
 from studio import job
 from studio.execution.simulation import simulation
 from studio.road.signals import GREEN
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import ACTIVE, OMEGA, OMEGA_E, V_EAST, V_X, X, Y
 from studio.world.build import build
-from studio.world.state import ACTIVE, FRONT, OFFSET, OMEGA, OMEGA_E, RED_STATION, STATION, V_EAST, V_X, X, Y
+from studio.world.mind import OFFSET, RED_STATION, STATION
 from studio.world.tick import tick
 
 

@@ -7,8 +7,19 @@ from math import sqrt
 
 from studio.compiled import inlined
 from studio.model import body, steering, suspension, tyre, wheel
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import LANES
+from studio.vehicle.contact import (
+    ALPHA_USED, GAMMA, HEIGHT, KAPPA_USED, L_X, L_Y, L_Z, MU, N_X, N_Y, N_Z, PEAK, R_X, R_Y, R_Z, ROLLING, SLIP_SPIN, SLOPE_X,
+    SLOPE_Y, SPIN_SLOPE, T_X, T_Y, T_Z,
+)  # fmt: skip
+from studio.vehicle.parameter import (
+    C_ROLL, CAMBER_F, CAMBER_R, D_T, GAIN_F, GAIN_R, K_TF, K_TR, L_F, L_R, RADIUS, REST_AF, REST_AR, REST_DAMPING, REST_KF,
+    REST_KR, STATIC_F, STATIC_R, TRACK_F, TRACK_R, H,
+)  # fmt: skip
+from studio.vehicle.state import (
+    ALPHA, DELTA, F_X, F_Y, F_Z, KAPPA, M_Z, OMEGA, PITCH_RATE, Q_W, Q_X, Q_Y, Q_Z, ROLL_RATE, TRAVEL, TRAVEL_RATE, V_EAST,
+    V_NORTH, V_UP, YAW_RATE, X, Y, Z,
+)  # fmt: skip
+from studio.vehicle.tile import LANES
 
 UPRIGHT = 1e-12  # keeps the axes of a wheel finite that points at the road
 OVERLOAD = 3.0  # [1] of the nominal load: beyond it no tyre is measured, and its forces stay what they are there

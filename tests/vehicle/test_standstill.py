@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from studio.conventions import GRAVITY
-from studio.world import shift
-from studio.world.state import (
-    BRAKE_MAX, C_ROLL, F_Y, MASS, OMEGA, PITCH_RATE, PSI, RADIUS, ROLL_RATE, SLOPE_X, SLOPE_Y, V_X, V_Y, X, Y, YAW_RATE, Z,
-)  # fmt: skip
+from studio.vehicle import shift
+from studio.vehicle.contact import SLOPE_X, SLOPE_Y
+from studio.vehicle.parameter import BRAKE_MAX, C_ROLL, MASS, RADIUS
+from studio.vehicle.state import F_Y, OMEGA, PITCH_RATE, PSI, ROLL_RATE, V_X, V_Y, YAW_RATE, X, Y, Z
 from tests.proving_ground import MODELS, Ground, heavier
 
 HILL = 0.15

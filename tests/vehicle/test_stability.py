@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 from studio.conventions import GRAVITY
-from studio.world.state import (
-    ARB_F, ARB_R, BRAKE_MAX, F_Z, H, HEIGHT, J_WF, J_WR, J_X, J_Y, J_Z, K_F, K_R, K_TF, K_TR, L_F, L_R, M_UF, M_UR, MASS,
-    MASS_S, OMEGA, PITCH, PITCH_RATE, PSI, Q_W, Q_X, Q_Y, Q_Z, ROLL, ROLL_RATE, STATIC_F, STATIC_R, STEER_MAX, TRACK_F, TRACK_R,
-    TRAVEL, TRAVEL_RATE, V_EAST, V_NORTH, V_UP, V_X, X, Y, YAW_RATE, Z,
+from studio.vehicle.contact import HEIGHT
+from studio.vehicle.parameter import (
+    ARB_F, ARB_R, BRAKE_MAX, J_WF, J_WR, J_X, J_Y, J_Z, K_F, K_R, K_TF, K_TR, L_F, L_R, M_UF, M_UR, MASS, MASS_S, STATIC_F,
+    STATIC_R, STEER_MAX, TRACK_F, TRACK_R, H,
+)  # fmt: skip
+from studio.vehicle.state import (
+    F_Z, OMEGA, PITCH, PITCH_RATE, PSI, Q_W, Q_X, Q_Y, Q_Z, ROLL, ROLL_RATE, TRAVEL, TRAVEL_RATE, V_EAST, V_NORTH, V_UP, V_X,
+    YAW_RATE, X, Y, Z,
 )  # fmt: skip
 from tests.proving_ground import MODELS, Ground
 

@@ -2,11 +2,20 @@
 
 from studio.compiled import inlined
 from studio.model import brake, coupling, engine, steering, transmission, wheel
-from studio.world.corner import at_axle
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import LANES
-
-RIGID, CLUTCHED, CONVERTER = 0.0, 1.0, 2.0  # kinds of coupling
+from studio.vehicle.command import U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_DRIVE, U_ENGINE, U_PEDAL, U_STEER, U_STEER_TORQUE
+from studio.vehicle.contact import PEAK, ROLLING, SPIN_SLOPE
+from studio.vehicle.corner import at_axle
+from studio.vehicle.parameter import (
+    BRAKE_MAX, BRAKE_SHARE, CAPACITY, CLUTCHED, CONVERTER, COUPLING, CURVE, CURVE_0, D_STEER, DRAG, DRAG_SLOPE, DRIVE_SHARE,
+    FLUID_1, FLUID_2, FLUID_3, FLUID_RATIO, IDLE, J_E, J_STEER, J_WF, J_WR, K_BRAKE, KNOT, LAUNCH, LIMIT, LOSS_SHARE,
+    LOSS_TORQUE, PUMP_1, PUMP_2, PUMP_3, RADIUS, REGEN, RIGID, STEER_MAX, STEER_RATE, STEER_RATIO, TAU_BRAKE, TAU_DRIVE,
+    TAU_STEER, TRAIL, TURBINE_1, TURBINE_2, TURBINE_3, UNASSISTED,
+)  # fmt: skip
+from studio.vehicle.state import (
+    ACCELERATOR, CLUTCH, CLUTCH_RATE, DELTA, DELTA_RATE, F_X, F_Y, J_GEAR, M_Z, NEXT_RATIO, OMEGA, OMEGA_E, PRESSURE_F,
+    PRESSURE_R, RATIO, RATIO_RATE, ROTATION, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE,
+)  # fmt: skip
+from studio.vehicle.tile import LANES
 
 
 # --- steering and brakes -------------------------------------------------------------------------------------------------

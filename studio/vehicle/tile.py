@@ -16,7 +16,10 @@ from numba.np import arrayobj
 
 from studio.compiled import compiled
 from studio.model.tyre import Tyre
-from studio.world.state import COMMAND, CONTACT, GROUND, PARAMETER, VEHICLE, WHEEL
+from studio.vehicle.command import COMMAND
+from studio.vehicle.contact import CONTACT, GROUND
+from studio.vehicle.parameter import PARAMETER
+from studio.vehicle.state import VEHICLE, WHEEL
 
 LANES = 72  # width of a tile
 REGISTER = 8  # float64 in the widest vector register; lanes are filled up to whole ones

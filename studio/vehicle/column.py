@@ -1,4 +1,4 @@
-"""Parameters of a vehicle as rows: from the names and units of its file to the columns of the arrays."""
+"""A column of parameters: from the names and units of a vehicle's file to the rows of the arrays."""
 
 from functools import cache
 
@@ -10,8 +10,16 @@ from studio.model import tyre
 from studio.model.tyre import Tyre
 from studio.model.wheel import SIGMA
 from studio.scenario.vehicle import Vehicle
-from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle.parameter import (
+    ARB_F, ARB_R, AREA, BRAKE_MAX, BRAKE_SHARE, C_D, C_FRONT, C_ROLL, CAMBER_F, CAMBER_R, CAPACITY, CLUTCHED, CONVERTER,
+    COUPLING, CURVE, CURVE_0, D_F, D_R, D_STEER, D_T, DELAY_BRAKE, DELAY_DRIVE, DRAG, DRAG_SLOPE, DRIVE_SHARE, FLUID_1, FLUID_2,
+    FLUID_3, FLUID_RATIO, FRONT, G_DISENGAGE, G_DOWN_FULL, G_DOWN_LIGHT, G_ENGAGE, G_INERTIA, G_OPEN, G_RATIO, G_UP_FULL,
+    G_UP_LIGHT, GAIN_F, GAIN_R, GEARBOX, GEARS, IDLE, J_E, J_STEER, J_WF, J_WR, J_X, J_Y, J_Z, K_BRAKE, K_F, K_R, K_TF, K_TR,
+    KNOT, L_F, L_R, LAUNCH, LENGTH, LIMIT, LINK_F, LINK_R, LOCK_UP, LOSS_SHARE, LOSS_TORQUE, M_UF, M_UR, MASS, MASS_S,
+    PARAMETER, PUMP_1, PUMP_2, PUMP_3, RADIUS, REGEN, REST_AF, REST_AR, REST_DAMPING, REST_KF, REST_KR, RIGID, STATIC_F,
+    STATIC_R, STEER_MAX, STEER_RATE, STEER_RATIO, TAU_BRAKE, TAU_DRIVE, TAU_STEER, TRACK_F, TRACK_R, TRAIL, TURBINE_1,
+    TURBINE_2, TURBINE_3, UNASSISTED, WIDTH, H,
+)  # fmt: skip
 
 SLIDING = 0.95  # part of the peak force at which a contact patch at rest lets go
 MOST_LOAD = 2.0  # [1] static load over nominal load

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from studio.model.tyre import Tyre
-from studio.world import cuda, fleet
-from studio.world.state import MU, V_X
-from studio.world.tile import LANES
+from studio.vehicle import cuda, fleet
+from studio.vehicle.contact import MU
+from studio.vehicle.state import V_X
+from studio.vehicle.tile import LANES
 from tests.conftest import ROOT
 from tests.proving_ground import MODELS, Ground
 

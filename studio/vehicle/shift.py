@@ -4,8 +4,16 @@ from math import cos, sin, sqrt
 
 from studio.compiled import compiled
 from studio.model import body, gearbox
-from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle.command import RING, U_GEAR
+from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
+from studio.vehicle.parameter import (
+    CLUTCHED, CONVERTER, COUPLING, DRIVE_SHARE, FLUID_RATIO, G_DISENGAGE, G_DOWN_FULL, G_DOWN_LIGHT, G_ENGAGE, G_INERTIA,
+    G_OPEN, G_RATIO, G_UP_FULL, G_UP_LIGHT, GEARS, IDLE, LIMIT, LOCK_UP, MASS, RADIUS, RIGID, STATIC_F, STATIC_R, H,
+)  # fmt: skip
+from studio.vehicle.state import (
+    A_X, ACCELERATOR, ACTIVE, CLUTCH, CLUTCH_RATE, F_Z, GEAR, J_GEAR, NEXT_GEAR, NEXT_RATIO, OMEGA, OMEGA_E, OPEN_TIME, PITCH,
+    PSI, Q_W, Q_X, Q_Y, Q_Z, RATIO, RATIO_RATE, TORQUE_DRIVE, V_EAST, V_NORTH, V_UP, V_X, X, Y, Z,
+)  # fmt: skip
 
 CALM = 0.35  # [1] pedal position of calm driving
 

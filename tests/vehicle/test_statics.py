@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from studio.conventions import GRAVITY
-from studio.world.state import (
-    ARB_F, ARB_R, BRAKE_MAX, F_X, F_Y, F_Z, H, IDLE, K_BRAKE, L_F, L_R, LINK_F, LINK_R, M_UF, MASS, MASS_S, PITCH, PSI, RADIUS,
-    TRAVEL, UNASSISTED, X, Y, Z,
+from studio.vehicle.parameter import (
+    ARB_F, ARB_R, BRAKE_MAX, IDLE, K_BRAKE, L_F, L_R, LINK_F, LINK_R, M_UF, MASS, MASS_S, RADIUS, UNASSISTED, H,
 )  # fmt: skip
+from studio.vehicle.state import F_X, F_Y, F_Z, PITCH, PSI, TRAVEL, X, Y, Z
 from tests.proving_ground import MODELS, Ground
 
 SLOPE = 0.15

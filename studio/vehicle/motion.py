@@ -13,12 +13,19 @@ from math import asin, atan2, ceil, floor, pi
 
 from studio.compiled import compiled, inlined
 from studio.model import body
-from studio.world import tile as tiles
-from studio.world.corner import attitude, corners_step, tyre_step
-from studio.world.force import forces_step
-from studio.world.powertrain import brake_step, drive_step, steer_step
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import COMMAND_AT, CONTACT_AT, CORNERS, GROUND_AT, LANES, PARAMETER_AT, STATE_AT, WHEEL_AT, tyre_at, window
+from studio.vehicle import tile as tiles
+from studio.vehicle.command import (
+    RING, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_DRIVE, U_ENGINE, U_PEDAL, U_STEER, U_STEER_TORQUE,
+)  # fmt: skip
+from studio.vehicle.contact import GROUND
+from studio.vehicle.corner import attitude, corners_step, tyre_step
+from studio.vehicle.force import forces_step
+from studio.vehicle.parameter import DELAY_BRAKE, DELAY_DRIVE, PARAMETER
+from studio.vehicle.powertrain import brake_step, drive_step, steer_step
+from studio.vehicle.state import PITCH, PSI, ROLL, V_EAST, V_NORTH, V_UP, V_X, V_Y, VEHICLE, WHEEL
+from studio.vehicle.tile import (
+    COMMAND_AT, CONTACT_AT, CORNERS, GROUND_AT, LANES, PARAMETER_AT, STATE_AT, WHEEL_AT, tyre_at, window,
+)  # fmt: skip
 
 TICK_EPSILON = 1e-9  # a dead time that is a whole number of ticks must not fall one tick short by rounding
 STATES, WHEELS, GROUNDS, PARAMETERS = len(VEHICLE), len(WHEEL), len(GROUND), len(PARAMETER)

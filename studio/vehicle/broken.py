@@ -9,9 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.world import motion
-from studio.world.fleet import Fleet, integrate
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle import motion
+from studio.vehicle.fleet import Fleet, integrate
+from studio.vehicle.state import (
+    A_X, A_Y, A_Z, ALPHA, CLUTCH, DELTA, DELTA_RATE, F_X, F_Y, F_Z, KAPPA, M_Z, OMEGA, OMEGA_E, PRESSURE_F, PRESSURE_R,
+    ROTATION, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, TRAVEL, TRAVEL_RATE, VEHICLE, WHEEL,
+)  # fmt: skip
 
 FELT = (KAPPA, ALPHA, F_Z, F_Y, M_Z)
 TURNED = (OMEGA, F_X, ROTATION, TRAVEL_RATE, TRAVEL)

@@ -5,10 +5,14 @@ import pytest
 
 from studio.conventions import GRAVITY
 from studio.model import tyre
-from studio.world import fleet
-from studio.world.state import (
-    A_X, BRAKE_MAX, BRAKE_SHARE, C_D, DELAY_BRAKE, F_X, F_Z, H, J_WF, J_WR, K_BRAKE, KAPPA, L_F, L_R, MASS, MASS_S, MU,
-    OMEGA, PITCH, PRESSURE_F, PRESSURE_R, PSI, RADIUS, RING, TAU_BRAKE, TORQUE_BRAKE, U_BRAKE, V_X, V_Y, X, YAW_RATE,
+from studio.vehicle import fleet
+from studio.vehicle.command import RING, U_BRAKE
+from studio.vehicle.contact import MU
+from studio.vehicle.parameter import (
+    BRAKE_MAX, BRAKE_SHARE, C_D, DELAY_BRAKE, J_WF, J_WR, K_BRAKE, L_F, L_R, MASS, MASS_S, RADIUS, TAU_BRAKE, H,
+)  # fmt: skip
+from studio.vehicle.state import (
+    A_X, F_X, F_Z, KAPPA, OMEGA, PITCH, PRESSURE_F, PRESSURE_R, PSI, TORQUE_BRAKE, V_X, V_Y, YAW_RATE, X,
 )  # fmt: skip
 from tests.proving_ground import MODELS, Ground, heavier
 

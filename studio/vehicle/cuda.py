@@ -18,11 +18,12 @@ from numba.core.errors import NumbaPerformanceWarning
 from numba.cuda import dispatcher
 
 from studio.conventions import DEFAULT_STEP
-from studio.world.corner import corners_step, tyre_step
-from studio.world.fleet import Fleet
-from studio.world.motion import body_step, derive, intake_step, steps_of
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import LANES, tyre_at
+from studio.vehicle.command import COMMAND, RING
+from studio.vehicle.contact import CONTACT
+from studio.vehicle.corner import corners_step, tyre_step
+from studio.vehicle.fleet import Fleet
+from studio.vehicle.motion import body_step, derive, intake_step, steps_of
+from studio.vehicle.tile import LANES, tyre_at
 
 CAPABILITY = (8, 0)  # of the code that `ptx` makes: Ampere and later
 TILE, TABLE = float64[:, :, ::1], float64[:, ::1]

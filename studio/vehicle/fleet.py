@@ -14,10 +14,12 @@ from studio.errors import Problem, ScenarioError
 from studio.model.tyre import Tyre
 from studio.scenario import catalogue, tir
 from studio.scenario.catalogue import VehicleModel
-from studio.world import motion, shift
-from studio.world.parameter import gearbox_rows, parameter_rows
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import blocks_of, new_tile
+from studio.vehicle import motion, shift
+from studio.vehicle.column import gearbox_rows, parameter_rows
+from studio.vehicle.command import COMMAND, RING, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_STEER, U
+from studio.vehicle.contact import GROUND, MU
+from studio.vehicle.state import VEHICLE, WHEEL
+from studio.vehicle.tile import blocks_of, new_tile
 
 
 class Start(NamedTuple):

@@ -3,9 +3,17 @@
 from studio.compiled import inlined
 from studio.conventions import GRAVITY
 from studio.model import aerodynamics, body, suspension
-from studio.world.corner import at_axle, attitude, place, side_of
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import LANES
+from studio.vehicle.contact import L_X, L_Y, L_Z, N_X, N_Y, N_Z, R_X, R_Y, R_Z, T_X, T_Y, T_Z
+from studio.vehicle.corner import at_axle, attitude, place, side_of
+from studio.vehicle.parameter import (
+    ARB_F, ARB_R, AREA, C_D, D_F, D_R, D_T, J_X, J_Y, J_Z, K_F, K_R, L_F, L_R, LINK_F, LINK_R, M_UF, M_UR, MASS, MASS_S,
+    STATIC_F, STATIC_R,
+)  # fmt: skip
+from studio.vehicle.state import (
+    A_X, A_Y, A_Z, F_X, F_Y, F_Z, M_Z, PITCH_RATE, Q_W, Q_X, Q_Y, Q_Z, ROLL_RATE, TRAVEL, TRAVEL_RATE, V_EAST, V_NORTH, V_UP,
+    YAW_RATE, X, Y, Z,
+)  # fmt: skip
+from studio.vehicle.tile import LANES
 
 LYING = 0.3  # cosine of the tilt beyond which a vehicle lies on its side: it slides to a stop, and nothing more is claimed
 

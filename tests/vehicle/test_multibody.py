@@ -8,7 +8,7 @@ import pytest
 
 from studio.rig.drive import drive
 from studio.scenario import catalogue
-from studio.world.state import J_Z, L_F, L_R, MASS
+from studio.vehicle.parameter import J_Z, L_F, L_R, MASS
 from tests import multibody
 from tests.closed_form import axles, single_track, slope
 from tests.multibody import CARS, HALVED_AFTER, MANEUVERS

@@ -8,9 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from studio.world import motion, shift
-from studio.world.state import PSI, RING, U_BRAKE, U_PEDAL, U_STEER, VEHICLE
-from studio.world.tile import LANES, new_tile
+from studio.vehicle import motion, shift
+from studio.vehicle.command import RING, U_BRAKE, U_PEDAL, U_STEER
+from studio.vehicle.state import PSI, VEHICLE
+from studio.vehicle.tile import LANES, new_tile
 from tests.conftest import ROOT
 from tests.proving_ground import MODELS, Ground
 
@@ -150,7 +151,7 @@ def digest() -> str:
 
 
 def test_a_fresh_process_gives_the_same_bits():
-    program = "import sys; sys.path.insert(0, 'tests/world'); import test_bits; print(test_bits.digest())"
+    program = "import sys; sys.path.insert(0, 'tests/vehicle'); import test_bits; print(test_bits.digest())"
     other = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert other.stdout.strip() == digest(), other.stderr
 

@@ -8,11 +8,14 @@ import pytest
 
 from studio.conventions import AIR_DENSITY
 from studio.model import coupling
-from studio.world.powertrain import CLUTCHED, CONVERTER, RIGID
-from studio.world.state import (
-    ACCELERATOR, AREA, C_D, C_ROLL, CAPACITY, CLUTCH, COUPLING, CURVE, CURVE_0, DRIVE_SHARE, F_X, F_Z, G_RATIO, GEAR, GEARS,
-    IDLE, J_E, J_GEAR, J_WF, J_WR, KNOT, LAUNCH, LIMIT, LOSS_SHARE, LOSS_TORQUE, MASS, MU, OMEGA, OMEGA_E, PUMP_1, RADIUS, RATIO, REGEN,
-    RING, T_ENGINE, TORQUE_DRIVE, TURBINE_1, U_BRAKE, V_X, X,
+from studio.vehicle.command import RING, U_BRAKE
+from studio.vehicle.contact import MU
+from studio.vehicle.parameter import (
+    AREA, C_D, C_ROLL, CAPACITY, CLUTCHED, CONVERTER, COUPLING, CURVE, CURVE_0, DRIVE_SHARE, G_RATIO, GEARS, IDLE, J_E, J_WF,
+    J_WR, KNOT, LAUNCH, LIMIT, LOSS_SHARE, LOSS_TORQUE, MASS, PUMP_1, RADIUS, REGEN, RIGID, TURBINE_1,
+)  # fmt: skip
+from studio.vehicle.state import (
+    ACCELERATOR, CLUTCH, F_X, F_Z, GEAR, J_GEAR, OMEGA, OMEGA_E, RATIO, T_ENGINE, TORQUE_DRIVE, V_X, X,
 )  # fmt: skip
 from tests.proving_ground import FIGURES, MODELS, Ground, heavier
 

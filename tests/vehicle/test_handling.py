@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from studio.conventions import GRAVITY
-from studio.world.state import (
-    A_Y, CAMBER_F, CAMBER_R, DELTA, F_Y, F_Z, GAIN_F, GAIN_R, H, L_F, L_R, M_UF, M_UR, M_Z, MASS, PSI, RADIUS, ROLL, SLOPE_Y,
-    STEER_MAX, STEER_RATE, STEER_RATIO, TAU_STEER, TRACK_F, TRACK_R, TRAIL, TRAVEL, UNASSISTED, V_X, V_Y, X, Y, YAW_RATE, Z,
+from studio.vehicle.contact import SLOPE_Y
+from studio.vehicle.parameter import (
+    CAMBER_F, CAMBER_R, GAIN_F, GAIN_R, L_F, L_R, M_UF, M_UR, MASS, RADIUS, STEER_MAX, STEER_RATE, STEER_RATIO, TAU_STEER,
+    TRACK_F, TRACK_R, TRAIL, UNASSISTED, H,
 )  # fmt: skip
+from studio.vehicle.state import A_Y, DELTA, F_Y, F_Z, M_Z, PSI, ROLL, TRAVEL, V_X, V_Y, YAW_RATE, X, Y, Z
 from tests.closed_form import axles, roll_angle, single_track, slope, understeer_gradient
 from tests.conftest import ROOT
 from tests.proving_ground import MODELS, Ground, hold_speed
