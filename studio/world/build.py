@@ -23,13 +23,15 @@ from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world import ground
 from studio.world.change import changes_of
 from studio.world.control import wheel_torque
-from studio.world.line import Lines, Zones, detours_of, lines_of, starts, stops_of, table_of, zones
+from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.mind import DRIVER, MIND, SIGHT, STATION
+from studio.world.neighbour import neighbours
 from studio.world.obstacle import obstacles_of
+from studio.world.queue import queues
 from studio.world.setting import Car, Setting, pose
 from studio.world.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
-from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
+from studio.world.world import Clock, Conflicts, Events, Roads, Units, Vehicles, World, Worlds
 
 MOST_HITS = 64  # collisions that are reported per world
 
@@ -45,8 +47,8 @@ def build(settings: Sequence[Setting]) -> World:
     obstacles = obstacles_of(settings, lines)
     table = table_of(lines, stops[0], obstacles.counts)
     known: Zones = {}
-    pair, span = zones(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
-    roads = roads_of(settings, lines, table, stops, pair, span)
+    met = conflicts(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
+    roads = roads_of(settings, lines, table, stops, met)
     world = World(
         clock=Clock(clock.tick, clock.step),
         vehicles=vehicles,
@@ -57,6 +59,8 @@ def build(settings: Sequence[Setting]) -> World:
         changes=changes_of(settings, worlds, lines),
         detours=detours_of(settings, worlds, lines, table, known),
         obstacles=obstacles,
+        neighbours=neighbours(vehicles.parameter),
+        queues=queues(vehicles.size),
         hosted=hosts(settings, worlds),
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
@@ -114,8 +118,8 @@ def driver_rows(driver: Driver, weather: Weather) -> list[float]:
     return [*own, weather.visibility, sight_speed(weather.visibility, braking)]
 
 
-def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, zone_pair, zone_span) -> Roads:
-    """Points, the line that every vehicle is on, stop lines, zones, signals and surface."""
+def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, met: Conflicts) -> Roads:
+    """Points, the line that every vehicle is on, stop lines, conflicts, signals and surface."""
     _, stop_station, stop_link = stops
     return Roads(
         points=lines.points,
@@ -126,8 +130,7 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
         stop_count=table[LINE_STOPS, lines.base],
         stop_station=stop_station,
         stop_link=stop_link,
-        zone_pair=zone_pair,
-        zone_span=zone_span,
+        conflicts=met,
         **signals_of(settings),
         **surface_of(settings),
         **buildings_of(settings),

@@ -15,7 +15,7 @@ from studio.scenario.schema import Limit
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, X, Y
 from studio.world import obstacle
-from studio.world.line import Lines, zones
+from studio.world.line import Lines, conflicts
 from studio.world.mind import STATION
 from studio.world.setting import Setting
 from studio.world.site import Site
@@ -103,7 +103,7 @@ def go_over(world: World, chosen: np.ndarray) -> None:
             o.sweep_first[column], o.sweep_count[column],
         ) = d.lines[:, new]  # fmt: skip
     d.choice[:] = chosen
-    r.zone_pair, r.zone_span = zones(world.worlds, r.points, r.path_first, r.path_count, d.known)
+    r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, d.known)
 
 
 def carried(station: float, old: np.ndarray, new: np.ndarray) -> float:

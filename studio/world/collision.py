@@ -9,7 +9,11 @@ from math import cos, sin, sqrt
 from studio.compiled import compiled
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
+from studio.world.neighbour import AT_X, AT_Y, moved, within
 from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+
+
+ROUNDING = 1e-6  # [m] by which a bound gives way
 
 
 @compiled
@@ -43,8 +47,19 @@ def overlap(dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
 
 
 @compiled
+def are_apart(a, b, state, parameter):
+    """Whether two centres of gravity are too far from each other for the middles to be near; without an angle."""
+    dx, dy = state[X, b] - state[X, a], state[Y, b] - state[Y, a]
+    aside = abs(parameter[FRONT, a] - 0.5 * parameter[LENGTH, a]) + abs(parameter[FRONT, b] - 0.5 * parameter[LENGTH, b])
+    reach = 0.5 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 4.0) + aside + ROUNDING
+    return dx * dx + dy * dy > reach * reach
+
+
+@compiled
 def touching(a, b, state, parameter):
     """Whether the bodies of two cars overlap."""
+    if are_apart(a, b, state, parameter):
+        return False
     x_a, y_a = centre(a, state, parameter)
     x_b, y_b = centre(b, state, parameter)
     dx, dy = x_b - x_a, y_b - y_a
@@ -94,31 +109,42 @@ def report(time, a, b, speed, column, hits):
 
 
 @compiled
-def collide(time, state, parameter, first, count, hits, found):
-    """Adds new contacts to `hits` and counts them in `found`, world by world."""
-    share = hits.shape[1] // first.size
-    for w in range(first.size):
-        start = w * share
-        for a in range(first[w], first[w] + count[w]):
-            for b in range(a + 1, first[w] + count[w]):
-                if found[w] == share or state[ACTIVE, a] == 0.0 or state[ACTIVE, b] == 0.0:
-                    continue
-                if touching(a, b, state, parameter) and not is_known(a, b, start, start + found[w], hits):
-                    report(time, a, b, relative_speed(a, b, state), start + found[w], hits)
-                    found[w] += 1
+def reach_of(v, longest, parameter):
+    """Farther [m] than this from the centre of gravity of v there is none of a vehicle that touches it."""
+    return parameter[LENGTH, v] + 2.0 * longest + 2.0
 
 
 @compiled
-def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, found):
+def collide(time, longest, state, parameter, world_of, entity, grid, places, found, hits, total):
+    """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers."""
+    share, far = hits.shape[1] // total.size, moved(state, places)
+    for a in range(state.shape[1]):
+        w = world_of[a]
+        if state[ACTIVE, a] == 0.0 or total[w] == share:
+            continue
+        x, y, reach = places[AT_X, a], places[AT_Y, a], reach_of(a, longest, parameter) + 2.0 * far
+        for i in range(within(w, x - reach, x + reach, y - reach, y + reach, grid, places, found)):
+            b = found[i]
+            if b > a and state[ACTIVE, b] > 0.0 and touching(a, b, state, parameter):
+                add(time, entity[a], entity[b], relative_speed(a, b, state), w, share, hits, total)
+
+
+@compiled
+def add(time, a, b, speed, w, share, hits, total):
+    """A contact of a pair that has not been reported."""
+    first = w * share
+    if total[w] < share and not is_known(a, b, first, first + total[w], hits):
+        report(time, a, b, speed, first + total[w], hits)
+        total[w] += 1
+
+
+@compiled
+def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, total):
     """The same for cars and the objects that stand on the road; object i is OBJECT - i."""
     share = hits.shape[1] // first.size
     for w in range(first.size):
-        start = w * share
         for v in range(first[w], first[w] + count[w]):
             for i in range(first_object[w], first_object[w] + object_count[w]):
-                if found[w] == share or state[ACTIVE, v] == 0.0 or standing[i] == 0:
-                    continue
-                if striking(v, i, state, parameter, table) and not is_known(v, OBJECT - i, start, start + found[w], hits):
+                if state[ACTIVE, v] > 0.0 and standing[i] != 0 and striking(v, i, state, parameter, table):
                     speed = sqrt(state[V_X, v] * state[V_X, v] + state[V_Y, v] * state[V_Y, v])
-                    report(time, v, OBJECT - i, speed, start + found[w], hits)
-                    found[w] += 1
+                    add(time, v - first[w], OBJECT - (i - first_object[w]), speed, w, share, hits, total)

@@ -15,6 +15,7 @@ from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import A_X, ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.collision import reach_along
+from studio.world.neighbour import AT_X, AT_Y, COS, REAR_X, REAR_Y, SIN, within
 from studio.world.street import BARRIER, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
 from studio.world.unit import (
     AZIMUTH, BUILDINGS, CANYON, DELAY, DETECTED, DRIFT_EAST, DRIFT_NORTH, DRIFT_SIGMA, DRIFT_TIME, EXPONENT, GPS_EAST,
@@ -27,27 +28,31 @@ PAIR = 65536  # a link is numbered receiver · PAIR + sender
 
 
 @compiled
-def rear_seen(v, other, state, parameter):
-    """The middle of the other's rear bumper [m], forward and left of the own front bumper."""
-    psi = state[PSI, other]
-    back = parameter[LENGTH, other] - parameter[FRONT, other]
-    x = state[X, other] - back * cos(psi)
-    y = state[Y, other] - back * sin(psi)
-    forward, left = sensor.seen_from(state[X, v], state[Y, v], state[PSI, v], x, y)
-    return forward - parameter[FRONT, v], left
+def bounds(v, kappa, longest, parameter, sensor_set, places):
+    """West, east, south and north [m] of the own corridor within reach, as wide as a car whose rear lies in it may stand outside."""
+    far = parameter[FRONT, v] + sensor_set[REACH, v]
+    bow = min(max(0.5 * kappa * sensor_set[REACH, v] * sensor_set[REACH, v], -far), far)
+    left, right = max(bow, 0.0) + sensor.CORRIDOR, min(bow, 0.0) - sensor.CORRIDOR
+    c, s = places[COS, v], places[SIN, v]
+    x, y = places[AT_X, v], places[AT_Y, v]
+    east, west = max(far * c, 0.0) + max(-left * s, -right * s), min(far * c, 0.0) + min(-left * s, -right * s)
+    north, south = max(far * s, 0.0) + max(left * c, right * c), min(far * s, 0.0) + min(left * c, right * c)
+    return x + west - longest, x + east + longest, y + south - longest, y + north + longest
 
 
 @compiled
-def nearest_target(v, first, count, state, parameter, sensor_set):
+def nearest_target(v, world, longest, state, parameter, sensor_set, grid, places, found):
     """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none."""
     kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
     best, best_forward, best_left = -1, sensor_set[REACH, v], 0.0
-    for other in range(first, first + count):
+    west, east, south, north = bounds(v, kappa, longest, parameter, sensor_set, places)
+    for i in range(within(world, west, east, south, north, grid, places, found)):
+        other = found[i]
         if other == v or state[ACTIVE, other] == 0.0:
             continue
-        if abs(state[X, other] - state[X, v]) > best_forward + 20.0:
-            continue
-        forward, left = rear_seen(v, other, state, parameter)
+        dx, dy = places[REAR_X, other] - places[AT_X, v], places[REAR_Y, other] - places[AT_Y, v]
+        forward, left = sensor.turned(dx, dy, places[COS, v], places[SIN, v])
+        forward -= parameter[FRONT, v]
         if forward >= best_forward or not sensor.in_corridor(forward, left, kappa):
             continue
         if sensor.in_view(forward, left, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
@@ -72,14 +77,13 @@ def nearest_barrier(v, best, best_forward, best_left, first, count, state, param
 
 
 @compiled
-def closing_rate(v, other, forward, left, state):
+def closing_rate(v, other, forward, left, state, places):
     """Change of the distance [m/s] to a car, or an object at rest, seen in that direction."""
     distance = max(sqrt(forward * forward + left * left), 1e-6)
-    psi = state[PSI, v]
-    psi_other, v_other = (state[PSI, other], state[V_X, other]) if other >= 0 else (0.0, 0.0)
-    east = v_other * cos(psi_other) - state[V_X, v] * cos(psi)
-    north = v_other * sin(psi_other) - state[V_X, v] * sin(psi)
-    ahead, aside = east * cos(psi) + north * sin(psi), north * cos(psi) - east * sin(psi)
+    c, s = places[COS, v], places[SIN, v]
+    c_other, s_other, v_other = (places[COS, other], places[SIN, other], state[V_X, other]) if other >= 0 else (1.0, 0.0, 0.0)
+    east, north = v_other * c_other - state[V_X, v] * c, v_other * s_other - state[V_X, v] * s
+    ahead, aside = sensor.turned(east, north, c, s)
     return (ahead * forward + aside * left) / distance
 
 
@@ -92,43 +96,32 @@ def forget(v, sensors):
 
 
 @compiled
-def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed, sensors):
-    """First pass: the front sensor of every car."""
+def sense(k, longest, state, parameter, sensor_set, world_of, entity, table, first_object, object_count, standing, seed, grid,
+          places, found, sensors):  # fmt: skip
+    """First pass: the front sensor of every car. A barrier that is nearer than the car takes its place."""
     for v in range(state.shape[1]):
         w = world_of[v]
         forget(v, sensors)
         if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0:
             continue
-        other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
-        if other >= 0:
-            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
+        other, forward, left = nearest_target(v, w, longest, state, parameter, sensor_set, grid, places, found)
+        if object_count[w] > 0:
+            other, forward, left = nearest_barrier(
+                v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
+            )
+        if other != -1:
+            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], places, sensors)
+            sensors[TARGET, v] = entity[other] if other >= 0 else other + first_object[w]
 
 
 @compiled
-def sense_barriers(k, state, parameter, sensor_set, world_of, entity, first, count, table, first_object, object_count, standing,
-                   seed, sensors):  # fmt: skip
-    """First pass, where objects stand: a barrier that is nearer than the car takes its place."""
-    for v in range(state.shape[1]):
-        w = world_of[v]
-        if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0 or object_count[w] == 0:
-            continue
-        other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
-        other, forward, left = nearest_barrier(
-            v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
-        )
-        if other <= OBJECT:
-            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
-
-
-@compiled
-def report(k, v, other, forward, left, state, sensor_set, unit, seed, sensors):
+def report(k, v, other, forward, left, state, sensor_set, unit, seed, places, sensors):
     """Writes a target with the sensor's errors."""
     noise_range = sensor_set[RANGE_SIGMA, v] * normal(seed, unit, RANGE_NOISE, k)
     noise_rate = sensor_set[RATE_SIGMA, v] * normal(seed, unit, RATE_NOISE, k)
     sensors[DETECTED, v] = 1.0
-    sensors[TARGET, v] = other
     sensors[RANGE, v] = max(sqrt(forward * forward + left * left) + noise_range, 0.0)
-    sensors[RANGE_RATE, v] = closing_rate(v, other, forward, left, state) + noise_rate
+    sensors[RANGE_RATE, v] = closing_rate(v, other, forward, left, state, places) + noise_rate
     sensors[AZIMUTH, v] = atan2(left, forward)
 
 

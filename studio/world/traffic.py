@@ -29,6 +29,8 @@ from studio.world.mind import (
     SIGHT, SIGHT_SPEED, SPEED_FACTOR, STANDSTILL, STATION, STEER_GAIN, STEER_WISH, STOPPING, V_DESIRED, WISH, YAW_DAMPING,
     YIELDING,
 )  # fmt: skip
+from studio.world.neighbour import moved, within
+from studio.world.queue import from_station
 from studio.world.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
@@ -37,6 +39,7 @@ HORIZON = 60.0  # [m] how far before a merge drivers mind each other
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
+SLACK = 1e-6  # [m] by which a bound gives way to rounding
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
@@ -140,11 +143,11 @@ def is_in_the_way(v, other, s_guess, state, parameter, points, first, count):
 
 
 @compiled
-def is_ahead(v, other, gap, state, mind):
-    """The other car is what the gap is measured to, if it is the nearest."""
-    if not gap >= mind[GAP, v]:  # also true while the gap is not a number
+def is_ahead(v, other, number, gap, state, mind):
+    """The other car, of this number in its world, is what the gap is measured to, if it is the nearest, or the first of the nearest."""
+    if not gap >= mind[GAP, v] or (gap == mind[GAP, v] and number < mind[AHEAD, v]):  # true too while the gap is not a number
         mind[GAP, v] = gap
-        mind[AHEAD, v] = other
+        mind[AHEAD, v] = number
         mind[AHEAD_SPEED, v] = state[V_X, other]
 
 
@@ -165,7 +168,7 @@ def is_unseen(v, other, state, parameter, drivers):
 
 
 @compiled
-def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
+def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
     """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     bumper_other = mind[STATION, other] + parameter[FRONT, other]
@@ -181,7 +184,7 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter,
             mind[FOLLOWING, v] = min(mind[FOLLOWING, v], behind(v, other, gap, state, drivers, mind))
             rear = bumper + gap
             if gap > 0.0 and is_in_the_way(v, other, rear, state, parameter, points, first, count):
-                is_ahead(v, other, gap, state, mind)
+                is_ahead(v, other, number, gap, state, mind)
     elif bumper < v_enter:
         if goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
             wish = max(behind(v, other, gap, state, drivers, mind), -COURTESY)
@@ -189,19 +192,64 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter,
 
 
 @compiled
-def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, drivers, mind):
-    """Third pass: every zone, for the first car of its pair."""
-    for z in range(zone_pair.shape[1]):
-        v, other = zone_pair[0, z], zone_pair[1, z]
-        if state[ACTIVE, v] > 0.0 and state[ACTIVE, other] > 0.0:
-            meet(
-                v, other, zone_span[0, z], zone_span[1, z], zone_span[2, z], zone_span[3, z],
-                state, parameter, points, path_first[v], path_count[v], drivers, mind,
-            )  # fmt: skip
+def asks_no_more(v, gap, speed, state, drivers, mind):
+    """Whether nobody from this gap [m] on, none slower than `speed`, can ask more of v than is asked already, or be nearer."""
+    own = state[V_X, v]
+    if not gap > mind[GAP, v] or gap <= 0.0 or own < 0.0:
+        return False
+    wish = driver.following_acceleration(
+        own, mind[V_DESIRED, v], gap, own - speed, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v],
+        drivers[BRAKE_COMFORT, v],
+    )  # fmt: skip
+    return wish >= mind[FOLLOWING, v]
 
 
 @compiled
-def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, drivers, mind):
+def meet_queue(v, begin, end, order, slowest, entity, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, points,
+               first, count, drivers, mind):  # fmt: skip
+    """What one zone means for v: everybody in the queue of the other track from where he may matter on.
+
+    Who is farther back than v itself will not be first, and from somewhere ahead on nobody asks more than the nearer ones.
+    """
+    bumper = mind[STATION, v] + parameter[FRONT, v]
+    if bumper - parameter[LENGTH, v] > v_leave or v_enter - bumper > HORIZON:
+        return
+    station = other_enter + (mind[STATION, v] - v_enter) - longest - SLACK
+    for place in range(from_station(station, begin, end, mind, order), end):
+        other = order[place]
+        rear = mind[STATION, other] - longest - SLACK  # or before
+        if rear > other_leave:
+            return
+        if mind[STATION, other] >= other_enter and asks_no_more(
+            v, (rear - other_enter) - (bumper - v_enter), slowest[place], state, drivers, mind
+        ):
+            return
+        if other != v:
+            meet(
+                v, other, entity[other], v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind
+            )
+
+
+@compiled
+def meetings(state, parameter, points, path_first, path_count, world_of, entity, longest, track, queue_of, partner_first, partner,
+             zone_first, zone_span, queue_first, order, slowest, drivers, mind):  # fmt: skip
+    """Third pass: for every driver the queues on the tracks that his own meets."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] == 0.0:
+            continue
+        for p in range(partner_first[track[v]], partner_first[track[v] + 1]):
+            queue = queue_of[world_of[v], partner[p]]
+            if queue < 0 or queue_first[queue] == queue_first[queue + 1]:
+                continue
+            for z in range(zone_first[p], zone_first[p + 1]):
+                meet_queue(
+                    v, queue_first[queue], queue_first[queue + 1], order, slowest, entity, longest, zone_span[0, z], zone_span[1, z],
+                    zone_span[2, z], zone_span[3, z], state, parameter, points, path_first[v], path_count[v], drivers, mind,
+                )  # fmt: skip
+
+
+@compiled
+def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first_object, world_of, drivers, mind):
     """Fourth pass: the first object in sight that stands in the strip which the own body will sweep."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
@@ -211,13 +259,13 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, drive
             gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
             if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
                 if gap <= drivers[SIGHT, v]:
-                    stand_before(v, number, gap, state, drivers, mind)
+                    stand_before(v, number - first_object[world_of[v]], gap, state, drivers, mind)
                 break
 
 
 @compiled
 def stand_before(v, number, gap, state, drivers, mind):
-    """Object `number` is followed as a car that stands."""
+    """Object `number` of the world is followed as a car that stands."""
     wish = driver.following_acceleration(
         state[V_X, v], mind[V_DESIRED, v], gap, state[V_X, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
         drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
@@ -266,27 +314,41 @@ def decide(state, parameter, drivers, mind):
 
 
 @compiled
-def is_free(x, y, first, count, state):
-    """Whether no car of the same world is near a place."""
-    for other in range(first, first + count):
-        dx, dy = state[X, other] - x, state[Y, other] - y
-        if state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE:
+def is_free(x, y, world, reach, state, grid, places, found, entered, count):
+    """Whether no car of the same world is near a place: none of those that are about, nor of the first that have entered just now."""
+    for i in range(within(world, x - reach, x + reach, y - reach, y + reach, grid, places, found)):
+        if is_close(found[i], x, y, state):
+            return False
+    for i in range(count):
+        if is_close(entered[i], x, y, state):
             return False
     return True
 
 
 @compiled
+def is_close(other, x, y, state):
+    """Whether a car is near a place."""
+    dx, dy = state[X, other] - x, state[Y, other] - y
+    return state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE
+
+
+@compiled
 def recirculate(
-    returns, points, path_first, path_count, raised, world_of, first, count, state, wheels, ground, parameter, gears, mind
+    returns, points, path_first, path_count, raised, world_of, grid, places, found, entered, state, wheels, ground, parameter, gears, mind
 ):  # fmt: skip
     """Sixth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
+    count, reach = 0, 0.0
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:
             continue
-        at, w = path_first[v], world_of[v]
+        if reach == 0.0:
+            reach = ENTRY_CLEARANCE + moved(state, places)
+        at = path_first[v]
         x, y = points[PATH_X, at], points[PATH_Y, at]
-        if is_free(x, y, first[w], count[w], state):
+        if is_free(x, y, world_of[v], reach, state, grid, places, found, entered, count):
             if raised[v] != 0:
                 touch_all(v, state.shape[1], 0.0, points, at, path_count[v], ground)
             start(v, x, y, points[PATH_HEADING, at], points[PATH_SPEED, at], state, wheels, ground, parameter, gears)
             mind[STATION, v] = 0.0
+            entered[count] = v
+            count += 1

@@ -11,6 +11,8 @@ from studio.road.shadow import Shadow
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import ACTIVE
+from studio.world.neighbour import Neighbours
+from studio.world.queue import Queues
 from studio.world.street import OBJECT
 
 
@@ -52,7 +54,7 @@ class Worlds:
 
 @dataclass
 class Roads:
-    """Paths as one array of points with a first point and a count per vehicle; stop lines; zones; signals."""
+    """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
     path_first: np.ndarray
@@ -62,8 +64,7 @@ class Roads:
     stop_count: np.ndarray
     stop_station: np.ndarray
     stop_link: np.ndarray
-    zone_pair: np.ndarray  # int64[2, z]
-    zone_span: np.ndarray  # float64[4, z]
+    conflicts: "Conflicts"
     signal_time: np.ndarray  # [cycle, offset] per link
     signal_first: np.ndarray
     signal_count: np.ndarray
@@ -75,6 +76,22 @@ class Roads:
     near: np.ndarray  # scratch: pieces around one vehicle
     place_of: np.ndarray  # number of the map, per world
     shadow: Shadow  # the buildings of all maps
+
+
+@dataclass
+class Conflicts:
+    """Where tracks run close to each other. A track is a row of points; a queue is what drives on it in one world.
+
+    The partners of track t stand from `partner_first[t]` on, the zones of the p-th of them from `zone_first[p]` on.
+    """
+
+    track: np.ndarray  # on which each vehicle is now
+    queue: np.ndarray  # in which each vehicle is now
+    queue_of: np.ndarray  # int64[world, track], -1 for none
+    partner_first: np.ndarray
+    partner: np.ndarray  # tracks
+    zone_first: np.ndarray
+    zone_span: np.ndarray  # float64[4, zone]: where it is entered and left on the track, and on its partner [m]
 
 
 @dataclass
@@ -100,7 +117,7 @@ class Detours:
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
     held: np.ndarray  # int64[change]: vehicles that are still within it on the usual path
-    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of paths, by their first points
+    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of tracks, by their first points
 
 
 @dataclass
@@ -167,6 +184,8 @@ class World:
     changes: Changes
     detours: Detours
     obstacles: Obstacles
+    neighbours: Neighbours
+    queues: Queues
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
