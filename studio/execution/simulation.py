@@ -10,13 +10,12 @@ from studio.errors import ApplicationError, Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.record import Happening, Record, Recorder
 from studio.vehicle import broken
-from studio.vehicle.state import ACTIVE
 from studio.world import notice
 from studio.world.build import build
 from studio.world.line import starts
 from studio.world.notice import Watch
 from studio.world.setting import Setting
-from studio.world.tick import environment, look, meet, part
+from studio.world.tick import environment, gather, look, meet, part
 from studio.world.world import World
 
 
@@ -55,7 +54,6 @@ class Simulation:
     watch: Watch
     teller: Teller
     ticks: int  # length of the whole run
-    before: tuple[np.ndarray, np.ndarray]  # state and wheels before the tick
     started: float = field(default_factory=time.perf_counter)
 
     @property
@@ -83,7 +81,6 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
-        self.remember()
         part(self.world)
         self.check()
         notice.notice(self.world, self.watch)
@@ -100,6 +97,7 @@ class Simulation:
         """The runs are over: drivers look around once more, and a last sample is taken."""
         self.tell()
         environment(self.world)
+        gather(self.world)
         look(self.world)
         self.recorder.take(self.world, self.world.clock.k - 1)
         for number, case in enumerate(self.cases):
@@ -130,27 +128,15 @@ class Simulation:
         self.cases[number].happen(self.time, f"failed: {reason.splitlines()[0]}", "")
         self.world.leave(number)
 
-    def remember(self) -> None:
-        """Keeps the state before a tick, for the case that it breaks."""
-        for kept, part_of_state in zip(self.before, (self.world.vehicles.state, self.world.vehicles.wheels), strict=True):
-            np.copyto(kept, part_of_state)
-
     def check(self) -> None:
         """Ends the worlds with a state that is not finite any more, and names vehicle, time and the first quantity that broke."""
-        columns = broken.columns(self.world.vehicles)
-        for number in np.unique(self.world.worlds.of[columns]).tolist():
-            self.give_up(number, int(columns[self.world.worlds.of[columns] == number][0]))
-
-    def give_up(self, number: int, column: int) -> None:
-        """One of them; its vehicles go back to where they were before."""
-        world, vehicles, clock = self.world, self.world.vehicles, self.world.clock
-        found = broken.first(vehicles, *self.before, column, k=clock.k - 1, tick=clock.tick, step=clock.step)
-        name = world.names[number][int(world.worlds.entity[column])]
-        self.fail(number, f"{found.quantity} of {name} is not finite any more at {clock.time - clock.tick + found.after:.3f} s")
-        columns = world.columns(number)
-        vehicles.state[:, columns] = self.before[0][:, columns]
-        vehicles.state[ACTIVE, columns] = 0.0
-        world.wheel_columns(columns)[:] = by_corner(self.before[1], world.size)[:, :, columns]
+        vehicles, world, clock = self.world.vehicles, self.world, self.world.clock
+        for column in broken.columns(vehicles).tolist() if np.count_nonzero(vehicles.broken) else []:
+            number = int(world.worlds.of[column])
+            if not self.cases[number].is_over:
+                found = broken.first(vehicles, column, k=clock.k - 1, tick=clock.tick, step=clock.step)
+                name = world.names[number][int(world.worlds.entity[column])]
+                self.fail(number, f"{found.quantity} of {name} is not finite any more at {clock.time - clock.tick + found.after:.3f} s")
 
     def record(self, number: int = 0) -> Record:
         """What has been recorded so far of one world."""
@@ -200,7 +186,6 @@ def simulation(*settings: Setting) -> Simulation:
         watch=watched(settings, world),
         teller=Teller(settings, world),
         ticks=round(scenario.clock.duration / scenario.clock.tick),
-        before=(world.vehicles.state.copy(), world.vehicles.wheels.copy()),
     )
 
 
@@ -234,8 +219,3 @@ def recorder(settings: tuple[Setting, ...], world: World) -> Recorder:
 def shares(counts: list[int]) -> list[slice]:
     """The places of several parts that stand one after another."""
     return [slice(int(first), int(first) + count) for first, count in zip(starts(np.array(counts)), counts, strict=True)]
-
-
-def by_corner(wheels: np.ndarray, n: int) -> np.ndarray:
-    """Wheels as [row, corner, vehicle]."""
-    return wheels.reshape(wheels.shape[0], 4, n)

@@ -278,14 +278,12 @@ def recorded(name: str, rig: Fleet, given: Mapping[str, np.ndarray], step: float
     """Drives from the first to the last time of the inputs."""
     every, steps = round(period / step), ceil(given["time_s"][-1] / step - 1e-6)
     delays, rows = take_delays(rig), [sample(rig, 0.0)]
-    before = rig.state.copy(), rig.wheels.copy()
     for k in range(steps):
         command(rig, given, delays, k, k * step)
         fleet.advance(rig, k, step, step)
         if broken.columns(rig).size:
-            found = broken.first(rig, *before, 0, k=k, tick=step, step=step)
+            found = broken.first(rig, 0, k=k, tick=step, step=step)
             raise RunError(f"{found.quantity} of {name} is not finite any more at {k * step + found.after:.3f} s.")
-        before[0][:], before[1][:] = rig.state, rig.wheels
         if (k + 1) % every == 0:
             rows.append(sample(rig, (k + 1) * step))
             progress((k + 1) / steps)

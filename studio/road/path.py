@@ -301,17 +301,16 @@ def project(points, first, count, x, y, s_guess):
     middle = int(s_guess)
     low = max(0, min(middle - PROJECTION_REACH, count - 2))
     high = min(count - 2, max(middle + PROJECTION_REACH, 0))
-    best, best_s, best_lateral = np.inf, 0.0, 0.0
+    best, best_s, side = np.inf, 0.0, 0.0
     for i in range(low, high + 1):
         column = first + i
         a_x, a_y = points[PATH_X, column], points[PATH_Y, column]
         t_x, t_y = points[PATH_X, column + 1] - a_x, points[PATH_Y, column + 1] - a_y
         d_x, d_y = x - a_x, y - a_y
-        squared = t_x * t_x + t_y * t_y
-        u = min(1.0, max(0.0, (d_x * t_x + d_y * t_y) / squared))
+        along, squared = d_x * t_x + d_y * t_y, t_x * t_x + t_y * t_y
+        u = 0.0 if along <= 0.0 else 1.0 if along >= squared else along / squared
         r_x, r_y = d_x - u * t_x, d_y - u * t_y
         distance = r_x * r_x + r_y * r_y
         if distance < best:
-            best, best_s = distance, i + u
-            best_lateral = np.copysign(np.sqrt(distance), t_x * d_y - t_y * d_x)
-    return best_s * PATH_SPACING, best_lateral
+            best, best_s, side = distance, i + u, t_x * d_y - t_y * d_x
+    return best_s * PATH_SPACING, np.copysign(np.sqrt(best), side)

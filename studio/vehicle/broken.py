@@ -15,6 +15,7 @@ from studio.vehicle.state import (
     A_X, A_Y, A_Z, ALPHA, CLUTCH, DELTA, DELTA_RATE, F_X, F_Y, F_Z, KAPPA, M_Z, OMEGA, OMEGA_E, PRESSURE_F, PRESSURE_R,
     ROTATION, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, TRAVEL, TRAVEL_RATE, VEHICLE, WHEEL,
 )  # fmt: skip
+from studio.vehicle.tile import GROUND_AT, LANES, ROWS, STATE_AT, WHEEL_AT, new_tile
 
 FELT = (KAPPA, ALPHA, F_Z, F_Y, M_Z)
 TURNED = (OMEGA, F_X, ROTATION, TRAVEL_RATE, TRAVEL)
@@ -30,30 +31,37 @@ class Found(NamedTuple):
 
 
 def columns(fleet: Fleet) -> np.ndarray:
-    """Vehicles whose state is not finite."""
-    wheels = np.isfinite(fleet.wheels).all(axis=0).reshape(4, -1).all(axis=0)
-    return np.flatnonzero(~(np.isfinite(fleet.state).all(axis=0) & wheels))
+    """Vehicles whose state would not be finite any more."""
+    return np.flatnonzero(fleet.broken)
 
 
-def first(fleet: Fleet, state, wheels, column: int, *, k: int, tick: float, step: float) -> Found:
-    """What broke first of a vehicle in tick k; state and wheels are those before it."""
-    again = replace(fleet)
+def first(fleet: Fleet, column: int, *, k: int, tick: float, step: float) -> Found:
+    """What broke first of a vehicle in tick k, before which it still stands in the arrays."""
     for steps in range(motion.steps_of(tick, step) + 1):
-        again.state, again.wheels = state.copy(), wheels.copy()
-        integrate(again, k, tick, step, steps)
-        name = not_finite(again.state, again.wheels, column)
-        if name:
-            return Found(name, steps * step)
-    return Found(not_finite(fleet.state, fleet.wheels, column), tick)
+        alone = replace(
+            fleet, blocks=block_of(fleet, column), order=np.array([column]), state=fleet.state.copy(), wheels=fleet.wheels.copy(),
+            broken=fleet.broken.copy(), tile=new_tile(),
+        )  # fmt: skip
+        integrate(alone, k, tick, step, steps)
+        if alone.broken[column]:
+            return Found(not_finite(alone.tile.reshape(ROWS, LANES)[:, 0]), steps * step)
+    raise ValueError(f"vehicle {column} is not broken")
 
 
-def not_finite(state: np.ndarray, wheels: np.ndarray, column: int) -> str:
-    """The first quantity that is not finite, or nothing."""
-    by_corner = wheels.reshape(len(WHEEL), 4, -1)[:, :, column]
+def block_of(fleet: Fleet, column: int) -> np.ndarray:
+    """A block of a vehicle alone, on its tyres."""
+    place = int(np.flatnonzero(fleet.order == column)[0])
+    number = np.searchsorted(fleet.blocks[0], place, side="right") - 1
+    return np.array([0, 1, *fleet.blocks[2:, number]])[:, None]
+
+
+def not_finite(rows: np.ndarray) -> str:
+    """The first quantity of a lane of a tile that is not finite."""
+    state, wheels = rows[STATE_AT:WHEEL_AT], rows[WHEEL_AT:GROUND_AT].reshape(len(WHEEL), 4)
     candidates = [
-        *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in FELT for corner in range(4)),
-        *((VEHICLE[row].name, state[row, column]) for row in DRIVES),
-        *((f"{WHEEL[row].name} of wheel {corner + 1}", by_corner[row, corner]) for row in TURNED for corner in range(4)),
-        *((VEHICLE[row].name, state[row, column]) for row in MOVED),
+        *((f"{WHEEL[row].name} of wheel {corner + 1}", wheels[row, corner]) for row in FELT for corner in range(4)),
+        *((VEHICLE[row].name, state[row]) for row in DRIVES),
+        *((f"{WHEEL[row].name} of wheel {corner + 1}", wheels[row, corner]) for row in TURNED for corner in range(4)),
+        *((VEHICLE[row].name, state[row]) for row in MOVED),
     ]
-    return next((name for name, value in candidates if not np.isfinite(value)), "")
+    return next(name for name, value in candidates if not np.isfinite(value))

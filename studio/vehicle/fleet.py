@@ -45,6 +45,7 @@ class Fleet:
     tyres: np.ndarray  # [tyre, coefficient]
     order: np.ndarray  # columns in the order of the tiles
     blocks: np.ndarray  # first place in that order, count, tyres front and rear, per tile
+    broken: np.ndarray  # 1 for a vehicle whose state would not be finite any more; it stays as it was
     tile: np.ndarray
 
     @property
@@ -68,6 +69,7 @@ def fleet(starts: list[Start], *, ground: np.ndarray | None = None) -> Fleet:
         tyres=tyres,
         order=order,
         blocks=blocks,
+        broken=np.zeros(n, dtype=np.int64),
         tile=new_tile(),
     )
     for v, each in enumerate(starts):
@@ -157,5 +159,5 @@ def integrate(moving: Fleet, k: int, tick: float, step: float, steps: int | None
     f = moving
     motion.integrate(
         f.blocks, f.order, f.state, f.wheels, f.ground, f.parameter, f.tyres, f.commands, k, tick, step,
-        motion.steps_of(tick, step) if steps is None else steps, f.tile,
+        motion.steps_of(tick, step) if steps is None else steps, f.broken, f.tile,
     )  # fmt: skip

@@ -141,13 +141,32 @@ def steps_of(tick, dt):
 
 
 @compiled
+def mark_broken(columns, tile, broken):
+    """Marks the vehicles of a tile of which something is not finite; whether there are any.
+
+    0 times a number is 0, and not a number where that is none; commands have been used and give room for the sums.
+    """
+    lanes, any_broken = tiles.filled_lanes(columns.size), False
+    state, sums = window(tile, STATE_AT, LANES), window(tile, COMMAND_AT, LANES)
+    for v in range(lanes):
+        sums[0, v] = 0.0
+    for row in range(STATES + 4 * WHEELS):
+        for v in range(lanes):
+            sums[0, v] += 0.0 * state[row, v]
+    for v in range(columns.size):
+        broken[columns[v]] = 0 if sums[0, v] == 0.0 else 1
+        any_broken |= broken[columns[v]] != 0
+    return any_broken
+
+
+@compiled
 def is_row_of(columns, count):
     """Whether the columns stand side by side."""
     return columns[count - 1] - columns[0] == count - 1
 
 
 @compiled
-def integrate_block(columns, front, rear, state, wheels, ground, parameter, tyres, commands, tick_now, tick, dt, steps, tile):
+def integrate_block(columns, front, rear, state, wheels, ground, parameter, tyres, commands, tick_now, tick, dt, steps, broken, tile):
     """All steps of one tick for the vehicles of one block."""
     n, count = state.shape[1], columns.size
     side_by_side = is_row_of(columns, count)
@@ -158,18 +177,26 @@ def integrate_block(columns, front, rear, state, wheels, ground, parameter, tyre
     for i in range(steps):
         intake(columns, n, commands, tick_now, i * dt, tick, tile)
         step(tyres, front, rear, tile, tiles.filled_lanes(count), dt)
-    tiles.store(state, columns, side_by_side, count, 1, STATES, STATE_AT, tile)
-    tiles.store(wheels, columns, side_by_side, count, 4, WHEELS, WHEEL_AT, tile)
+    if mark_broken(columns, tile, broken):
+        tiles.store_sound(state, columns, 1, STATES, STATE_AT, tile, broken)
+        tiles.store_sound(wheels, columns, 4, WHEELS, WHEEL_AT, tile, broken)
+    else:
+        tiles.store(state, columns, side_by_side, count, 1, STATES, STATE_AT, tile)
+        tiles.store(wheels, columns, side_by_side, count, 4, WHEELS, WHEEL_AT, tile)
 
 
 @compiled
-def integrate(blocks, order, state, wheels, ground, parameter, tyres, commands, tick_now, tick, dt, steps, tile):
-    """The first steps of a tick, usually all of them, for all blocks."""
+def integrate(blocks, order, state, wheels, ground, parameter, tyres, commands, tick_now, tick, dt, steps, broken, tile):
+    """The first steps of a tick, usually all of them, for all blocks.
+
+    A vehicle of which something is not finite afterwards is marked as broken, and stays in the arrays as it was before.
+    """
     for b in range(blocks.shape[1]):
         columns = order[blocks[0, b] : blocks[0, b] + blocks[1, b]]
         integrate_block(
             columns, blocks[2, b], blocks[3, b], state, wheels, ground, parameter, tyres, commands, tick_now, tick, dt, steps,
-            tile,
+            broken, tile,
         )  # fmt: skip
         for v in columns:
-            derive(v, state)
+            if broken[v] == 0:
+                derive(v, state)

@@ -2,7 +2,7 @@
 
 from math import cos, sin, sqrt
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.model import body, gearbox
 from studio.vehicle.command import RING, U_GEAR
 from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
@@ -18,13 +18,13 @@ from studio.vehicle.state import (
 CALM = 0.35  # [1] pedal position of calm driving
 
 
-@compiled
+@inlined
 def of_gear(quantity, gear, v, gears):
     """A row of the gearbox in a gear."""
     return gears[quantity * GEARS + int(gear) + 1, v]
 
 
-@compiled
+@inlined
 def top_gear(v, gears):
     """Highest gear that exists."""
     top = 1
@@ -33,7 +33,7 @@ def top_gear(v, gears):
     return top
 
 
-@compiled
+@inlined
 def output_speed(v, n, wheels, parameter):
     """Mean speed [rad/s] of the driven wheels, as the differentials have it."""
     front = 0.5 * (wheels[OMEGA, v] + wheels[OMEGA, n + v])
@@ -41,17 +41,17 @@ def output_speed(v, n, wheels, parameter):
     return parameter[DRIVE_SHARE, v] * front + (1.0 - parameter[DRIVE_SHARE, v]) * rear
 
 
-@compiled
-def scheduled(v, w_out, state, parameter, gears):
+@inlined
+def scheduled(v, w_out, top, state, parameter, gears):
     """The gear of the schedule; one up only where it will be kept."""
-    gear, pedal, top = int(state[GEAR, v]), state[ACCELERATOR, v], top_gear(v, gears)
+    gear, pedal = int(state[GEAR, v]), state[ACCELERATOR, v]
     w_in = of_gear(G_RATIO, gear, v, gears) * w_out
     up = gearbox.threshold(of_gear(G_UP_LIGHT, gear, v, gears), of_gear(G_UP_FULL, gear, v, gears), pedal)
     found = gearbox.automatic(gear, top, w_in, up, down_speed(v, gear, pedal, gears))
     return gear if found > gear and not keeps(v, gear + 1, w_out, state, parameter, gears) else found
 
 
-@compiled
+@inlined
 def down_speed(v, gear, pedal, gears):
     """Speed [rad/s] below which a gear is left for a lower one."""
     return gearbox.threshold(of_gear(G_DOWN_LIGHT, gear, v, gears), of_gear(G_DOWN_FULL, gear, v, gears), pedal)
@@ -69,19 +69,18 @@ def keeps(v, gear, w_out, state, parameter, gears):
     return gearbox.can_hold(state[A_X, v], a_drive, fall, interrupted, w_out, i, R, w_down, state[ACCELERATOR, v])
 
 
-@compiled
+@inlined
 def wanted(v, w_out, request, state, parameter, gears):
     """The gear to be in: the requested one, else the schedule's, which begins forwards; never one that would do harm."""
+    top = top_gear(v, gears)
     if request == request:
         gear = int(min(max(request, -1.0), GEARS - 2.0))
     elif state[GEAR, v] >= 1.0:
-        gear = scheduled(v, w_out, state, parameter, gears)
+        gear = scheduled(v, w_out, top, state, parameter, gears)
     else:
         gear = first_gear_for(v, w_out, gears)
     w_wanted, w_present = abs(of_gear(G_RATIO, gear, v, gears) * w_out), abs(state[RATIO, v] * w_out)
-    return gearbox.permitted(
-        gear, int(state[GEAR, v]), top_gear(v, gears), state[V_X, v], w_wanted, w_present, parameter[LIMIT, v]
-    )
+    return gearbox.permitted(gear, int(state[GEAR, v]), top, state[V_X, v], w_wanted, w_present, parameter[LIMIT, v])
 
 
 @compiled
@@ -124,7 +123,7 @@ def shift(v, w_out, tick, state, parameter, gears):
         engage(v, w_out, tick, state, parameter, gears)
 
 
-@compiled
+@inlined
 def drive(v, w_out, tick, state, parameter, gears):
     """One tick in gear: the clutch or lock-up closes or opens."""
     w_in = abs(state[RATIO, v] * w_out)

@@ -114,6 +114,17 @@ def store(part, columns, contiguous, count, groups, rows, first, tile):
 
 
 @compiled
+def store_sound(part, columns, groups, rows, first, tile, broken):
+    """The same for those that are not broken."""
+    n = part.shape[1] // groups
+    for row in range(rows):
+        for group in range(groups):
+            for lane in range(columns.size):
+                if broken[columns[lane]] == 0:
+                    part[row, group * n + columns[lane]] = tile[(first + row * groups + group) * LANES + lane]
+
+
+@compiled
 def copy_out(row, columns, contiguous, count, lanes):
     """One row back."""
     if contiguous:

@@ -6,13 +6,14 @@ D. Manocha, OBBTree, SIGGRAPH 1996). What happens after a contact is not claimed
 
 from math import cos, sin, sqrt
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
 from studio.world.neighbour import AT_X, AT_Y, moved, within
 from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
 
 
+NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than half of both lengths and this
 ROUNDING = 1e-6  # [m] by which a bound gives way
 
 
@@ -46,12 +47,17 @@ def overlap(dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
     return True
 
 
-@compiled
+@inlined
+def half_and_offset(v, parameter):
+    """Half the length of a body and how far its middle is from its centre of gravity [m]."""
+    return 0.5 * parameter[LENGTH, v] + abs(parameter[FRONT, v] - 0.5 * parameter[LENGTH, v])
+
+
+@inlined
 def are_apart(a, b, state, parameter):
     """Whether two centres of gravity are too far from each other for the middles to be near; without an angle."""
     dx, dy = state[X, b] - state[X, a], state[Y, b] - state[Y, a]
-    aside = abs(parameter[FRONT, a] - 0.5 * parameter[LENGTH, a]) + abs(parameter[FRONT, b] - 0.5 * parameter[LENGTH, b])
-    reach = 0.5 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 4.0) + aside + ROUNDING
+    reach = half_and_offset(a, parameter) + half_and_offset(b, parameter) + NEAR + ROUNDING
     return dx * dx + dy * dy > reach * reach
 
 
@@ -63,7 +69,7 @@ def touching(a, b, state, parameter):
     x_a, y_a = centre(a, state, parameter)
     x_b, y_b = centre(b, state, parameter)
     dx, dy = x_b - x_a, y_b - y_a
-    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 4.0) ** 2:
+    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 2.0 * NEAR) ** 2:
         return False
     return overlap(
         dx, dy, state[PSI, a], parameter[LENGTH, a], parameter[WIDTH, a], state[PSI, b], parameter[LENGTH, b], parameter[WIDTH, b]
@@ -75,7 +81,7 @@ def striking(v, i, state, parameter, table):
     """Whether the body of a car overlaps object i."""
     x, y = centre(v, state, parameter)
     dx, dy = table[O_X, i] - x, table[O_Y, i] - y
-    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, v] + table[O_LENGTH, i] + 4.0) ** 2:
+    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, v] + table[O_LENGTH, i] + 2.0 * NEAR) ** 2:
         return False
     return overlap(
         dx, dy, state[PSI, v], parameter[LENGTH, v], parameter[WIDTH, v], table[O_HEADING, i], table[O_LENGTH, i], table[O_WIDTH, i]
@@ -109,21 +115,15 @@ def report(time, a, b, speed, column, hits):
 
 
 @compiled
-def reach_of(v, longest, parameter):
-    """Farther [m] than this from the centre of gravity of v there is none of a vehicle that touches it."""
-    return parameter[LENGTH, v] + 2.0 * longest + 2.0
-
-
-@compiled
-def collide(time, longest, state, parameter, world_of, entity, grid, places, found, hits, total):
+def collide(time, widest, state, parameter, world_of, entity, grid, places, found, hits, total):
     """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers."""
-    share, far = hits.shape[1] // total.size, moved(state, places)
+    share, far = hits.shape[1] // total.size, 2.0 * moved(state, places) + widest + NEAR + ROUNDING
     for a in range(state.shape[1]):
         w = world_of[a]
         if state[ACTIVE, a] == 0.0 or total[w] == share:
             continue
-        x, y, reach = places[AT_X, a], places[AT_Y, a], reach_of(a, longest, parameter) + 2.0 * far
-        for i in range(within(w, x - reach, x + reach, y - reach, y + reach, grid, places, found)):
+        reach = half_and_offset(a, parameter) + far
+        for i in range(within(w, places[AT_X, a], places[AT_Y, a], 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
             b = found[i]
             if b > a and state[ACTIVE, b] > 0.0 and touching(a, b, state, parameter):
                 add(time, entity[a], entity[b], relative_speed(a, b, state), w, share, hits, total)

@@ -111,6 +111,10 @@ def lay(state, parameter, world_of, weather, table, near, ground):
     n = state.shape[1]
     for v in range(n):
         found = near_pieces(v, world_of[v], state, table, near)
+        if found == 0:
+            for corner in range(4):
+                ground[MU, corner * n + v] = weather[world_of[v]]
+            continue
         c, s = cos(state[PSI, v]), sin(state[PSI, v])
         for corner in range(4):
             x = parameter[L_F, v] if corner < 2 else -parameter[L_R, v]

@@ -13,7 +13,7 @@ from math import cos, floor, sin, sqrt
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, PSI, X, Y
@@ -41,6 +41,7 @@ class Neighbours:
     found: np.ndarray
     entered: np.ndarray  # vehicles that have come in since
     longest: float  # [m] no part of a vehicle is farther from its centre of gravity, along its length
+    widest: float  # [m] half a body, and how far its middle is from its centre of gravity
 
 
 def neighbours(parameter: np.ndarray) -> Neighbours:
@@ -48,25 +49,33 @@ def neighbours(parameter: np.ndarray) -> Neighbours:
     n = parameter.shape[1]
     buckets = 2 ** int(np.ceil(np.log2(2 * n + 2)))
     longest = float(np.maximum(parameter[FRONT], parameter[LENGTH] - parameter[FRONT]).max(initial=0.0))
-    return Neighbours(np.zeros((4, buckets + 1), np.int64), np.zeros((len(PLACE), n)), np.zeros(n, np.int64), np.zeros(n, np.int64), longest)
+    half = 0.5 * parameter[LENGTH]
+    return Neighbours(
+        grid=np.zeros((4, buckets + 1), np.int64),
+        places=np.zeros((len(PLACE), n)),
+        found=np.zeros(n, np.int64),
+        entered=np.zeros(n, np.int64),
+        longest=longest,
+        widest=float((half + np.abs(parameter[FRONT] - half)).max(initial=0.0)),
+    )
 
 
 # -- sorting -----------------------------------------------------------------------------------------
 
 
-@compiled
+@inlined
 def cell_of(place):
     """Column or row of the cells in which a coordinate [m] lies."""
     return int(floor(place / CELL))
 
 
-@compiled
+@inlined
 def cell_number(world, column, row):
     """The number of a cell."""
     return (world * SPAN + (column & (SPAN - 1))) * SPAN + (row & (SPAN - 1))
 
 
-@compiled
+@inlined
 def bucket_of(number, buckets):
     """Its bucket: a product with a large odd number scatters cells that lie side by side."""
     return int(np.uint64(number) * SCATTER >> HALF & np.uint64(buckets - 1))
@@ -88,7 +97,7 @@ def sort(state, parameter, world_of, grid, places):
     fill(state, world_of, grid)
 
 
-@compiled
+@inlined
 def put_down(v, state, parameter, places):
     """Where a vehicle is, and its rear."""
     c, s = cos(state[PSI, v]), sin(state[PSI, v])
@@ -113,42 +122,59 @@ def fill(state, world_of, grid):
 # -- asking ------------------------------------------------------------------------------------------
 
 
-@compiled
-def within(world, west, east, south, north, grid, places, found):
-    """Fills `found` with the vehicles of a world whose centre of gravity was within these bounds [m], in order; how many."""
-    low, high, bottom, top = cell_of(west), cell_of(east), cell_of(south), cell_of(north)
-    buckets, count = grid.shape[1] - 1, 0
-    if (high - low + 1) * (top - bottom + 1) > buckets:
-        return within_all(world, west, east, south, north, grid, places, found)
+@inlined
+def within(world, x, y, c, s, back, ahead, right, left, grid, places, found):
+    """Fills `found` with the vehicles of a world whose centre of gravity was in a box, in order; how many.
+
+    The box is given from a place x, y [m] in a direction with the cosine c and the sine s: from `back` to `ahead` along it, from
+    `right` to `left` across [m].
+    """
+    middle, half_length = 0.5 * (back + ahead), 0.5 * (ahead - back)
+    aside, half_width = 0.5 * (right + left), 0.5 * (left - right)
+    x, y = x + middle * c - aside * s, y + middle * s + aside * c
+    half_x, half_y = half_length * abs(c) + half_width * abs(s), half_length * abs(s) + half_width * abs(c)
+    low, high, bottom, top = cell_of(x - half_x), cell_of(x + half_x), cell_of(y - half_y), cell_of(y + half_y)
+    if (high - low + 1) * (top - bottom + 1) > grid.shape[1]:
+        return within_all(world, x, y, c, s, half_length, half_width, grid, places, found)
+    margin, count = 0.5 * CELL * (abs(c) + abs(s)), 0
     for column in range(low, high + 1):
         for row in range(bottom, top + 1):
-            number = cell_number(world, column, row)
-            bucket = bucket_of(number, buckets)
-            for place in range(grid[FIRST, bucket], grid[FIRST, bucket + 1]):
-                v = grid[ORDER, place]
-                if grid[NUMBER, place] == number and is_inside(v, west, east, south, north, places):
-                    count = insert(v, count, found)
+            dx, dy = (column + 0.5) * CELL - x, (row + 0.5) * CELL - y
+            if is_inside(dx, dy, c, s, half_length + margin, half_width + margin):
+                count = in_cell(cell_number(world, column, row), x, y, c, s, half_length, half_width, grid, places, found, count)
     return count
 
 
-@compiled
-def within_all(world, west, east, south, north, grid, places, found):
-    """The same for bounds that hold more cells than there are buckets."""
-    count = 0
-    for place in range(grid[FIRST, grid.shape[1] - 1]):
+@inlined
+def in_cell(number, x, y, c, s, half_length, half_width, grid, places, found, count):
+    """Adds those of one cell."""
+    bucket = bucket_of(number, grid.shape[1] - 1)
+    for place in range(grid[FIRST, bucket], grid[FIRST, bucket + 1]):
         v = grid[ORDER, place]
-        if grid[NUMBER, place] // (SPAN * SPAN) == world and is_inside(v, west, east, south, north, places):
+        if grid[NUMBER, place] == number and is_inside(places[AT_X, v] - x, places[AT_Y, v] - y, c, s, half_length, half_width):
             count = insert(v, count, found)
     return count
 
 
 @compiled
-def is_inside(v, west, east, south, north, places):
-    """Whether a vehicle was within bounds."""
-    return west <= places[AT_X, v] <= east and south <= places[AT_Y, v] <= north
+def within_all(world, x, y, c, s, half_length, half_width, grid, places, found):
+    """The same for boxes that hold more cells than there are buckets."""
+    count = 0
+    for place in range(grid[FIRST, grid.shape[1] - 1]):
+        v = grid[ORDER, place]
+        is_of_world = grid[NUMBER, place] // (SPAN * SPAN) == world
+        if is_of_world and is_inside(places[AT_X, v] - x, places[AT_Y, v] - y, c, s, half_length, half_width):
+            count = insert(v, count, found)
+    return count
 
 
-@compiled
+@inlined
+def is_inside(dx, dy, c, s, half_length, half_width):
+    """Whether a place that is (dx, dy) [m] from the middle of a box lies in it."""
+    return abs(dx * c + dy * s) <= half_length and abs(dy * c - dx * s) <= half_width
+
+
+@inlined
 def insert(v, count, found):
     """Puts a number among those found, which stay in order; how many there are now."""
     i = count

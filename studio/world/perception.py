@@ -5,11 +5,12 @@ Sensors look at the true world and add their errors; messages are looked up in w
 
 from math import atan2, cos, nan, sin, sqrt
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.model import radio, satellite, sensor
 from studio.model.random import (
     GPS_DRIFT, GPS_NOISE, MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, normal_pair, uniform,
 )  # fmt: skip
+from studio.road.grid import COLUMNS
 from studio.road.shadow import EYE, open_sky, walls_between
 from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT, LENGTH
@@ -24,39 +25,35 @@ from studio.world.unit import (
 )  # fmt: skip
 
 EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
+FIRST_LOOK = 30.0  # [m]
 PAIR = 65536  # a link is numbered receiver · PAIR + sender
 
 
-@compiled
-def bounds(v, kappa, longest, parameter, sensor_set, places):
-    """West, east, south and north [m] of the own corridor within reach, as wide as a car whose rear lies in it may stand outside."""
-    far = parameter[FRONT, v] + sensor_set[REACH, v]
-    bow = min(max(0.5 * kappa * sensor_set[REACH, v] * sensor_set[REACH, v], -far), far)
-    left, right = max(bow, 0.0) + sensor.CORRIDOR, min(bow, 0.0) - sensor.CORRIDOR
-    c, s = places[COS, v], places[SIN, v]
-    x, y = places[AT_X, v], places[AT_Y, v]
-    east, west = max(far * c, 0.0) + max(-left * s, -right * s), min(far * c, 0.0) + min(-left * s, -right * s)
-    north, south = max(far * s, 0.0) + max(left * c, right * c), min(far * s, 0.0) + min(left * c, right * c)
-    return x + west - longest, x + east + longest, y + south - longest, y + north + longest
-
-
-@compiled
+@inlined
 def nearest_target(v, world, longest, state, parameter, sensor_set, grid, places, found):
-    """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none."""
+    """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none.
+
+    Near cars are looked at first: where one is seen, none that is farther can be nearer.
+    """
     kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
     best, best_forward, best_left = -1, sensor_set[REACH, v], 0.0
-    west, east, south, north = bounds(v, kappa, longest, parameter, sensor_set, places)
-    for i in range(within(world, west, east, south, north, grid, places, found)):
-        other = found[i]
-        if other == v or state[ACTIVE, other] == 0.0:
-            continue
-        dx, dy = places[REAR_X, other] - places[AT_X, v], places[REAR_Y, other] - places[AT_Y, v]
-        forward, left = sensor.turned(dx, dy, places[COS, v], places[SIN, v])
-        forward -= parameter[FRONT, v]
-        if forward >= best_forward or not sensor.in_corridor(forward, left, kappa):
-            continue
-        if sensor.in_view(forward, left, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
-            best, best_forward, best_left = other, forward, left
+    x, y, c, s = places[AT_X, v], places[AT_Y, v], places[COS, v], places[SIN, v]
+    for reach in (min(FIRST_LOOK, sensor_set[REACH, v]), sensor_set[REACH, v]):
+        if best_forward < reach:
+            break
+        ahead = parameter[FRONT, v] + reach + longest
+        bow = min(max(0.5 * kappa * reach * reach, -ahead), ahead)  # of the corridor at its end
+        left, right = max(bow, 0.0) + sensor.CORRIDOR + longest, min(bow, 0.0) - sensor.CORRIDOR - longest
+        for i in range(within(world, x, y, c, s, -longest, ahead, right, left, grid, places, found)):
+            other = found[i]
+            if other == v or state[ACTIVE, other] == 0.0:
+                continue
+            forward, aside = sensor.turned(places[REAR_X, other] - x, places[REAR_Y, other] - y, c, s)
+            forward -= parameter[FRONT, v]
+            if forward >= best_forward or not sensor.in_corridor(forward, aside, kappa):
+                continue
+            if sensor.in_view(forward, aside, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
+                best, best_forward, best_left = other, forward, aside
     return best, best_forward, best_left
 
 
@@ -76,7 +73,7 @@ def nearest_barrier(v, best, best_forward, best_left, first, count, state, param
     return best, best_forward, best_left
 
 
-@compiled
+@inlined
 def closing_rate(v, other, forward, left, state, places):
     """Change of the distance [m/s] to a car, or an object at rest, seen in that direction."""
     distance = max(sqrt(forward * forward + left * left), 1e-6)
@@ -87,7 +84,7 @@ def closing_rate(v, other, forward, left, state, places):
     return (ahead * forward + aside * left) / distance
 
 
-@compiled
+@inlined
 def forget(v, sensors):
     """No target until one is found."""
     sensors[DETECTED, v] = 0.0
@@ -114,7 +111,7 @@ def sense(k, longest, state, parameter, sensor_set, world_of, entity, table, fir
             sensors[TARGET, v] = entity[other] if other >= 0 else other + first_object[w]
 
 
-@compiled
+@inlined
 def report(k, v, other, forward, left, state, sensor_set, unit, seed, places, sensors):
     """Writes a target with the sensor's errors."""
     noise_range = sensor_set[RANGE_SIGMA, v] * normal(seed, unit, RANGE_NOISE, k)
@@ -128,16 +125,20 @@ def report(k, v, other, forward, left, state, sensor_set, unit, seed, places, se
 @compiled
 def fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, sensors):
     """Second pass: where every car takes itself to be. A car without errors draws nothing."""
+    tau, phi, frame = 0.0, 0.0, shadow.grid.frame
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 and (gps_set[DRIFT_SIGMA, v] > 0.0 or gps_set[GPS_SIGMA, v] > 0.0):
-            sky = open_sky(shadow, place_of[world_of[v]], state[X, v], state[Y, v])
-            wander(k, tick, v, sky, gps_set, entity[v], seed[world_of[v]], sensors)
+            if gps_set[DRIFT_TIME, v] != tau:  # most receivers are alike
+                tau = gps_set[DRIFT_TIME, v]
+                phi = satellite.kept(tick, tau) if k > 0 else 0.0
+            place = place_of[world_of[v]]
+            sky = open_sky(shadow, place, state[X, v], state[Y, v]) if frame[COLUMNS, place] > 0.0 else 1.0
+            wander(k, v, sky, phi, gps_set, entity[v], seed[world_of[v]], sensors)
 
 
-@compiled
-def wander(k, tick, v, sky, gps_set, unit, seed, sensors):
-    """The error of a satellite position at this tick; at the first one the slow error is drawn as if it had long been running."""
-    phi = satellite.kept(tick, gps_set[DRIFT_TIME, v]) if k > 0 else 0.0
+@inlined
+def wander(k, v, sky, phi, gps_set, unit, seed, sensors):
+    """The error of a satellite position at this tick; at the first one, phi = 0, the slow error is drawn as if it had long been running."""
     draw_east, draw_north = normal_pair(seed, unit, GPS_DRIFT, k)
     noise_east, noise_north = normal_pair(seed, unit, GPS_NOISE, k)
     sensors[DRIFT_EAST, v] = satellite.drift(sensors[DRIFT_EAST, v], phi, draw_east)
@@ -171,7 +172,14 @@ def send(k, tick, state, command, radio_set, world_of, entity, sensors, sent):
             sent[M_TRUE_Y, column] = state[Y, v]
 
 
-@compiled
+@inlined
+def may_arrive(time, tick, sent_at, w, radio_set):
+    """Whether a message may come in at this tick, whatever is drawn."""
+    soonest, latest = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 0.0), radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 1.0)
+    return sent_at + latest + EARLY > time - tick and sent_at + soonest - 2.0 * EARLY <= time
+
+
+@inlined
 def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed):
     """Whether message `number` of the sender comes in at this tick: every message does so once."""
     link = entity[receiver] * PAIR + entity[sender]
@@ -183,7 +191,7 @@ def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity,
 def felt_distance(x0, y0, x1, y1, w, place, radio_set, shadow):
     """Distance [m] between two antennas, drawn out by the buildings between them."""
     distance = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
-    if radio_set[BUILDINGS, w] == 0.0 or distance > radio_set[RADIO_RANGE, w]:
+    if radio_set[BUILDINGS, w] == 0.0 or distance > radio_set[RADIO_RANGE, w] or shadow.grid.frame[COLUMNS, place] == 0.0:
         return distance
     walls, inside = walls_between(shadow, place, x0, y0, EYE, x1, y1, EYE)
     return radio.felt_distance(distance, radio.attenuation(walls, inside), radio_set[EXPONENT, w])
@@ -217,6 +225,8 @@ def receive(
             sent_at = (number * period - entity[sender]) * tick
             if sent_at <= inbox[SENT, link]:
                 break
+            if not may_arrive(k * tick, tick, sent_at, w, radio_set):
+                continue
             was_sent = abs(sent[SENT, column] - sent_at) < 0.5 * tick  # else it left before, and this is an older one
             if was_sent and arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
                 if gets_through(number, column, sender, receiver, w, place_of[w], state, radio_set, entity, seed[w], sent, shadow):

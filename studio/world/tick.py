@@ -71,12 +71,12 @@ def look(world: World) -> None:
     """Drivers find themselves on their path and see who, or what, is ahead."""
     v, r, o, c, q, w = world.vehicles, world.roads, world.obstacles, world.roads.conflicts, world.queues, world.worlds
     traffic.orient(
-        v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
         r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
     queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
     traffic.meetings(
-        v.state, v.parameter, r.points, r.path_first, r.path_count, w.of, w.entity, world.neighbours.longest, c.track, c.queue_of,
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.entity, world.neighbours.longest, c.track, c.queue_of,
         c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
     )  # fmt: skip
     if o.standing.size:
@@ -142,7 +142,7 @@ def collide(world: World) -> None:
     """Contacts are found at the end of the tick."""
     v, w, e, o, g = world.vehicles, world.worlds, world.events, world.obstacles, world.neighbours
     time = world.clock.time + world.clock.tick
-    collision.collide(time, g.longest, v.state, v.parameter, w.of, w.entity, g.grid, g.places, g.found, e.hits, e.found)
+    collision.collide(time, g.widest, v.state, v.parameter, w.of, w.entity, g.grid, g.places, g.found, e.hits, e.found)
     if o.standing.size:
         collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
 

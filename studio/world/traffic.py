@@ -5,9 +5,9 @@ Following on one lane, merging and crossing are then one and the same: a car tha
 first, drives ahead at the distance that the stretches give.
 """
 
-from math import cos, inf, nan, sin
+from math import inf, nan
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.model import driver
 from studio.road.path import (
     PATH_CURVATURE,
@@ -29,7 +29,7 @@ from studio.world.mind import (
     SIGHT, SIGHT_SPEED, SPEED_FACTOR, STANDSTILL, STATION, STEER_GAIN, STEER_WISH, STOPPING, V_DESIRED, WISH, YAW_DAMPING,
     YIELDING,
 )  # fmt: skip
-from studio.world.neighbour import moved, within
+from studio.world.neighbour import COS, REAR_X, REAR_Y, SIN, moved, within
 from studio.world.queue import from_station
 from studio.world.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
 
@@ -53,12 +53,12 @@ def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, s
         )
 
 
-@compiled
-def locate(v, state, parameter, points, first, count, mind):
+@inlined
+def locate(v, state, parameter, places, points, first, count, mind):
     """Where the car is on its path, and how its front axle stands to it."""
     psi, l_f = state[PSI, v], parameter[L_F, v]
     s, e = project(points, first, count, state[X, v], state[Y, v], mind[STATION, v])
-    x_f, y_f = state[X, v] + l_f * cos(psi), state[Y, v] + l_f * sin(psi)
+    x_f, y_f = state[X, v] + l_f * places[COS, v], state[Y, v] + l_f * places[SIN, v]
     s_f, e_f = project(points, first, count, x_f, y_f, s + l_f)
     mind[STATION, v] = s
     mind[OFFSET, v] = e
@@ -68,13 +68,13 @@ def locate(v, state, parameter, points, first, count, mind):
     mind[D_PSI, v] = psi - interpolate(points, first, PATH_HEADING, clip(s_f, count))
 
 
-@compiled
+@inlined
 def clip(s, count):
     """A station that lies on the path."""
     return min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
 
 
-@compiled
+@inlined
 def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown, sight):
     """Station [m] of the next stop line in sight ahead of the bumper that shows no green and at which the driver will stop."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
@@ -86,13 +86,13 @@ def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, st
 
 
 @compiled
-def orient(state, parameter, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
+def orient(state, parameter, places, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
            drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
             continue
-        locate(v, state, parameter, points, path_first[v], path_count[v], mind)
+        locate(v, state, parameter, places, points, path_first[v], path_count[v], mind)
         if mind[STATION, v] > (path_count[v] - 1) * PATH_SPACING - ARRIVAL:
             state[ACTIVE, v] = 0.0
         permitted = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
@@ -103,7 +103,7 @@ def orient(state, parameter, points, path_first, path_count, stop_first, stop_co
         forget(v, mind)
 
 
-@compiled
+@inlined
 def permitted_speed(v, state, points, first, count, mind):
     """Speed [m/s] that is allowed here and a little ahead."""
     here = mind[STATION, v]
@@ -113,7 +113,7 @@ def permitted_speed(v, state, points, first, count, mind):
     )
 
 
-@compiled
+@inlined
 def forget(v, mind):
     """Nothing is ahead until a zone says so."""
     mind[GAP, v] = nan
@@ -123,7 +123,7 @@ def forget(v, mind):
     mind[YIELDING, v] = driver.NO_LIMIT
 
 
-@compiled
+@inlined
 def behind(v, other, gap, state, drivers, mind):
     """IDM acceleration [m/s²] of v behind the other car."""
     closing = state[V_X, v] - state[V_X, other]
@@ -133,16 +133,14 @@ def behind(v, other, gap, state, drivers, mind):
     )  # fmt: skip
 
 
-@compiled
-def is_in_the_way(v, other, s_guess, state, parameter, points, first, count):
+@inlined
+def is_in_the_way(v, other, s_guess, parameter, places, points, first, count):
     """Whether the rear of the other car overlaps the strip that v's body will sweep along its path."""
-    psi, back = state[PSI, other], parameter[LENGTH, other] - parameter[FRONT, other]
-    x, y = state[X, other] - back * cos(psi), state[Y, other] - back * sin(psi)
-    _, e = project(points, first, count, x, y, s_guess)
+    _, e = project(points, first, count, places[REAR_X, other], places[REAR_Y, other], s_guess)
     return abs(e) < 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other])
 
 
-@compiled
+@inlined
 def is_ahead(v, other, number, gap, state, mind):
     """The other car, of this number in its world, is what the gap is measured to, if it is the nearest, or the first of the nearest."""
     if not gap >= mind[GAP, v] or (gap == mind[GAP, v] and number < mind[AHEAD, v]):  # true too while the gap is not a number
@@ -151,7 +149,7 @@ def is_ahead(v, other, number, gap, state, mind):
         mind[AHEAD_SPEED, v] = state[V_X, other]
 
 
-@compiled
+@inlined
 def goes_first(v, other, d_v, d_other, zone_start, state, mind):
     """Whether the other car, also before the zone, will be there before v: nearer, and neither waiting nor held."""
     held = mind[RED_STATION, other] <= zone_start
@@ -159,7 +157,7 @@ def goes_first(v, other, d_v, d_other, zone_start, state, mind):
     return nearer and not held and d_other < HORIZON and state[V_X, other] > STANDING
 
 
-@compiled
+@inlined
 def is_unseen(v, other, state, parameter, drivers):
     """Whether the other car is farther from the own front bumper than one sees."""
     dx, dy = state[X, other] - state[X, v], state[Y, other] - state[Y, v]
@@ -167,8 +165,8 @@ def is_unseen(v, other, state, parameter, drivers):
     return dx * dx + dy * dy > reach * reach
 
 
-@compiled
-def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
+@inlined
+def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind):
     """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     bumper_other = mind[STATION, other] + parameter[FRONT, other]
@@ -183,7 +181,7 @@ def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, pa
         if in_front:
             mind[FOLLOWING, v] = min(mind[FOLLOWING, v], behind(v, other, gap, state, drivers, mind))
             rear = bumper + gap
-            if gap > 0.0 and is_in_the_way(v, other, rear, state, parameter, points, first, count):
+            if gap > 0.0 and is_in_the_way(v, other, rear, parameter, places, points, first, count):
                 is_ahead(v, other, number, gap, state, mind)
     elif bumper < v_enter:
         if goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
@@ -191,7 +189,7 @@ def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, pa
             mind[YIELDING, v] = min(mind[YIELDING, v], wish)
 
 
-@compiled
+@inlined
 def asks_no_more(v, gap, speed, state, drivers, mind):
     """Whether nobody from this gap [m] on, none slower than `speed`, can ask more of v than is asked already, or be nearer."""
     own = state[V_X, v]
@@ -204,9 +202,9 @@ def asks_no_more(v, gap, speed, state, drivers, mind):
     return wish >= mind[FOLLOWING, v]
 
 
-@compiled
-def meet_queue(v, begin, end, order, slowest, entity, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, points,
-               first, count, drivers, mind):  # fmt: skip
+@inlined
+def meet_queue(v, begin, end, order, slowest, entity, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, places,
+               points, first, count, drivers, mind):  # fmt: skip
     """What one zone means for v: everybody in the queue of the other track from where he may matter on.
 
     Who is farther back than v itself will not be first, and from somewhere ahead on nobody asks more than the nearer ones.
@@ -226,12 +224,12 @@ def meet_queue(v, begin, end, order, slowest, entity, longest, v_enter, v_leave,
             return
         if other != v:
             meet(
-                v, other, entity[other], v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind
+                v, other, entity[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind
             )
 
 
 @compiled
-def meetings(state, parameter, points, path_first, path_count, world_of, entity, longest, track, queue_of, partner_first, partner,
+def meetings(state, parameter, places, points, path_first, path_count, world_of, entity, longest, track, queue_of, partner_first, partner,
              zone_first, zone_span, queue_first, order, slowest, drivers, mind):  # fmt: skip
     """Third pass: for every driver the queues on the tracks that his own meets."""
     for v in range(state.shape[1]):
@@ -244,7 +242,7 @@ def meetings(state, parameter, points, path_first, path_count, world_of, entity,
             for z in range(zone_first[p], zone_first[p + 1]):
                 meet_queue(
                     v, queue_first[queue], queue_first[queue + 1], order, slowest, entity, longest, zone_span[0, z], zone_span[1, z],
-                    zone_span[2, z], zone_span[3, z], state, parameter, points, path_first[v], path_count[v], drivers, mind,
+                    zone_span[2, z], zone_span[3, z], state, parameter, places, points, path_first[v], path_count[v], drivers, mind,
                 )  # fmt: skip
 
 
@@ -275,7 +273,7 @@ def stand_before(v, number, gap, state, drivers, mind):
         mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, 0.0
 
 
-@compiled
+@inlined
 def stop_wish(v, state, parameter, drivers, mind):
     """Acceleration [m/s²] that the next light permits."""
     distance = mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
@@ -287,7 +285,7 @@ def stop_wish(v, state, parameter, drivers, mind):
     )  # fmt: skip
 
 
-@compiled
+@inlined
 def steer_wish(v, state, parameter, drivers, mind):
     """Road wheel angle [rad] that keeps the path."""
     compliance = driver.front_compliance(
@@ -316,7 +314,7 @@ def decide(state, parameter, drivers, mind):
 @compiled
 def is_free(x, y, world, reach, state, grid, places, found, entered, count):
     """Whether no car of the same world is near a place: none of those that are about, nor of the first that have entered just now."""
-    for i in range(within(world, x - reach, x + reach, y - reach, y + reach, grid, places, found)):
+    for i in range(within(world, x, y, 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
         if is_close(found[i], x, y, state):
             return False
     for i in range(count):

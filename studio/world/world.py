@@ -257,8 +257,3 @@ class World:
         self.vehicles.state[ACTIVE, columns] = 0.0
         self.vehicles.returns[columns] = 0
         self.hosted = [hosted for hosted in self.hosted if {group.world for group in hosted.groups} != {number}]
-
-    def wheel_columns(self, columns: slice) -> np.ndarray:
-        """Wheel state [row, corner, vehicle] of some vehicles."""
-        wheels = self.vehicles.wheels
-        return wheels.reshape(wheels.shape[0], 4, self.size)[:, :, columns]

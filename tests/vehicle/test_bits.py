@@ -96,7 +96,7 @@ def on_threads(ground, threads, ticks):
     def some(k, part, tile):
         motion.integrate(
             part, f.order, f.state, f.wheels, f.ground, f.parameter, f.tyres, f.commands, k, ground.tick, ground.step, steps,
-            tile,
+            f.broken, tile,
         )  # fmt: skip
 
     with ThreadPoolExecutor(threads) as pool:
@@ -125,7 +125,7 @@ def integrate(ground, tick, steps):
     f = ground.fleet
     motion.integrate(
         f.blocks, f.order, f.state, f.wheels, f.ground, f.parameter, f.tyres, f.commands, ground.k, tick, ground.step, steps,
-        f.tile,
+        f.broken, f.tile,
     )  # fmt: skip
 
 
