@@ -337,6 +337,11 @@ def bench_rows(figures: dict[str, Any]) -> list[list[str]]:
         rows.append(["dynamics, 1000 vehicles a core, all cores", f"{dynamics['all_cores']:,.0f}", "vehicle steps/s"])
     if "tick" in figures:
         rows.append(["whole tick of the sample, one core", f"{figures['tick']['one_core']:,.0f}", "vehicle ticks/s"])
+    for n, each in figures.get("advance", {}).get("one_core", {}).items():
+        rows.append([f"whole advance, {n} vehicles, one core", f"{each['rate']:,.0f}", "vehicle ticks/s"])
+        rows.append([f"whole advance over integration, {n} vehicles", f"{each['ratio']:.2f}", "1"])
+        shares = ", ".join(f"{name} {share:.2f}" for name, share in each["parts"].items())
+        rows.append([f"parts over integration, {n} vehicles", shares, "1"])
     if "difference" in figures:
         rows.append(["distance to the CPU's result after 10 s", f"{figures['difference']:.1e}", "m"])
     return rows
