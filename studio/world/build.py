@@ -26,6 +26,7 @@ from studio.world.line import Lines, Zones, detours_of, lines_of, starts, stops_
 from studio.world.mind import DRIVER, MIND, SIGHT, STATION
 from studio.world.obstacle import obstacles_of
 from studio.world.setting import Car, Setting, pose
+from studio.world.snapshot import gather, origin_of
 from studio.world.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
 from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
@@ -61,6 +62,8 @@ def build(settings: Sequence[Setting]) -> World:
         colours=tuple(car.colour for car in cars),
     )
     settle(world)
+    world.origin = origin_of(settings, world)
+    gather(world)
     return world
 
 

@@ -1,4 +1,4 @@
-"""The world: all arrays of a batch of runs, in one place. One copy of it is a snapshot, its bytes are the hash."""
+"""The world: all arrays of a batch of runs, in one place. What moves is one buffer; a copy of it is a snapshot."""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -7,6 +7,7 @@ import numpy as np
 
 from studio.application.host import Hosted
 from studio.road.shadow import Shadow
+from studio.rows import Moving
 from studio.vehicle.fleet import Fleet
 from studio.world.street import OBJECT
 
@@ -30,10 +31,10 @@ class Vehicles(Fleet):
     """A fleet with drivers: what they want, know and are told, [row, vehicle]."""
 
     drivers: np.ndarray
-    mind: np.ndarray
-    script: np.ndarray
+    mind: Moving
+    script: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
-    app_command: np.ndarray  # [actuator, vehicle] of applications, not a number where there is none
+    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
 
 
 @dataclass
@@ -52,11 +53,11 @@ class Roads:
     """Paths as one array of points with a first point and a count per vehicle; stop lines; zones; signals."""
 
     points: np.ndarray
-    path_first: np.ndarray
-    path_count: np.ndarray
+    path_first: Moving
+    path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
-    stop_first: np.ndarray
-    stop_count: np.ndarray
+    stop_first: Moving
+    stop_count: Moving
     stop_station: np.ndarray
     stop_link: np.ndarray
     zone_pair: np.ndarray  # int64[2, z]
@@ -66,7 +67,7 @@ class Roads:
     signal_count: np.ndarray
     phase_end: np.ndarray
     phase_state: np.ndarray
-    shown: np.ndarray
+    shown: Moving
     weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
@@ -78,9 +79,9 @@ class Roads:
 class Changes:
     """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
 
-    moments: np.ndarray  # [row, change] of all beginnings, then of all ends
-    phase: np.ndarray  # int64[change]: BEFORE, ACTING, OVER
-    turned: np.ndarray  # [s] float64[2, change]: when it began and ended, not a number before
+    moments: Moving  # [row, change] of all beginnings, then of all ends
+    phase: Moving  # int64[change]: BEFORE, ACTING, OVER
+    turned: Moving  # [s] float64[2, change]: when it began and ended, not a number before
     limits: list[tuple[int, np.ndarray, np.ndarray]]  # change, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
 
@@ -90,12 +91,12 @@ class Detours:
     """Vehicles whose path passes works: which of its paths each has taken (`choice` is state), and all their paths."""
 
     vehicle: np.ndarray  # int64[m]: columns
-    choice: np.ndarray  # int64[m]: bit b is work b
+    choice: Moving  # int64[m]: bit b is work b
     work: np.ndarray  # int64[MOST_WORKS, m]: change that work b is, -1 for none
     base: np.ndarray  # int64[m]: column of `lines` with choice 0
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
-    held: np.ndarray  # int64[change]: vehicles that are still within it on the usual path
+    held: Moving  # int64[change]: vehicles that are still within it on the usual path
     known: dict[tuple[int, int], np.ndarray]  # zones of pairs of paths, by their first points
 
 
@@ -106,11 +107,11 @@ class Obstacles:
     table: np.ndarray  # [row, object]
     first: np.ndarray  # per world
     count: np.ndarray
-    standing: np.ndarray  # int64[object], 1 while it stands there
+    standing: Moving  # int64[object], 1 while it stands there
     sweep: np.ndarray  # [row, object on a line]
     counts: np.ndarray  # of these per line
-    sweep_first: np.ndarray  # per vehicle, on the line it is on
-    sweep_count: np.ndarray
+    sweep_first: Moving  # per vehicle, on the line it is on
+    sweep_count: Moving
     names: tuple[str, ...]
 
 
@@ -119,13 +120,13 @@ class Units:
     """Sensors and radio: what is set, what was sent, what has been received."""
 
     sensor_set: np.ndarray
-    sensors: np.ndarray
+    sensors: Moving
     gps_set: np.ndarray
     radio_set: np.ndarray  # per world
-    sent: np.ndarray  # [row, slot · n + vehicle]
+    sent: Moving  # [row, slot · n + vehicle]
     link_receiver: np.ndarray
     link_sender: np.ndarray
-    inbox: np.ndarray  # [row, link]
+    inbox: Moving  # [row, link]
 
 
 @dataclass
@@ -135,9 +136,9 @@ class Events:
     trigger_time: np.ndarray
     trigger_vehicle: np.ndarray
     trigger_script: np.ndarray
-    fired: np.ndarray
-    hits: np.ndarray  # every world has its share of the columns
-    found: np.ndarray  # how many collisions each world has had
+    fired: Moving
+    hits: Moving  # every world has its share of the columns
+    found: Moving  # how many collisions each world has had
 
     @property
     def hits_found(self) -> int:
@@ -166,6 +167,8 @@ class World:
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
+    origin: str = ""  # digest of what it was built from
+    arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 
     @property
     def size(self) -> int:
@@ -187,17 +190,17 @@ class World:
         first = int(self.worlds.first[world])
         return slice(first, first + int(self.worlds.count[world]))
 
-    def moving_parts(self) -> list[np.ndarray]:
-        """The arrays that change during a run."""
+    def hashed_parts(self) -> list[np.ndarray]:
+        """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
         units = [u.sensors, u.sent, u.inbox]
         happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(hosted.memory for hosted in self.hosted)]
 
     def digest(self) -> str:
-        """SHA-256 of the moving parts and the clock."""
+        """SHA-256 of these parts and the clock."""
         digest = hashlib.sha256(str(self.clock.k).encode())
-        for part in self.moving_parts():
+        for part in self.hashed_parts():
             digest.update(np.ascontiguousarray(part).tobytes())
         return digest.hexdigest()
 

@@ -1,6 +1,5 @@
 """What changes about the road while a world runs: limits, friction and sight, begun by a time or by a vehicle."""
 
-import copy
 import re
 
 import numpy as np
@@ -115,7 +114,7 @@ def test_friction_is_felt_while_it_acts(sample):
     assert felt == [1.0] * 25 + [0.3] * 25 + [1.0] * 25
 
 
-# -- batches and snapshots -----------------------------------------------------------------------------
+# -- batches -------------------------------------------------------------------------------------------
 
 
 CHANGES = {
@@ -132,19 +131,6 @@ def test_a_world_changes_alone(sample):
     for order in ([0, 1, 2], [2, 0, 1]):
         together = run_for([variants[i] for i in order], 12)
         assert [together.world_digest(w) for w in range(3)] == [alone[i] for i in order]
-
-
-def test_a_snapshot_knows_what_has_begun(sample):
-    """A copy before a change begins, and one after it, end with the bits of the original."""
-    each = scenario(sample, CHANGES)
-    for seconds in (1.0, 5.0):
-        world = run_for([each], seconds)
-        twin = copy.deepcopy(world)
-        for _ in range(300):
-            tick(world)
-            tick(twin)
-        assert twin.digest() == world.digest()
-        assert (world.changes.phase == 1).all()
 
 
 def test_the_phase_is_part_of_the_hash(sample):
