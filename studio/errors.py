@@ -6,6 +6,7 @@
     ├── RouteError          roads do not connect, or are not on the map
     ├── ApplicationError    a plug-in does not load, or raised during a run
     ├── RunError            a state is not finite any more
+    ├── SnapshotError       a snapshot does not belong to this world
     ├── StoreError          runs.db cannot be opened or written
     ├── UnknownError        a run, scenario or channel that does not exist
     ├── SizeError           more was sent than is taken
@@ -76,6 +77,10 @@ class ApplicationError(StudioError):
 
 class RunError(StudioError):
     """A state is not finite any more."""
+
+
+class SnapshotError(StudioError):
+    """A snapshot is of another world, scenario or version."""
 
 
 class StoreError(StudioError):

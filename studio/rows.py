@@ -5,11 +5,18 @@
 
 An array of this table is float64[len(BODY), vehicles], and `X` is the number of its first row, a plain integer: compiled code
 takes it as a constant. The name stands at the borders, with unit and meaning. A row with a label can be recorded.
+
+A field that holds such an array is declared as `Moving` where the array changes during a run: it is part of every snapshot.
 """
 
 from collections.abc import Iterator, Sequence
 from enum import StrEnum
-from typing import NamedTuple, overload
+from typing import Annotated, NamedTuple, overload
+
+import numpy as np
+
+MOVES = "moves"
+Moving = Annotated[np.ndarray, MOVES]
 
 
 class Role(StrEnum):

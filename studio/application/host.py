@@ -24,6 +24,7 @@ from studio.application.contract import Actuators, Clock, Command, Front, Messag
 from studio.application.registry import Application
 from studio.compiled import CACHE, compiled
 from studio.errors import ApplicationError
+from studio.rows import Moving
 
 TEMPLATE = '''"""Calls {name} for all its cars."""
 
@@ -71,8 +72,8 @@ class Hosted:
     columns: np.ndarray
     links: np.ndarray  # link that each car listens to, -1 when none
     parameters: np.ndarray
-    memory: np.ndarray
-    observed: np.ndarray
+    memory: Moving
+    observed: Moving
     run: Callable
 
     def decide(self, commands: np.ndarray) -> None:

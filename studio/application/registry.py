@@ -16,6 +16,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 
+from studio.compiled import closure, digest_of
 from studio.errors import ApplicationError, Problem, UnknownError, nearest
 
 GROUP = "cooperative_adas_studio.applications"
@@ -38,6 +39,12 @@ class Application:
     def compiled(self) -> bool:
         """Whether `decide` is compiled; else it is called as Python."""
         return getattr(self.module, "COMPILED", False)
+
+    @property
+    def digest(self) -> str:
+        """Digest of its file, and of the files of ours that it imports; the name of a module that stands in no file."""
+        file = getattr(self.module, "__file__", None)
+        return digest_of(*closure(Path(file))) if file else self.name
 
     def parameters(self, given: dict) -> dict:
         """The full set of parameters, checked; raises pydantic's ValidationError."""

@@ -135,7 +135,7 @@ class Simulation:
             number = int(world.worlds.of[column])
             if not self.cases[number].is_over:
                 found = broken.first(vehicles, column, k=clock.k - 1, tick=clock.tick, step=clock.step)
-                name = world.names[number][int(world.worlds.entity[column])]
+                name = world.names[number][int(world.worlds.number[column])]
                 self.fail(number, f"{found.quantity} of {name} is not finite any more at {clock.time - clock.tick + found.after:.3f} s")
 
     def record(self, number: int = 0) -> Record:
@@ -163,12 +163,12 @@ class Simulation:
 
     def link_ages(self, number: int, count: int) -> dict[str, float]:
         """Mean age [s] of the newest message on each link of one world, named sender→receiver."""
-        share, units, entity = self.recorder.link_share[number], self.world.units, self.world.worlds.entity
+        share, units, numbers = self.recorder.link_share[number], self.world.units, self.world.worlds.number
         if not count:
             return {}
         names, means = self.world.names[number], self.recorder.mean_ages(number, count)
         return {
-            f"{names[entity[sender]]}→{names[entity[receiver]]}": float(mean)
+            f"{names[numbers[sender]]}→{names[numbers[receiver]]}": float(mean)
             for sender, receiver, mean in zip(units.link_sender[share], units.link_receiver[share], means, strict=True)
             if np.isfinite(mean)
         }

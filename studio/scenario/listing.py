@@ -10,7 +10,7 @@ from typing import Any
 from studio.scenario import catalogue, edit
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.datasheet import quantities
-from studio.scenario.figures import drive, peak_power
+from studio.scenario.figures import drive, figures, peak_power
 from studio.scenario.vehicle import Vehicle
 
 LIST_HEAD = ("name", "title", "mass", "wheelbase", "drive", "power", "gears", "tyres")
@@ -63,10 +63,14 @@ def value_rows(model: VehicleModel) -> list[list[str]]:
 
 
 def value_json(model: VehicleModel) -> list[dict[str, Any]]:
-    """Every value of a vehicle with its provenance; the range is None where none is given. Texts have no unit and no origin."""
+    """Every value of a vehicle with its provenance; the range is None where none is given. Texts have no unit and no origin.
+
+    At the end stand figures that follow from the values.
+    """
     document = model.values.model_dump()
     texts = [row(path, text_title(path), edit.get(document, path)) for path in TEXTS]
-    return texts + [quantity_row(model, path, edit.get(document, path)) for path in quantities()]
+    given = [quantity_row(model, path, edit.get(document, path)) for path in quantities()]
+    return texts + given + [row(f"figures.{each.name}", each.title, each.value, each.unit, "computed") for each in figures(model.values)]
 
 
 def quantity_row(model: VehicleModel, path: str, value: float | list[float]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from studio.errors import Problem, ScenarioError
 from studio.model.tyre import Tyre
+from studio.rows import Moving
 from studio.scenario import catalogue, tir
 from studio.scenario.catalogue import VehicleModel
 from studio.vehicle import motion, shift
@@ -36,12 +37,12 @@ class Start(NamedTuple):
 class Fleet:
     """Arrays of vehicles: [row, vehicle]; of wheels and the ground under them: [row, corner · n + vehicle]."""
 
-    state: np.ndarray
-    wheels: np.ndarray
-    ground: np.ndarray
+    state: Moving
+    wheels: Moving
+    ground: Moving
     parameter: np.ndarray
     gears: np.ndarray  # [row of the gearbox · GEARS + gear + 1, vehicle]
-    commands: np.ndarray  # [row, slot · n + vehicle]
+    commands: Moving  # [row, slot · n + vehicle]
     tyres: np.ndarray  # [tyre, coefficient]
     order: np.ndarray  # columns in the order of the tiles
     blocks: np.ndarray  # first place in that order, count, tyres front and rear, per tile

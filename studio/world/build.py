@@ -29,6 +29,7 @@ from studio.world.neighbour import neighbours
 from studio.world.obstacle import obstacles_of
 from studio.world.queue import queues
 from studio.world.setting import Car, Setting, pose
+from studio.world.snapshot import gather, origin_of
 from studio.world.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
 from studio.world.world import Clock, Conflicts, Events, Roads, Units, Vehicles, World, Worlds
@@ -66,6 +67,8 @@ def build(settings: Sequence[Setting]) -> World:
         colours=tuple(car.colour for car in cars),
     )
     settle(world)
+    world.origin = origin_of(settings, world)
+    gather(world)
     return world
 
 
@@ -74,11 +77,23 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
     counts = np.array([len(each.cars) for each in settings])
     return Worlds(
         of=np.repeat(np.arange(len(settings)), counts),
-        entity=np.concatenate([np.arange(count) for count in counts]),
+        number=np.concatenate([np.arange(count) for count in counts]),
+        entity=np.concatenate([entities(each) for each in settings]),
         first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
         count=counts,
         seed=np.array([each.scenario.seed for each in settings], dtype=np.uint64),
     )
+
+
+def entities(each: Setting) -> np.ndarray:
+    """Numbers by which chance tells the vehicles of a world apart.
+
+    They hang on the names, so that the order of a file changes nothing; traffic comes last, so that more of it changes
+    nothing for the others.
+    """
+    named = len(each.scenario.vehicles)
+    number = {name: i for i, name in enumerate([*sorted(each.names[:named]), *each.names[named:]])}
+    return np.array([number[name] for name in each.names])
 
 
 def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:

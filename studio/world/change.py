@@ -82,8 +82,7 @@ def turn(world: World) -> None:
     if not c.phase.size:
         return
     if proceed(world.clock.time, c.moments, v.state, r.points, r.path_first, r.path_count, v.mind, c.phase, c.turned):
-        post_limits(c, r.points)
-        r.pieces[PIECE_ACTS] = c.phase[r.pieces[PIECE_CHANGE].astype(np.int64)] == ACTING
+        post(world)
     chosen = d.choice.copy()
     if choose(c.phase, d.vehicle, d.work, d.base, d.span, v.state, v.parameter, v.mind, d.held, d.choice, chosen):
         go_over(world, chosen)
@@ -103,7 +102,21 @@ def go_over(world: World, chosen: np.ndarray) -> None:
             o.sweep_first[column], o.sweep_count[column],
         ) = d.lines[:, new]  # fmt: skip
     d.choice[:] = chosen
-    r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, d.known)
+    meet_anew(world)
+
+
+def meet_anew(world: World) -> None:
+    """Everybody's conflicts, on the lines that are taken now."""
+    r = world.roads
+    r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, world.detours.known)
+
+
+def follow(world: World) -> None:
+    """Makes anew what follows from phases and choices, after both have been set from outside."""
+    if world.changes.phase.size:
+        post(world)
+    if world.detours.vehicle.size:
+        meet_anew(world)
 
 
 def carried(station: float, old: np.ndarray, new: np.ndarray) -> float:
@@ -114,6 +127,13 @@ def carried(station: float, old: np.ndarray, new: np.ndarray) -> float:
     if station <= here[0]:
         return station
     return float(np.interp(station, here, there) + max(station - here[-1], 0.0))
+
+
+def post(world: World) -> None:
+    """What the changes that act mean for the roads: limits, and slippery pieces."""
+    c, pieces = world.changes, world.roads.pieces
+    post_limits(c, world.roads.points)
+    pieces[PIECE_ACTS] = c.phase[pieces[PIECE_CHANGE].astype(np.int64)] == ACTING
 
 
 def post_limits(changes: Changes, points: np.ndarray) -> None:

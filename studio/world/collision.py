@@ -115,7 +115,7 @@ def report(time, a, b, speed, column, hits):
 
 
 @compiled
-def collide(time, widest, state, parameter, world_of, entity, grid, places, found, hits, total):
+def collide(time, widest, state, parameter, world_of, number, grid, places, found, hits, total):
     """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers."""
     share, far = hits.shape[1] // total.size, 2.0 * moved(state, places) + widest + NEAR + ROUNDING
     for a in range(state.shape[1]):
@@ -126,7 +126,7 @@ def collide(time, widest, state, parameter, world_of, entity, grid, places, foun
         for i in range(within(w, places[AT_X, a], places[AT_Y, a], 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
             b = found[i]
             if b > a and state[ACTIVE, b] > 0.0 and touching(a, b, state, parameter):
-                add(time, entity[a], entity[b], relative_speed(a, b, state), w, share, hits, total)
+                add(time, number[a], number[b], relative_speed(a, b, state), w, share, hits, total)
 
 
 @compiled

@@ -86,12 +86,12 @@ def notice(world: World, at: Watch) -> None:
         time, e.fired, at.trigger_world, at.triggers_told, world.changes.phase, at.change_world, at.changes_told, e.found, at.hits_told,
         at.table, at.count,
     )  # fmt: skip
-    notice_vehicles(time, v.state, world.worlds.of, world.worlds.entity, at.named, at.vehicles_told, at.table, at.count)
+    notice_vehicles(time, v.state, world.worlds.of, world.worlds.number, at.named, at.vehicles_told, at.table, at.count)
     notice_company(
         time, v.mind, world.worlds.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count
     )
     notice_waiting(
-        time, v.state, v.mind, v.parameter, world.worlds.of, world.worlds.entity, at.named, at.waiting, at.table, at.count
+        time, v.state, v.mind, v.parameter, world.worlds.of, world.worlds.number, at.named, at.waiting, at.table, at.count
     )
 
 
@@ -140,23 +140,23 @@ def is_waiting(v, state, mind, parameter):
 
 
 @compiled
-def notice_vehicles(time, state, world_of, entity, named, told, table, count):
+def notice_vehicles(time, state, world_of, number, named, told, table, count):
     """Vehicles that have rolled over, and named ones that have arrived."""
     for v in range(named.size):
         if is_news(abs(state[ROLL, v]) > ROLLED, told[0], v):
-            note(time, ROLLED_OVER, world_of[v], entity[v], -1, table, count)
+            note(time, ROLLED_OVER, world_of[v], number[v], -1, table, count)
     for v in range(named.size):
         if named[v] != 0 and is_news(state[ACTIVE, v] == 0.0, told[1], v):
-            note(time, ARRIVED, world_of[v], entity[v], -1, table, count)
+            note(time, ARRIVED, world_of[v], number[v], -1, table, count)
 
 
 @compiled
-def notice_waiting(time, state, mind, parameter, world_of, entity, named, waiting, table, count):
+def notice_waiting(time, state, mind, parameter, world_of, number, named, waiting, table, count):
     """Named vehicles that have come to a stand at a red light."""
     for v in range(named.size):
         waits = named[v] != 0 and is_waiting(v, state, mind, parameter)
         if waits and waiting[v] == 0:
-            note(time, WAITS, world_of[v], entity[v], -1, table, count)
+            note(time, WAITS, world_of[v], number[v], -1, table, count)
         waiting[v] = 1 if waits else 0
 
 

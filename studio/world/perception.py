@@ -93,7 +93,7 @@ def forget(v, sensors):
 
 
 @compiled
-def sense(k, longest, state, parameter, sensor_set, world_of, entity, table, first_object, object_count, standing, seed, grid,
+def sense(k, longest, state, parameter, sensor_set, world_of, number, entity, table, first_object, object_count, standing, seed, grid,
           places, found, sensors):  # fmt: skip
     """First pass: the front sensor of every car. A barrier that is nearer than the car takes its place."""
     for v in range(state.shape[1]):
@@ -108,7 +108,7 @@ def sense(k, longest, state, parameter, sensor_set, world_of, entity, table, fir
             )
         if other != -1:
             report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], places, sensors)
-            sensors[TARGET, v] = entity[other] if other >= 0 else other + first_object[w]
+            sensors[TARGET, v] = number[other] if other >= 0 else other + first_object[w]
 
 
 @inlined

@@ -76,7 +76,7 @@ def look(world: World) -> None:
     )  # fmt: skip
     queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
     traffic.meetings(
-        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.entity, world.neighbours.longest, c.track, c.queue_of,
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest, c.track, c.queue_of,
         c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
     )  # fmt: skip
     if o.standing.size:
@@ -87,7 +87,7 @@ def sense(world: World) -> None:
     """Sensors measure, satellites tell where one is."""
     v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
     perception.sense(
-        clock.k, g.longest, v.state, v.parameter, u.sensor_set, w.of, w.entity, o.table, o.first, o.count, o.standing, w.seed, g.grid,
+        clock.k, g.longest, v.state, v.parameter, u.sensor_set, w.of, w.number, w.entity, o.table, o.first, o.count, o.standing, w.seed, g.grid,
         g.places, g.found, u.sensors,
     )  # fmt: skip
     perception.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.sensors)
@@ -142,7 +142,7 @@ def collide(world: World) -> None:
     """Contacts are found at the end of the tick."""
     v, w, e, o, g = world.vehicles, world.worlds, world.events, world.obstacles, world.neighbours
     time = world.clock.time + world.clock.tick
-    collision.collide(time, g.widest, v.state, v.parameter, w.of, w.entity, g.grid, g.places, g.found, e.hits, e.found)
+    collision.collide(time, g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found, e.hits, e.found)
     if o.standing.size:
         collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
 

@@ -203,7 +203,7 @@ def asks_no_more(v, gap, speed, state, drivers, mind):
 
 
 @inlined
-def meet_queue(v, begin, end, order, slowest, entity, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, places,
+def meet_queue(v, begin, end, order, slowest, number, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, places,
                points, first, count, drivers, mind):  # fmt: skip
     """What one zone means for v: everybody in the queue of the other track from where he may matter on.
 
@@ -224,12 +224,12 @@ def meet_queue(v, begin, end, order, slowest, entity, longest, v_enter, v_leave,
             return
         if other != v:
             meet(
-                v, other, entity[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind
+                v, other, number[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind
             )
 
 
 @compiled
-def meetings(state, parameter, places, points, path_first, path_count, world_of, entity, longest, track, queue_of, partner_first, partner,
+def meetings(state, parameter, places, points, path_first, path_count, world_of, number, longest, track, queue_of, partner_first, partner,
              zone_first, zone_span, queue_first, order, slowest, drivers, mind):  # fmt: skip
     """Third pass: for every driver the queues on the tracks that his own meets."""
     for v in range(state.shape[1]):
@@ -241,7 +241,7 @@ def meetings(state, parameter, places, points, path_first, path_count, world_of,
                 continue
             for z in range(zone_first[p], zone_first[p + 1]):
                 meet_queue(
-                    v, queue_first[queue], queue_first[queue + 1], order, slowest, entity, longest, zone_span[0, z], zone_span[1, z],
+                    v, queue_first[queue], queue_first[queue + 1], order, slowest, number, longest, zone_span[0, z], zone_span[1, z],
                     zone_span[2, z], zone_span[3, z], state, parameter, places, points, path_first[v], path_count[v], drivers, mind,
                 )  # fmt: skip
 

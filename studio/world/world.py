@@ -1,4 +1,4 @@
-"""The world: all arrays of a batch of runs, in one place. One copy of it is a snapshot, its bytes are the hash."""
+"""The world: all arrays of a batch of runs, in one place. What moves is one buffer; a copy of it is a snapshot."""
 
 import hashlib
 from collections.abc import Iterator
@@ -8,6 +8,7 @@ import numpy as np
 
 from studio.application.host import Group, Hosted
 from studio.road.shadow import Shadow
+from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import ACTIVE
@@ -35,21 +36,22 @@ class Vehicles(Fleet):
     """A fleet with drivers: what they want, know and are told, [row, vehicle]."""
 
     drivers: np.ndarray
-    mind: np.ndarray
-    script: np.ndarray
+    mind: Moving
+    script: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
-    app_command: np.ndarray  # [actuator, vehicle] of applications, not a number where there is none
+    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
 
 
 @dataclass
 class Worlds:
-    """Which vehicles belong to which world: `of` and `entity` per vehicle; `first`, `count`, `seed` per world."""
+    """Which vehicles belong to which world, and which number they have there: in order, and by chance's order of names."""
 
-    of: np.ndarray
-    entity: np.ndarray
-    first: np.ndarray
-    count: np.ndarray
-    seed: np.ndarray
+    of: np.ndarray  # per vehicle
+    number: np.ndarray  # per vehicle, in the order of columns
+    entity: np.ndarray  # per vehicle, as chance tells them apart
+    first: np.ndarray  # per world
+    count: np.ndarray  # per world
+    seed: np.ndarray  # per world
 
 
 @dataclass
@@ -57,11 +59,11 @@ class Roads:
     """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
-    path_first: np.ndarray
-    path_count: np.ndarray
+    path_first: Moving
+    path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
-    stop_first: np.ndarray
-    stop_count: np.ndarray
+    stop_first: Moving
+    stop_count: Moving
     stop_station: np.ndarray
     stop_link: np.ndarray
     conflicts: "Conflicts"
@@ -70,7 +72,7 @@ class Roads:
     signal_count: np.ndarray
     phase_end: np.ndarray
     phase_state: np.ndarray
-    shown: np.ndarray
+    shown: Moving
     weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
@@ -99,9 +101,9 @@ class Changes:
     """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
 
     world: np.ndarray  # number of the world, per change
-    moments: np.ndarray  # [row, change] of all beginnings, then of all ends
-    phase: np.ndarray  # int64[change]: BEFORE, ACTING, OVER
-    turned: np.ndarray  # [s] float64[2, change]: when it began and ended, not a number before
+    moments: Moving  # [row, change] of all beginnings, then of all ends
+    phase: Moving  # int64[change]: BEFORE, ACTING, OVER
+    turned: Moving  # [s] float64[2, change]: when it began and ended, not a number before
     limits: list[tuple[int, np.ndarray, np.ndarray]]  # change, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
 
@@ -111,12 +113,12 @@ class Detours:
     """Vehicles whose path passes works: which of its paths each has taken (`choice` is state), and all their paths."""
 
     vehicle: np.ndarray  # int64[m]: columns
-    choice: np.ndarray  # int64[m]: bit b is work b
+    choice: Moving  # int64[m]: bit b is work b
     work: np.ndarray  # int64[MOST_WORKS, m]: change that work b is, -1 for none
     base: np.ndarray  # int64[m]: column of `lines` with choice 0
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
-    held: np.ndarray  # int64[change]: vehicles that are still within it on the usual path
+    held: Moving  # int64[change]: vehicles that are still within it on the usual path
     known: dict[tuple[int, int], np.ndarray]  # zones of pairs of tracks, by their first points
 
 
@@ -127,11 +129,11 @@ class Obstacles:
     table: np.ndarray  # [row, object]
     first: np.ndarray  # per world
     count: np.ndarray
-    standing: np.ndarray  # int64[object], 1 while it stands there
+    standing: Moving  # int64[object], 1 while it stands there
     sweep: np.ndarray  # [row, object on a line]
     counts: np.ndarray  # of these per line
-    sweep_first: np.ndarray  # per vehicle, on the line it is on
-    sweep_count: np.ndarray
+    sweep_first: Moving  # per vehicle, on the line it is on
+    sweep_count: Moving
     names: tuple[str, ...]
 
 
@@ -140,13 +142,13 @@ class Units:
     """Sensors and radio: what is set, what was sent, what has been received."""
 
     sensor_set: np.ndarray
-    sensors: np.ndarray
+    sensors: Moving
     gps_set: np.ndarray
     radio_set: np.ndarray  # per world
-    sent: np.ndarray  # [row, slot · n + vehicle]
+    sent: Moving  # [row, slot · n + vehicle]
     link_receiver: np.ndarray
     link_sender: np.ndarray
-    inbox: np.ndarray  # [row, link]
+    inbox: Moving  # [row, link]
 
 
 @dataclass
@@ -156,9 +158,9 @@ class Events:
     trigger_time: np.ndarray
     trigger_vehicle: np.ndarray
     trigger_script: np.ndarray
-    fired: np.ndarray
-    hits: np.ndarray  # every world has its share of the columns
-    found: np.ndarray  # how many collisions each world has had
+    fired: Moving
+    hits: Moving  # every world has its share of the columns
+    found: Moving  # how many collisions each world has had
 
     @property
     def hits_found(self) -> int:
@@ -189,6 +191,8 @@ class World:
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
+    origin: str = ""  # digest of what it was built from
+    arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 
     @property
     def size(self) -> int:
@@ -215,17 +219,17 @@ class World:
         first = int(self.obstacles.first[world])
         return slice(first, first + int(self.obstacles.count[world]))
 
-    def moving_parts(self) -> list[np.ndarray]:
-        """The arrays that change during a run."""
+    def hashed_parts(self) -> list[np.ndarray]:
+        """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
         units = [u.sensors, u.sent, u.inbox]
         happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
-        """SHA-256 of the moving parts and the clock; of one world's, which do not depend on the batch that it runs in."""
+        """SHA-256 of these parts and the clock; of those of one world, which do not depend on the batch that it runs in."""
         digest = hashlib.sha256(str(self.clock.k).encode())
-        for part in self.moving_parts() if number is None else self.parts_of(number):
+        for part in self.hashed_parts() if number is None else self.parts_of(number):
             digest.update(np.ascontiguousarray(part).tobytes())
         return digest.hexdigest()
 

@@ -610,7 +610,8 @@ def test_the_list_has_a_row_for_each_vehicle():
 
 def test_a_vehicle_has_a_row_for_each_value(model):
     rows = listing.value_rows(model)
-    assert [row[0] for row in rows] == [*listing.TEXTS, *datasheet.quantities()]
+    computed = [f"figures.{each.name}" for each in figures.figures(model.values)]
+    assert [row[0] for row in rows] == [*listing.TEXTS, *datasheet.quantities(), *computed]
     assert all(len(row) == len(listing.VALUE_HEAD) and all(isinstance(cell, str) for cell in row) for row in rows)
     assert len(listing.value_json(model)) == len(rows)
 
@@ -621,4 +622,7 @@ def test_rows_show_value_unit_origin_source_and_range():
     assert rows["body.mass"][:5] == mass
     assert rows["body.mass"][6] == "800 to 900"
     assert rows["gearbox.disengage_times"][2] == "0.6, 0.617, 0.57, 0.3, 0.3, 0.3"
+    assert float(rows["figures.power"][2]) == pytest.approx(55e3, rel=0.015)
+    assert rows["figures.power"][3:] == ["W", "computed", "", ""]
+    assert "figures.stall_speed" not in rows and rows["figures.roll_gradient"][3] == "rad s²/m"
     assert rows["engine.kind"] == ["engine.kind", "Kind", "combustion", "", "", "", ""]

@@ -1,6 +1,5 @@
 """Lanes that are closed or shifted while a world runs: the lines around them, who takes which, and what stands there."""
 
-import copy
 from functools import partial
 
 import numpy as np
@@ -18,6 +17,7 @@ from studio.vehicle.state import ACTIVE, X, Y
 from studio.world.build import build
 from studio.world.mind import OFFSET, STATION
 from studio.world.setting import pose
+from studio.world.snapshot import restore, snapshot
 from studio.world.street import CONE, O_KIND
 from studio.world.tick import tick
 from tests import changing
@@ -234,18 +234,19 @@ def test_a_closing_does_not_know_its_batch(sample):
         scenario(sample, changes, alone=False)
         for changes in ({"works": {"start": {"time": 3}, "do": CLOSED}}, {}, {"works": {"start": {"vehicle": "leader", "along": 390}, "do": CLOSED}})
     ]
-    alone = [run_for([each], 14).world_digest(0) for each in variants]
+    alone = [run_for([each], 14).digest(0) for each in variants]
     assert len(set(alone)) == 3
     for order in ([0, 1, 2], [1, 2, 0]):
         together = run_for([variants[i] for i in order], 14)
-        assert [together.world_digest(order.index(i)) for i in range(3)] == alone
+        assert [together.digest(order.index(i)) for i in range(3)] == alone
 
 
 @pytest.mark.parametrize("seconds", [1.0, 4.0, 10.0])
 def test_a_snapshot_goes_on_around_a_closing(sample, seconds):
     """Before the lane is closed, while the first cars are led, and while one has not left it."""
-    world = run_for([scenario(sample, {"works": {"start": {"time": 3}, "do": CLOSED}}, alone=False, applications={})], seconds)
-    twin = copy.deepcopy(world)
+    settings = [scenario(sample, {"works": {"start": {"time": 3}, "do": CLOSED}}, alone=False, applications={})]
+    world, twin = run_for(settings, seconds), build(settings)
+    restore(twin, snapshot(world))
     for _ in range(300):
         tick(world)
         tick(twin)
