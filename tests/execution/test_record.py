@@ -74,7 +74,7 @@ def test_a_trigger_may_have_any_name(sample):
     renamed = loaded.scenario.model_copy(update={"triggers": {"hits": loaded.scenario.triggers["hard_brake"].model_copy(update={"time": 0.5})}})
     run = simulation(job.prepare(job.Loaded(loaded.path, {}, renamed)))
     as_fast_as_possible(run)
-    assert [event.time for event in run.happenings] == [0.5]
+    assert [event.time for event in run.cases[0].happenings] == [0.5]
 
 
 def test_what_happens_to_the_platoon_is_told(sample):

@@ -86,7 +86,7 @@ def test_an_event_is_as_good_as_its_time(sample):
     """A change that a vehicle begins ends in the same bits as one that begins at the time when it passed."""
     by_event = simulation(scenario(sample, {"slow": {"start": {"vehicle": "leader", "along": 430}, "do": SLOW}}, clock={"duration": 15}))
     as_fast_as_possible(by_event)
-    (begun,) = [each for each in by_event.happenings if each.text.startswith("slow begins")]
+    (begun,) = [each for each in by_event.cases[0].happenings if each.text.startswith("slow begins")]
     assert begun.vehicle == "leader"
     by_time = simulation(scenario(sample, {"slow": {"start": {"time": begun.time}, "do": SLOW}}, clock={"duration": 15}))
     as_fast_as_possible(by_time)
@@ -100,7 +100,7 @@ def test_beginning_and_end_are_told(sample):
     del changes["ice"]["do"]["speed"]
     run = simulation(scenario(sample, changes, clock={"duration": 3}))
     as_fast_as_possible(run)
-    told = [(each.time, each.text) for each in run.happenings]
+    told = [(each.time, each.text) for each in run.cases[0].happenings]
     assert told == [(1.0, "ice begins: friction 0.3"), (2.0, "ice ends")]
 
 
@@ -300,7 +300,7 @@ def test_a_collision_with_an_object_is_told_by_its_name(sample):
     changes["wall"]["do"] |= {"end": 470, "spacing": 20}
     run = simulation(scenario(sample, changes, clock={"duration": 12}))
     as_fast_as_possible(run)
-    hits = [each for each in run.happenings if each.text.startswith("collision")]
+    hits = [each for each in run.cases[0].happenings if each.text.startswith("collision")]
     assert [each.text.partition(" at ")[0] for each in hits] == ["collision of leader and barrier_1 of wall"]
     assert 8.0 < float(hits[0].text.split()[-2]) < 13.0
     contact = run.record().channel("station")[0][np.searchsorted(run.record().time, hits[0].time)] + run.world.vehicles.parameter[FRONT, 0]

@@ -94,8 +94,7 @@ def test_led_paths_have_zones_of_their_own(sample):
     world = build([setting])
     spans = []
     for _ in range(2):
-        pairs = world.roads.zone_pair.T.tolist()
-        spans.append([span for pair, span in zip(pairs, world.roads.zone_span.T, strict=True) if pair == [0, 1]])
+        spans.append(shared(world.roads.conflicts, 0, 1))
         tick(world)
     before, after = ([(span[0], span[1]) for span in each if span[0] < 600] for each in spans)
     assert before == []
@@ -104,6 +103,14 @@ def test_led_paths_have_zones_of_their_own(sample):
     paths = [world.roads.path_first, world.roads.path_count]
     expected = zones(world.roads.points, paths[0][0], paths[1][0], paths[0][1], paths[1][1])
     assert (np.array(spans[1]) == expected).all()
+
+
+def shared(conflicts, one, other):
+    """The zones that the tracks of two cars share."""
+    own = conflicts.track[one]
+    partners = range(conflicts.partner_first[own], conflicts.partner_first[own + 1])
+    found = [p for p in partners if conflicts.partner[p] == conflicts.track[other]]
+    return [span for p in found for span in conflicts.zone_span.T[conflicts.zone_first[p] : conflicts.zone_first[p + 1]]]
 
 
 def two_lanes():
@@ -260,7 +267,7 @@ def test_an_event_on_a_led_path_is_where_it_was(sample):
     setting = scenario(sample, WORKS | after, clock={"duration": 30})
     run = simulation(setting)
     as_fast_as_possible(run)
-    (begun,) = [each.time for each in run.happenings if each.text.startswith("slow begins")]
+    (begun,) = [each.time for each in run.cases[0].happenings if each.text.startswith("slow begins")]
     at = np.searchsorted(run.record().time, begun - 1e-6)
     place = np.array([run.record().channel("x")[0, at], run.record().channel("y")[0, at]])
     assert np.hypot(*(place - pose(setting.cars[0].path, 600.0)[:2])) < 0.4

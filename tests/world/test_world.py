@@ -143,8 +143,9 @@ def test_the_state_that_breaks_is_named(sample_setting, part, row, quantity):
         broken.advance()
     getattr(broken.world.vehicles, part)[row, 3] = np.nan
     broken.advance()
-    assert broken.status == "failed"
-    assert broken.error == f"{quantity} of follower_3 is not finite any more at 0.140 s"
+    (case,) = broken.cases
+    assert case.status == "failed"
+    assert case.error == f"{quantity} of follower_3 is not finite any more at 0.140 s"
 
 
 def test_traffic_comes_in_again(sample):
