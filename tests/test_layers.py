@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 FLOORS = [
-    {"errors", "conventions", "compiled", "rows"},
+    {"errors", "conventions", "compiled", "rows", "portable"},
     {"model"},
     {"road"},
     {"scenario"},
