@@ -30,7 +30,7 @@ from studio.application import setup
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.errors import Problem, ServerError
 from studio.execution.simulation import Simulation, simulation
-from studio.road.motorway import motorway
+from studio.road.drawn.motorway import motorway
 from studio.scenario import catalogue
 from studio.vehicle import fleet
 from studio.vehicle.command import RING, U_DRIVE, U_STEER

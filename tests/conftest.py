@@ -31,7 +31,7 @@ def sample_setting():
 
 
 # What takes longest comes first, so that no process is left alone with it at the end.
-LONGEST_FIRST = ("tests/world/test_random_routes.py", "tests/test_readme.py", "tests/test_cli.py", "tests/world", "tests/browser", "tests/server")
+LONGEST_FIRST = ("tests/world/test_random_routes.py", "tests/test_readme.py", "tests/test_cli.py", "tests/world", "tests/vehicle", "tests/browser", "tests/server")
 
 
 def pytest_collection_modifyitems(items):

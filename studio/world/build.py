@@ -13,8 +13,8 @@ from studio.application.contract import ACTUATORS
 from studio.application.host import Group, Hosted, compiled_loop, first_memory, observation_rows, python_loop
 from studio.conventions import GRAVITY
 from studio.model.driver import sight_speed
-from studio.road import shadow
-from studio.road.shadow import Shadow
+from studio.road.network import shadow
+from studio.road.network.shadow import Shadow
 from studio.scenario.schema import Application, Driver, Friction, Weather
 from studio.vehicle.command import RING, U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.road import conflict
-from studio.road.path import Path
+from studio.road.ways import conflict
+from studio.road.ways.path import Path
 from studio.world.setting import Setting
 from studio.world.way import MOST_WORKS, Way
 from studio.world.world import Conflicts, Detours, Worlds

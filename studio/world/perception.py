@@ -8,10 +8,18 @@ from math import atan2, cos, nan, sin, sqrt
 from studio.compiled import compiled, inlined
 from studio.model import radio, satellite, sensor
 from studio.model.random import (
-    GPS_DRIFT, GPS_NOISE, MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, normal_pair, uniform,
+    GPS_DRIFT,
+    GPS_NOISE,
+    MESSAGE_DELAY,
+    MESSAGE_LOSS,
+    RANGE_NOISE,
+    RATE_NOISE,
+    normal,
+    normal_pair,
+    uniform,
 )  # fmt: skip
-from studio.road.grid import COLUMNS
-from studio.road.shadow import EYE, open_sky, walls_between
+from studio.road.network.grid import COLUMNS
+from studio.road.network.shadow import EYE, open_sky, walls_between
 from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import A_X, ACTIVE, PSI, V_X, YAW_RATE, X, Y

@@ -9,7 +9,8 @@ from math import inf, nan
 
 from studio.compiled import compiled, inlined
 from studio.model import driver
-from studio.road.path import (
+from studio.road.network.signals import GREEN, signal_state
+from studio.road.ways.path import (
     PATH_CURVATURE,
     PATH_HEADING,
     PATH_SPACING,
@@ -19,7 +20,6 @@ from studio.road.path import (
     interpolate,
     project,
 )
-from studio.road.signals import GREEN, signal_state
 from studio.vehicle.parameter import C_FRONT, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, WIDTH
 from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, PSI, V_X, YAW_RATE, X, Y

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.application.host import Group, Hosted
-from studio.road.shadow import Shadow
+from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet

@@ -12,7 +12,7 @@ from studio.errors import ScenarioError
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.model.driver import FOG_SPEED, REACTION, sight_speed
-from studio.road.path import PATH_SPEED
+from studio.road.ways.path import PATH_SPEED
 from studio.scenario.schema import Scenario, unit_at
 from studio.vehicle.contact import MU
 from studio.vehicle.parameter import FRONT

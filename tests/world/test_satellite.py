@@ -9,12 +9,12 @@ from studio import job
 from studio.application.host import observation_rows
 from studio.model import satellite
 from studio.model.random import GPS_NOISE, normal, normal_pair
-from studio.road import shadow
-from studio.road.network import Building
+from studio.road.network import Building, shadow
 from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
 from studio.world import perception
 from studio.world.build import build
-from studio.world.channel import CHANNELS, sample as channels
+from studio.world.channel import CHANNELS
+from studio.world.channel import sample as channels
 from studio.world.tick import meet, tick
 from studio.world.unit import (
     CANYON, DRIFT_SIGMA, DRIFT_TIME, GPS_EAST, GPS_NORTH, GPS_SET, GPS_SIGMA, M_TRUE_X, M_TRUE_Y, M_X, M_Y, SENSOR, SENT,
