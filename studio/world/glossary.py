@@ -13,6 +13,7 @@ from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
 from studio.world.mind import DRIVER, MIND, SCRIPT
+from studio.world.neighbour import PLACE
 from studio.world.notice import NOTICE
 from studio.world.street import COLLISION, LINE, MOMENT, OBSTACLE, PIECE, SWEEP
 from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET
@@ -20,7 +21,7 @@ from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
     MIND, SCRIPT, DRIVER, SENSOR, MESSAGE, SENSOR_SET, GPS_SET, RADIO_SET,
-    LINE, MOMENT, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE,
+    LINE, MOMENT, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 
