@@ -2,7 +2,7 @@
 
 from math import cos, sin, sqrt
 
-from studio.compiled import compiled, inlined
+from studio.compiled import inlined, lean
 from studio.model import body, gearbox
 from studio.vehicle.command import RING, U_GEAR
 from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
@@ -57,7 +57,7 @@ def down_speed(v, gear, pedal, gears):
     return gearbox.threshold(of_gear(G_DOWN_LIGHT, gear, v, gears), of_gear(G_DOWN_FULL, gear, v, gears), pedal)
 
 
-@compiled
+@lean
 def keeps(v, gear, w_out, state, parameter, gears):
     """Whether a vehicle would keep the next higher gear on this slope with this pedal."""
     R, i = parameter[RADIUS, v], of_gear(G_RATIO, gear, v, gears)
@@ -83,7 +83,7 @@ def wanted(v, w_out, request, state, parameter, gears):
     return gearbox.permitted(gear, int(state[GEAR, v]), top, state[V_X, v], w_wanted, w_present, parameter[LIMIT, v])
 
 
-@compiled
+@lean
 def begin(v, gear, tick, state, gears):
     """A shift begins: the clutch opens over the time of the gear that is left."""
     state[NEXT_GEAR, v] = gear
@@ -92,7 +92,7 @@ def begin(v, gear, tick, state, gears):
     state[CLUTCH_RATE, v] = -gearbox.rate(of_gear(G_DISENGAGE, state[GEAR, v], v, gears), tick)
 
 
-@compiled
+@lean
 def engage(v, w_out, tick, state, parameter, gears):
     """The new gear is in, the clutch still open. Behind a converter the gears hand over within the time for closing.
 
@@ -111,7 +111,7 @@ def engage(v, w_out, tick, state, parameter, gears):
         state[RATIO, v] = state[NEXT_RATIO, v]
 
 
-@compiled
+@lean
 def shift(v, w_out, tick, state, parameter, gears):
     """One tick of a shift."""
     if state[CLUTCH, v] > 0.0 and parameter[COUPLING, v] != RIGID:
@@ -142,7 +142,7 @@ def drive(v, w_out, tick, state, parameter, gears):
     state[CLUTCH_RATE, v] = rate if closes else -rate
 
 
-@compiled
+@lean
 def shifts(k, tick, state, wheels, parameter, gears, commands):
     """Every gearbox decides."""
     n = state.shape[1]
@@ -162,7 +162,7 @@ def shifts(k, tick, state, wheels, parameter, gears, commands):
 # --- on the road ---------------------------------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def first_gear_for(v, w_out, gears):
     """The highest gear that the schedule would keep at this speed of the driven wheels, pedal as for calm driving."""
     best = 1
@@ -173,7 +173,7 @@ def first_gear_for(v, w_out, gears):
     return best
 
 
-@compiled
+@lean
 def stand(v, n, x, y, psi, state, ground, parameter):
     """Places a vehicle on the plane under its first wheel, level with it: orientation and height."""
     g_x, g_y = ground[SLOPE_X, v], ground[SLOPE_Y, v]
@@ -189,7 +189,7 @@ def stand(v, n, x, y, psi, state, ground, parameter):
     state[V_EAST, v], state[V_NORTH, v], state[V_UP, v] = body.to_world(R, state[V_X, v], 0.0, 0.0)
 
 
-@compiled
+@lean
 def start(v, x, y, psi, speed, state, wheels, ground, parameter, gears):
     """Puts a vehicle on the road: rolling without slip, in the gear for its speed, springs at rest."""
     n = state.shape[1]
@@ -205,13 +205,13 @@ def start(v, x, y, psi, speed, state, wheels, ground, parameter, gears):
     start_engine(v, speed / parameter[RADIUS, v], state, parameter, gears)
 
 
-@compiled
+@lean
 def start_engine(v, w_out, state, parameter, gears):
     """Engine, clutch and gear for a speed of the driven wheels [rad/s]."""
     start_in_gear(v, first_gear_for(v, w_out, gears), w_out, state, parameter, gears)
 
 
-@compiled
+@lean
 def start_in_gear(v, gear, w_out, state, parameter, gears):
     """The same in a given gear."""
     i = of_gear(G_RATIO, gear, v, gears)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.road.ways.detour import limited
 from studio.road.ways.path import PATH_SPEED, project
 from studio.scenario.schema import Limit
@@ -25,7 +25,7 @@ from studio.world.world import Changes, World, Worlds
 EARLY = 1e-9  # [s] a time that is a whole number of ticks must not come a tick late by rounding
 
 
-@compiled
+@lean
 def has_come(i, time, moments, state, points, path_first, path_count, mind):
     """Whether a moment is there: its time, or its vehicle at its station."""
     if moments[BY, i] < 0.0:
@@ -35,7 +35,7 @@ def has_come(i, time, moments, state, points, path_first, path_count, mind):
     return state[ACTIVE, v] > 0.0 and s >= moments[AT, i]
 
 
-@compiled
+@lean
 def proceed(time, moments, state, points, path_first, path_count, mind, phase, turned):
     """Changes begin and end; whether one did."""
     any_turned = False
@@ -47,14 +47,14 @@ def proceed(time, moments, state, points, path_first, path_count, mind, phase, t
     return any_turned
 
 
-@compiled
+@lean
 def is_within(v, enter, leave, state, parameter, mind):
     """Whether a part of a vehicle is between two stations of its line."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     return state[ACTIVE, v] > 0.0 and bumper > enter and bumper - parameter[LENGTH, v] < leave
 
 
-@compiled
+@lean
 def choose(phase, vehicle, work, base, span, state, parameter, mind, held, choice, chosen):
     """Everybody who is not within a work takes the line that it asks for now; counts those who are held by one; whether one went over."""
     held[:] = 0

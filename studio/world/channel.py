@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.rows import Table
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
@@ -47,7 +47,7 @@ def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> Non
     gather(columns, (k % RING) * world.size, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.sensors, values)
 
 
-@compiled
+@lean
 def gather(columns, commanded, table_of, row_of, state, mind, commands, sensors, values):
     """The pass behind it; `commanded` is the first column of the tick's commands."""
     for c in range(row_of.size):
@@ -64,7 +64,7 @@ def gather(columns, commanded, table_of, row_of, state, mind, commands, sensors,
             values[:, i] = nan
 
 
-@compiled
+@lean
 def pick(row, columns, start, values):
     """One row of some vehicles."""
     for i in range(columns.size):
@@ -80,7 +80,7 @@ def link_ages(world: World, ages: np.ndarray) -> None:
     age(world.clock.time, world.vehicles.state, u.link_receiver, u.link_sender, u.inbox, ages)
 
 
-@compiled
+@lean
 def age(time, state, link_receiver, link_sender, inbox, ages):
     """The pass behind it."""
     for link in range(ages.size):

@@ -6,7 +6,7 @@ D. Manocha, OBBTree, SIGGRAPH 1996). What happens after a contact is not claimed
 
 from math import cos, sin, sqrt
 
-from studio.compiled import compiled, inlined
+from studio.compiled import inlined, lean
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
 from studio.world.neighbour import AT_X, AT_Y, moved, within
@@ -17,27 +17,27 @@ NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than ha
 ROUNDING = 1e-6  # [m] by which a bound gives way
 
 
-@compiled
+@lean
 def centre(v, state, parameter):
     """Middle of the body [m]."""
     ahead = parameter[FRONT, v] - 0.5 * parameter[LENGTH, v]
     return state[X, v] + ahead * cos(state[PSI, v]), state[Y, v] + ahead * sin(state[PSI, v])
 
 
-@compiled
+@lean
 def reach_along(angle, length, width):
     """Half extent [m] of a box along a direction at `angle` [rad] to its length."""
     return 0.5 * (length * abs(cos(angle)) + width * abs(sin(angle)))
 
 
-@compiled
+@lean
 def separated(axis, dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
     """Whether the direction `axis` [rad] has a gap between two boxes whose centres are (dx, dy) [m] apart."""
     distance = abs(dx * cos(axis) + dy * sin(axis))
     return distance > reach_along(psi_a - axis, length_a, width_a) + reach_along(psi_b - axis, length_b, width_b)
 
 
-@compiled
+@lean
 def overlap(dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
     """Whether two boxes whose centres are (dx, dy) [m] apart overlap."""
     quarter = 1.5707963267948966
@@ -61,7 +61,7 @@ def are_apart(a, b, state, parameter):
     return dx * dx + dy * dy > reach * reach
 
 
-@compiled
+@lean
 def touching(a, b, state, parameter):
     """Whether the bodies of two cars overlap."""
     if are_apart(a, b, state, parameter):
@@ -76,7 +76,7 @@ def touching(a, b, state, parameter):
     )
 
 
-@compiled
+@lean
 def striking(v, i, state, parameter, table):
     """Whether the body of a car overlaps object i."""
     x, y = centre(v, state, parameter)
@@ -88,7 +88,7 @@ def striking(v, i, state, parameter, table):
     )
 
 
-@compiled
+@lean
 def relative_speed(a, b, state):
     """Speed [m/s] of one body as seen from the other."""
     east = state[V_X, a] * cos(state[PSI, a]) - state[V_X, b] * cos(state[PSI, b])
@@ -96,7 +96,7 @@ def relative_speed(a, b, state):
     return sqrt(east * east + north * north)
 
 
-@compiled
+@lean
 def is_known(a, b, first, last, hits):
     """Whether this pair stands in the columns from `first` to before `last`."""
     for i in range(first, last):
@@ -105,7 +105,7 @@ def is_known(a, b, first, last, hits):
     return False
 
 
-@compiled
+@lean
 def report(time, a, b, speed, column, hits):
     """Writes a collision at a relative speed [m/s]."""
     hits[HIT_TIME, column] = time
@@ -114,7 +114,7 @@ def report(time, a, b, speed, column, hits):
     hits[HIT_SPEED, column] = speed
 
 
-@compiled
+@lean
 def collide(time, widest, state, parameter, world_of, number, grid, places, found, hits, total):
     """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers."""
     share, far = hits.shape[1] // total.size, 2.0 * moved(state, places) + widest + NEAR + ROUNDING
@@ -129,7 +129,7 @@ def collide(time, widest, state, parameter, world_of, number, grid, places, foun
                 add(time, number[a], number[b], relative_speed(a, b, state), w, share, hits, total)
 
 
-@compiled
+@lean
 def add(time, a, b, speed, w, share, hits, total):
     """A contact of a pair that has not been reported."""
     first = w * share
@@ -138,7 +138,7 @@ def add(time, a, b, speed, w, share, hits, total):
         total[w] += 1
 
 
-@compiled
+@lean
 def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, total):
     """The same for cars and the objects that stand on the road; object i is OBJECT - i."""
     share = hits.shape[1] // first.size

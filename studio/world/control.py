@@ -11,7 +11,7 @@ engine gets F R as a request at the wheels, negative ones too; the brake gets wh
 from math import cos, inf, isnan, nan, sin
 
 from studio.application.contract import ACTUATORS
-from studio.compiled import compiled, inlined
+from studio.compiled import inlined, lean
 from studio.conventions import GRAVITY
 from studio.model import actuator, aerodynamics
 from studio.model.driver import NO_LIMIT
@@ -35,7 +35,7 @@ HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 ) = range(len(ACTUATORS))  # fmt: skip
 
 
-@compiled
+@lean
 def fire(time, trigger_time, trigger_vehicle, trigger_script, fired, script):
     """Starts the maneuvers whose time has come."""
     for i in range(trigger_time.size):
@@ -124,7 +124,7 @@ def is_held(v, u, state):
     return u <= 0.0 and abs(state[V_X, v]) < HOLD_SPEED
 
 
-@compiled
+@lean
 def holding_torque(v, state, ground, parameter):
     """Brake torque [Nm] that holds a standing car."""
     return parameter[MASS, v] * (HOLD + GRAVITY * abs(grade(v, state, ground))) * parameter[RADIUS, v]
@@ -166,7 +166,7 @@ def steer(v, column, parameter, mind, app_command, commands):
     commands[U_STEER_TORQUE, column] = app_command[APP_STEERING_TORQUE, v]
 
 
-@compiled
+@lean
 def command(k, time, state, ground, parameter, script, mind, app_command, commands):
     """Writes this tick's commands into the ring."""
     n = state.shape[1]
@@ -183,7 +183,7 @@ def command(k, time, state, ground, parameter, script, mind, app_command, comman
             take_over(v, column, state, parameter, mind, app_command, commands)
 
 
-@compiled
+@lean
 def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
     """What the applications of one group see, in the order of an Observation's fields."""
     for j in range(columns.size):
@@ -203,7 +203,7 @@ def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
         observe_message(time, links[j], inbox, observed, j)
 
 
-@compiled
+@lean
 def observe_message(time, link, inbox, observed, j):
     """The newest message of the unit that car j listens to."""
     observed[14, j] = 0.0

@@ -11,7 +11,7 @@ from math import cos, sin
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.road.ways.path import (
     PATH_HEADING,
     PATH_HEIGHT,
@@ -35,7 +35,7 @@ NEAR = 12.0  # [m] a piece farther from the centre of gravity is under no wheel
 MOST_NEAR = 1000  # pieces that are looked at for one vehicle
 
 
-@compiled
+@lean
 def touch(w, s, points, first, count, ground):
     """Lays the plane under one wheel that touches a path at station s [m]: z = height + slope_x x + slope_y y."""
     at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
@@ -46,14 +46,14 @@ def touch(w, s, points, first, count, ground):
     ground[HEIGHT, w] = interpolate(points, first, PATH_HEIGHT, at) - level
 
 
-@compiled
+@lean
 def touch_all(v, n, s, points, first, count, ground):
     """The same plane under all wheels of one vehicle."""
     for corner in range(4):
         touch(corner * n + v, s, points, first, count, ground)
 
 
-@compiled
+@lean
 def rise(state, parameter, station, points, path_first, path_count, raised, ground):
     """First pass: height and slope under all wheels of vehicles whose path is `raised`; the others' ground stays level."""
     n = state.shape[1]
@@ -82,7 +82,7 @@ def pieces(stretch: Friction, path: RoadPath, world: int, change: int) -> np.nda
     return made
 
 
-@compiled
+@lean
 def covers(i, x, y, table):
     """Whether a piece lies under a point [m]."""
     c, s = cos(table[PIECE_HEADING, i]), sin(table[PIECE_HEADING, i])
@@ -91,7 +91,7 @@ def covers(i, x, y, table):
     return abs(forward) <= 0.5 * PATH_SPACING and -table[PIECE_RIGHT, i] <= left <= table[PIECE_LEFT, i]
 
 
-@compiled
+@lean
 def friction_at(x, y, friction, near, found, table):
     """Friction [1] at a point: the last of the pieces `near` it that cover it, else that of the weather."""
     for j in range(found):
@@ -100,7 +100,7 @@ def friction_at(x, y, friction, near, found, table):
     return friction
 
 
-@compiled
+@lean
 def near_pieces(v, world, state, table, near):
     """Fills `near` with the pieces around a vehicle whose change acts; how many there are."""
     found = 0
@@ -113,7 +113,7 @@ def near_pieces(v, world, state, table, near):
     return found
 
 
-@compiled
+@lean
 def lay(state, parameter, world_of, weather, table, near, ground):
     """Second pass: friction under all wheels; weather float64[world]."""
     n = state.shape[1]

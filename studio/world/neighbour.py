@@ -13,7 +13,7 @@ from math import cos, floor, sin, sqrt
 
 import numpy as np
 
-from studio.compiled import compiled, inlined
+from studio.compiled import inlined, lean
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, PSI, X, Y
@@ -81,7 +81,7 @@ def bucket_of(number, buckets):
     return int(np.uint64(number) * SCATTER >> HALF & np.uint64(buckets - 1))
 
 
-@compiled
+@lean
 def sort(state, parameter, world_of, grid, places):
     """Sorts all vehicles that take part, by counting: how many are in each bucket, then each into its place."""
     buckets = grid.shape[1] - 1
@@ -107,7 +107,7 @@ def put_down(v, state, parameter, places):
     places[REAR_X, v], places[REAR_Y, v] = state[X, v] - back * c, state[Y, v] - back * s
 
 
-@compiled
+@lean
 def fill(state, world_of, grid):
     """Everybody takes the last free place of his bucket, the last vehicle first, so that each bucket is in order."""
     for v in range(state.shape[1] - 1, -1, -1):
@@ -156,7 +156,7 @@ def in_cell(number, x, y, c, s, half_length, half_width, grid, places, found, co
     return count
 
 
-@compiled
+@lean
 def within_all(world, x, y, c, s, half_length, half_width, grid, places, found):
     """The same for boxes that hold more cells than there are buckets."""
     count = 0
@@ -185,7 +185,7 @@ def insert(v, count, found):
     return count + 1
 
 
-@compiled
+@lean
 def moved(state, places):
     """How far [m] the vehicle that has gone farthest has gone since all were sorted."""
     most = 0.0

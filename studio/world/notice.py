@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X
@@ -95,7 +95,7 @@ def notice(world: World, at: Watch) -> None:
     )
 
 
-@compiled
+@lean
 def note(time, kind, world, subject, other, table, count):
     """Writes one notice."""
     i = count[0]
@@ -107,7 +107,7 @@ def note(time, kind, world, subject, other, table, count):
     count[0] = i + 1
 
 
-@compiled
+@lean
 def is_news(true, told, i):
     """Whether something has become true, and this has not been told; from now on it has."""
     if not true or told[i] != 0:
@@ -116,7 +116,7 @@ def is_news(true, told, i):
     return True
 
 
-@compiled
+@lean
 def notice_events(time, fired, trigger_world, triggers_told, phase, change_world, changes_told, found, hits_told, table, count):
     """Maneuvers that have begun, changes of the road that have begun or ended, collisions."""
     for i in range(fired.size):
@@ -132,14 +132,14 @@ def notice_events(time, fired, trigger_world, triggers_told, phase, change_world
         hits_told[w] = found[w]
 
 
-@compiled
+@lean
 def is_waiting(v, state, mind, parameter):
     """Whether a vehicle stands at a red light."""
     distance = mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
     return distance < AT_THE_LINE and state[V_X, v] < STANDING
 
 
-@compiled
+@lean
 def notice_vehicles(time, state, world_of, number, named, told, table, count):
     """Vehicles that have rolled over, and named ones that have arrived."""
     for v in range(named.size):
@@ -150,7 +150,7 @@ def notice_vehicles(time, state, world_of, number, named, told, table, count):
             note(time, ARRIVED, world_of[v], number[v], -1, table, count)
 
 
-@compiled
+@lean
 def notice_waiting(time, state, mind, parameter, world_of, number, named, waiting, table, count):
     """Named vehicles that have come to a stand at a red light."""
     for v in range(named.size):
@@ -160,7 +160,7 @@ def notice_waiting(time, state, mind, parameter, world_of, number, named, waitin
         waiting[v] = 1 if waits else 0
 
 
-@compiled
+@lean
 def is_member(number, first, count, member):
     """Whether a vehicle belongs to a chain."""
     for i in range(first, first + count):
@@ -169,7 +169,7 @@ def is_member(number, first, count, member):
     return False
 
 
-@compiled
+@lean
 def notice_company(time, mind, world_of, follower, member_first, member_count, member, between, table, count):
     """Somebody has come between a follower and the car that it listens to, or has gone again."""
     for i in range(follower.size):

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.scenario.schema import CloseLane, Objects
 from studio.world.line import Lines, starts
@@ -131,7 +131,7 @@ def passed(apart: np.ndarray, heading: float, station: float, row: np.ndarray) -
     return float(station + forward - along), float(abs(left) - across)
 
 
-@compiled
+@lean
 def put_up(table, phase, held, standing):
     """Objects stand while their change acts; those of a closed lane are put up once the last car has left it."""
     for i in range(standing.size):

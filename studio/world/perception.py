@@ -5,7 +5,7 @@ Sensors look at the true world and add their errors; messages are looked up in w
 
 from math import atan2, cos, nan, sin, sqrt
 
-from studio.compiled import compiled, inlined
+from studio.compiled import inlined, lean
 from studio.model import radio, satellite, sensor
 from studio.model.random import (
     GPS_DRIFT,
@@ -65,7 +65,7 @@ def nearest_target(v, world, longest, state, parameter, sensor_set, grid, places
     return best, best_forward, best_left
 
 
-@compiled
+@lean
 def nearest_barrier(v, best, best_forward, best_left, first, count, state, parameter, sensor_set, table, standing):
     """The same among the barriers that stand there, of which the radar sees the near edge. A cone of plastic sends nothing back."""
     kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
@@ -100,7 +100,7 @@ def forget(v, sensors):
     sensors[TARGET, v] = -1.0
 
 
-@compiled
+@lean
 def sense(k, longest, state, parameter, sensor_set, world_of, number, entity, table, first_object, object_count, standing, seed, grid,
           places, found, sensors):  # fmt: skip
     """First pass: the front sensor of every car. A barrier that is nearer than the car takes its place."""
@@ -130,7 +130,7 @@ def report(k, v, other, forward, left, state, sensor_set, unit, seed, places, se
     sensors[AZIMUTH, v] = atan2(left, forward)
 
 
-@compiled
+@lean
 def fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, sensors):
     """Second pass: where every car takes itself to be. A car without errors draws nothing."""
     tau, phi, frame = 0.0, 0.0, shadow.grid.frame
@@ -156,13 +156,13 @@ def wander(k, v, sky, phi, gps_set, unit, seed, sensors):
     sensors[GPS_NORTH, v] = sigma * sensors[DRIFT_NORTH, v] + gps_set[GPS_SIGMA, v] * noise_north
 
 
-@compiled
+@lean
 def is_turn(k, unit, period):
     """Whether a unit sends at tick k: every `period` ticks, units spread over the period."""
     return (k + unit) % period == 0
 
 
-@compiled
+@lean
 def send(k, tick, state, command, radio_set, world_of, entity, sensors, sent):
     """Third pass, first half: the units whose turn it is broadcast what their car's bus and its receiver say."""
     n = state.shape[1]
@@ -195,7 +195,7 @@ def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity,
     return time - tick < sent_at + air - EARLY <= time
 
 
-@compiled
+@lean
 def felt_distance(x0, y0, x1, y1, w, place, radio_set, shadow):
     """Distance [m] between two antennas, drawn out by the buildings between them."""
     distance = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
@@ -205,7 +205,7 @@ def felt_distance(x0, y0, x1, y1, w, place, radio_set, shadow):
     return radio.felt_distance(distance, radio.attenuation(walls, inside), radio_set[EXPONENT, w])
 
 
-@compiled
+@lean
 def gets_through(number, column, sender, receiver, w, place, state, radio_set, entity, seed, sent, shadow):
     """Whether a message that comes in now is in range and not lost."""
     link = entity[receiver] * PAIR + entity[sender]
@@ -216,7 +216,7 @@ def gets_through(number, column, sender, receiver, w, place, state, radio_set, e
     return not radio.is_lost(distance, radio_set[RADIO_RANGE, w], radio_set[LOSS, w], radio_set[LOSS_DISTANCE, w], draw)
 
 
-@compiled
+@lean
 def receive(
     k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, place_of, shadow, sent, inbox
 ):  # fmt: skip
@@ -238,5 +238,6 @@ def receive(
             was_sent = abs(sent[SENT, column] - sent_at) < 0.5 * tick  # else it left before, and this is an older one
             if was_sent and arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
                 if gets_through(number, column, sender, receiver, w, place_of[w], state, radio_set, entity, seed[w], sent, shadow):
-                    inbox[:, link] = sent[:, column]
+                    for row in range(inbox.shape[0]):
+                        inbox[row, link] = sent[row, column]
                     break

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.vehicle.state import ACTIVE, V_X
 from studio.world.mind import STATION
 
@@ -30,11 +30,12 @@ def queues(n: int) -> Queues:
     return Queues(np.zeros(n + 1, np.int64), np.arange(n), np.zeros(n, np.int64), np.zeros(n))
 
 
-@compiled
+@lean
 def sort(state, mind, queue_of, first, order, before, slowest):
     """Sorts all vehicles that take part into their queues; the others stand behind the last."""
     first[:] = 0
-    before[:] = order
+    for i in range(order.size):
+        before[i] = order[i]
     for v in before:
         if state[ACTIVE, v] > 0.0:
             first[queue_of[v]] += 1
@@ -53,13 +54,13 @@ def sort(state, mind, queue_of, first, order, before, slowest):
         line_up(first[queue], first[queue + 1], state, mind, order, slowest)
 
 
-@compiled
+@lean
 def is_behind(v, other, mind):
     """Whether a vehicle comes before another in their queue: by station, then by number."""
     return mind[STATION, v] < mind[STATION, other] or (mind[STATION, v] == mind[STATION, other] and v < other)
 
 
-@compiled
+@lean
 def line_up(first, last, state, mind, order, slowest):
     """Puts one queue in order, and notes the slowest from each place on."""
     for i in range(first + 1, last):
@@ -72,7 +73,7 @@ def line_up(first, last, state, mind, order, slowest):
         slowest[i] = state[V_X, order[i]] if i == last - 1 else min(slowest[i + 1], state[V_X, order[i]])
 
 
-@compiled
+@lean
 def from_station(station, first, last, mind, order):
     """The first place of a queue whose vehicle is at a station [m] or beyond."""
     low, high = first, last

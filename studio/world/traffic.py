@@ -7,7 +7,7 @@ first, drives ahead at the distance that the stretches give.
 
 from math import inf, nan
 
-from studio.compiled import compiled, inlined
+from studio.compiled import inlined, lean
 from studio.model import driver
 from studio.road.network.signals import GREEN, signal_state
 from studio.road.ways.path import (
@@ -44,7 +44,7 @@ ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
 
-@compiled
+@lean
 def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, shown):
     """First pass: what every signal shows."""
     for link in range(shown.size):
@@ -85,7 +85,7 @@ def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, st
     return inf
 
 
-@compiled
+@lean
 def orient(state, parameter, places, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
            drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
@@ -228,7 +228,7 @@ def meet_queue(v, begin, end, order, slowest, number, longest, v_enter, v_leave,
             )
 
 
-@compiled
+@lean
 def meetings(state, parameter, places, points, path_first, path_count, world_of, number, longest, track, queue_of, partner_first, partner,
              zone_first, zone_span, queue_first, order, slowest, drivers, mind):  # fmt: skip
     """Third pass: for every driver the queues on the tracks that his own meets."""
@@ -246,7 +246,7 @@ def meetings(state, parameter, places, points, path_first, path_count, world_of,
                 )  # fmt: skip
 
 
-@compiled
+@lean
 def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first_object, world_of, drivers, mind):
     """Fourth pass: the first object in sight that stands in the strip which the own body will sweep."""
     for v in range(state.shape[1]):
@@ -261,7 +261,7 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first
                 break
 
 
-@compiled
+@lean
 def stand_before(v, number, gap, state, drivers, mind):
     """Object `number` of the world is followed as a car that stands."""
     wish = driver.following_acceleration(
@@ -297,7 +297,7 @@ def steer_wish(v, state, parameter, drivers, mind):
     )  # fmt: skip
 
 
-@compiled
+@lean
 def decide(state, parameter, drivers, mind):
     """Fifth pass: what every driver wants of pedals and wheel."""
     for v in range(state.shape[1]):
@@ -311,7 +311,7 @@ def decide(state, parameter, drivers, mind):
         mind[STEER_WISH, v] = steer_wish(v, state, parameter, drivers, mind)
 
 
-@compiled
+@lean
 def is_free(x, y, world, reach, state, grid, places, found, entered, count):
     """Whether no car of the same world is near a place: none of those that are about, nor of the first that have entered just now."""
     for i in range(within(world, x, y, 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
@@ -323,14 +323,14 @@ def is_free(x, y, world, reach, state, grid, places, found, entered, count):
     return True
 
 
-@compiled
+@lean
 def is_close(other, x, y, state):
     """Whether a car is near a place."""
     dx, dy = state[X, other] - x, state[Y, other] - y
     return state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE
 
 
-@compiled
+@lean
 def recirculate(
     returns, points, path_first, path_count, raised, world_of, grid, places, found, entered, state, wheels, ground, parameter, gears, mind
 ):  # fmt: skip

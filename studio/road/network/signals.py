@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.portable import arctan2
 
 RED, RED_AMBER, GREEN, AMBER = range(4)
@@ -67,7 +67,7 @@ class Signals:
         )
 
 
-@compiled
+@lean
 def signal_state(t, cycle, offset, first, count, phase_end, phase_state):
     """What a link shows at time t [s]: RED, RED_AMBER, GREEN or AMBER."""
     within = (t - offset) % cycle

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.portable import arctan2
 from studio.road import kept
 from studio.road.network import Lane, Network, curve
@@ -284,7 +284,7 @@ def speeds(
 # -- on the path -----------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def interpolate(points, first, row, s):
     """The value of a row at arc length s [m] of the path that starts at column `first`; s is within the path."""
     i = int(s)
@@ -294,7 +294,7 @@ def interpolate(points, first, row, s):
     return (1.0 - f) * points[row, first + i] + f * points[row, first + i + 1]
 
 
-@compiled
+@lean
 def project(points, first, count, x, y, s_guess):
     """Arc length s [m] and lateral offset [m] (left positive) of a position, looked for within 5 m of `s_guess`."""
     middle = int(s_guess)
