@@ -30,6 +30,8 @@ COS = PLACE.row("cosine", "1", "of the heading")
 SIN = PLACE.row("sine", "1", "of the heading")
 REAR_X = PLACE.row("rear_x", "m", "middle of the rear bumper")
 REAR_Y = PLACE.row("rear_y", "m", "middle of the rear bumper")
+IN_X = PLACE.row("x_in_order", "m", "the same as x, of the vehicle that has this place among all that are sorted")
+IN_Y = PLACE.row("y_in_order", "m", "the same as y, of the vehicle that has this place among all that are sorted")
 
 
 @dataclass
@@ -94,7 +96,7 @@ def sort(state, parameter, world_of, grid, places):
             grid[FIRST, bucket] += 1
     for bucket in range(1, buckets + 1):
         grid[FIRST, bucket] += grid[FIRST, bucket - 1]
-    fill(state, world_of, grid)
+    fill(state, world_of, grid, places)
 
 
 @inlined
@@ -108,7 +110,7 @@ def put_down(v, state, parameter, places):
 
 
 @lean
-def fill(state, world_of, grid):
+def fill(state, world_of, grid, places):
     """Everybody takes the last free place of his bucket, the last vehicle first, so that each bucket is in order."""
     for v in range(state.shape[1] - 1, -1, -1):
         if state[ACTIVE, v] > 0.0:
@@ -116,6 +118,7 @@ def fill(state, world_of, grid):
             grid[FIRST, bucket] -= 1
             place = grid[FIRST, bucket]
             grid[ORDER, place] = v
+            places[IN_X, place], places[IN_Y, place] = state[X, v], state[Y, v]
             grid[NUMBER, place] = cell_number(world_of[v], cell_of(state[X, v]), cell_of(state[Y, v]))
 
 
@@ -150,9 +153,9 @@ def in_cell(number, x, y, c, s, half_length, half_width, grid, places, found, co
     """Adds those of one cell."""
     bucket = bucket_of(number, grid.shape[1] - 1)
     for place in range(grid[FIRST, bucket], grid[FIRST, bucket + 1]):
-        v = grid[ORDER, place]
-        if grid[NUMBER, place] == number and is_inside(places[AT_X, v] - x, places[AT_Y, v] - y, c, s, half_length, half_width):
-            count = insert(v, count, found)
+        dx, dy = places[IN_X, place] - x, places[IN_Y, place] - y
+        if grid[NUMBER, place] == number and is_inside(dx, dy, c, s, half_length, half_width):
+            count = insert(grid[ORDER, place], count, found)
     return count
 
 
@@ -161,10 +164,10 @@ def within_all(world, x, y, c, s, half_length, half_width, grid, places, found):
     """The same for boxes that hold more cells than there are buckets."""
     count = 0
     for place in range(grid[FIRST, grid.shape[1] - 1]):
-        v = grid[ORDER, place]
+        dx, dy = places[IN_X, place] - x, places[IN_Y, place] - y
         is_of_world = grid[NUMBER, place] // (SPAN * SPAN) == world
-        if is_of_world and is_inside(places[AT_X, v] - x, places[AT_Y, v] - y, c, s, half_length, half_width):
-            count = insert(v, count, found)
+        if is_of_world and is_inside(dx, dy, c, s, half_length, half_width):
+            count = insert(grid[ORDER, place], count, found)
     return count
 
 
