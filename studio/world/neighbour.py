@@ -18,7 +18,7 @@ from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, PSI, X, Y
 
-CELL = 40.0  # [m]
+CELL = 64.0  # [m]
 SCATTER, HALF = np.uint64(0x9E3779B97F4A7C15), np.uint64(32)  # Knuth, The Art of Computer Programming 3, section 6.4
 SPAN = 2**21  # cells from west to east until their numbers begin again
 FIRST, ORDER, NUMBER, BUCKET = range(4)  # rows of a grid: where buckets begin, who is in them, in which cell; a vehicle's bucket
