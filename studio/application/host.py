@@ -82,7 +82,9 @@ class Hosted:
             self.run(self.columns, self.parameters, self.memory, self.observed, commands)
         except (Exception, SystemExit) as error:
             names = ", ".join(dict.fromkeys(repr(group.name) for group in self.groups))
-            raise ApplicationError(f"The application {self.application.name!r} of group {names} raised:\n{traceback.format_exc()}") from error
+            raise ApplicationError(
+                f"The application {self.application.name!r} of group {names} raised:\n{traceback.format_exc()}"
+            ) from error
 
 
 def observation_rows() -> list[str]:

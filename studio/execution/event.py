@@ -52,14 +52,12 @@ def watched(settings: Sequence[Setting], world: World) -> Watch:
     """What is looked out for in a batch."""
     numbers = [{name: i for i, name in enumerate(names)} for names in world.names]
     named = [np.arange(len(each.cars)) < len(each.scenario.vehicles) for each in settings]
-    return notice.watch(
-        world,
-        np.concatenate(named).astype(np.int64),
-        [
-            (int(world.worlds.first[each.world]) + numbers[each.world][each.name], tuple(numbers[each.world][name] for name in each.members))
-            for each in followers(settings)
-        ],
-    )
+    listening = []
+    for each in followers(settings):
+        number = numbers[each.world]
+        column = int(world.worlds.first[each.world]) + number[each.name]
+        listening.append((column, tuple(number[name] for name in each.members)))
+    return notice.watch(world, np.concatenate(named).astype(np.int64), listening)
 
 
 class Teller:

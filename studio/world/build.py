@@ -285,7 +285,10 @@ def hosted(application: registry.Application, found: list[Crew]) -> Hosted:
     ends = np.cumsum([crew.columns.size for crew in found]).tolist()
     return Hosted(
         application=application,
-        groups=[Group(crew.world, crew.place, crew.name, slice(end - crew.columns.size, end)) for crew, end in zip(found, ends, strict=True)],
+        groups=[
+            Group(crew.world, crew.place, crew.name, slice(end - crew.columns.size, end))
+            for crew, end in zip(found, ends, strict=True)
+        ],
         columns=columns,
         links=np.concatenate([crew.links for crew in found]),
         parameters=np.concatenate([parameters_of(application, crew) for crew in found], axis=1),

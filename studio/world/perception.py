@@ -3,7 +3,7 @@
 Sensors look at the true world and add their errors; messages are looked up in what the senders have sent.
 """
 
-from math import atan2, cos, nan, sin, sqrt
+from math import atan2, nan, sqrt
 
 from studio.compiled import inlined, lean
 from studio.model import radio, satellite, sensor
@@ -21,7 +21,7 @@ from studio.model.random import (
 from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import EYE, open_sky, walls_between
 from studio.vehicle.command import RING, U
-from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.collision import reach_along
 from studio.world.neighbour import AT_X, AT_Y, COS, REAR_X, REAR_Y, SIN, within
@@ -183,7 +183,8 @@ def send(k, tick, state, command, radio_set, world_of, entity, sensors, sent):
 @inlined
 def may_arrive(time, tick, sent_at, w, radio_set):
     """Whether a message may come in at this tick, whatever is drawn."""
-    soonest, latest = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 0.0), radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 1.0)
+    soonest = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 0.0)
+    latest = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 1.0)
     return sent_at + latest + EARLY > time - tick and sent_at + soonest - 2.0 * EARLY <= time
 
 

@@ -76,8 +76,8 @@ def look(world: World) -> None:
     )  # fmt: skip
     queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
     traffic.meetings(
-        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest, c.track, c.queue_of,
-        c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
+        c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
     )  # fmt: skip
     if o.standing.size:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
@@ -87,8 +87,8 @@ def sense(world: World) -> None:
     """Sensors measure, satellites tell where one is."""
     v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
     perception.sense(
-        clock.k, g.longest, v.state, v.parameter, u.sensor_set, w.of, w.number, w.entity, o.table, o.first, o.count, o.standing, w.seed, g.grid,
-        g.places, g.found, u.sensors,
+        clock.k, g.longest, v.state, v.parameter, u.sensor_set, w.of, w.number, w.entity, o.table, o.first, o.count, o.standing,
+        w.seed, g.grid, g.places, g.found, u.sensors,
     )  # fmt: skip
     perception.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.sensors)
 

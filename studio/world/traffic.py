@@ -224,8 +224,9 @@ def meet_queue(v, begin, end, order, slowest, number, longest, v_enter, v_leave,
             return
         if other != v:
             meet(
-                v, other, number[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind
-            )
+                v, other, number[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count,
+                drivers, mind,
+            )  # fmt: skip
 
 
 @lean
@@ -312,13 +313,13 @@ def decide(state, parameter, drivers, mind):
 
 
 @lean
-def is_free(x, y, world, reach, state, grid, places, found, entered, count):
+def is_free(x, y, world, reach, world_of, state, grid, places, found, entered, count):
     """Whether no car of the same world is near a place: none of those that are about, nor of the first that have entered just now."""
     for i in range(within(world, x, y, 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
         if is_close(found[i], x, y, state):
             return False
     for i in range(count):
-        if is_close(entered[i], x, y, state):
+        if world_of[entered[i]] == world and is_close(entered[i], x, y, state):
             return False
     return True
 
@@ -343,7 +344,7 @@ def recirculate(
             reach = ENTRY_CLEARANCE + moved(state, places)
         at = path_first[v]
         x, y = points[PATH_X, at], points[PATH_Y, at]
-        if is_free(x, y, world_of[v], reach, state, grid, places, found, entered, count):
+        if is_free(x, y, world_of[v], reach, world_of, state, grid, places, found, entered, count):
             if raised[v] != 0:
                 touch_all(v, state.shape[1], 0.0, points, at, path_count[v], ground)
             start(v, x, y, points[PATH_HEADING, at], points[PATH_SPEED, at], state, wheels, ground, parameter, gears)

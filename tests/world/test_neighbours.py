@@ -114,18 +114,16 @@ def test_how_far_one_has_moved():
 def test_a_queue_is_in_the_order_of_stations(n, seed):
     """Whatever the order before; equal stations by number; the slowest of the rest beside each place."""
     random = np.random.default_rng(seed)
-    f, mind, queues = fleet(n, seed), np.zeros((len(MIND), n)), random.integers(0, 5, n)
+    f, mind, queues = fleet(n, seed), np.zeros((len(MIND), n)), random.integers(0, min(5, n), n)
     mind[STATION] = np.round(random.uniform(0.0, 30.0, n))
     f.state[V_X] = random.uniform(-1.0, 40.0, n)
     made = queue.queues(n)
     made.order[:] = random.permutation(n)
     queue.sort(f.state, mind, queues, made.first, made.order, made.before, made.slowest)
     assert sorted(made.order.tolist()) == list(range(n))
-    for number in range(5):
-        begin, end = made.first[min(number, n)], made.first[min(number + 1, n)]
+    for number in range(min(5, n)):
+        begin, end = made.first[number], made.first[number + 1]
         expected = [v for v in range(n) if queues[v] == number and f.state[ACTIVE, v] > 0.0]
-        if number < n:
-            assert made.order[begin:end].tolist() == sorted(expected, key=lambda v: (mind[STATION, v], v))
-            assert made.slowest[begin:end].tolist() == [f.state[V_X, made.order[i:end]].min() for i in range(begin, end)]
-            at = 12.0
-            assert queue.from_station(at, begin, end, mind, made.order) == begin + sum(mind[STATION, v] < at for v in expected)
+        assert made.order[begin:end].tolist() == sorted(expected, key=lambda v: (mind[STATION, v], v))
+        assert made.slowest[begin:end].tolist() == [f.state[V_X, made.order[i:end]].min() for i in range(begin, end)]
+        assert queue.from_station(12.0, begin, end, mind, made.order) == begin + sum(mind[STATION, v] < 12.0 for v in expected)

@@ -12,14 +12,18 @@ import pytest
 from studio import job
 from studio.errors import SnapshotError
 from studio.world.build import build
+from studio.world.neighbour import Neighbours
+from studio.world.queue import Queues
 from studio.world.snapshot import moving, restore, snapshot
 from studio.world.tick import tick
+from studio.world.world import Conflicts
 from tests.changing import SLOW, scenario
 from tests.conftest import ROOT
 
 SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
-FOLLOWS = {"world.roads.points", "world.roads.pieces", "world.roads.zone_pair", "world.roads.zone_span"}  # made anew
-SCRATCH = {"world.roads.near", "world.vehicles.tile"}
+FOLLOWS = {"world.roads.points", "world.roads.pieces", *(f"world.roads.conflicts.{each.name}" for each in fields(Conflicts))}  # made anew
+SORTED = {f"world.{name}.{each.name}" for name, kind in (("neighbours", Neighbours), ("queues", Queues)) for each in fields(kind)}
+SCRATCH = {"world.roads.near", "world.vehicles.tile", *SORTED}
 KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and kept: zones of pairs of lines, open sky
 
 
