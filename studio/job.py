@@ -12,8 +12,6 @@ import hashlib
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -22,13 +20,13 @@ import numpy as np
 from studio.application import setup
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured, registered
-from studio.compiled import source_digest
 from studio.errors import Problem, ScenarioError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
 from studio.scenario.schema import Scenario
+from studio.source import code_version
 from studio.store.runs import Row, Runs
 from studio.world.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
@@ -126,12 +124,6 @@ def seeded(loaded: Loaded, seed: int | None) -> Loaded:
 def prepare(loaded: Loaded) -> Setting:
     """Map, routes and cars. Raises ScenarioError, MapError or RouteError."""
     return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
-
-
-@cache
-def code_version() -> str:
-    """Version of the package and digest of the sources that compute."""
-    return f"{version('cooperative-adas-studio')}+{source_digest()}"
 
 
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:

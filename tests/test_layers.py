@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 FLOORS = [
-    {"errors", "conventions", "compiled"},
+    {"errors", "conventions", "cache", "source", "sample", "compiled"},
     {"model"},
     {"road"},
     {"scenario"},
@@ -17,6 +17,7 @@ FLOORS = [
     {"store"},
     {"job"},
     {"rig"},
+    {"warmup"},
     {"bench"},
     {"scene"},
     {"server"},

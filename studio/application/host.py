@@ -21,6 +21,7 @@ from numba import literal_unroll
 
 from studio.application.contract import Actuators, Clock, Command, Front, Message, Observation, Own
 from studio.application.registry import Application
+from studio.cache import touch
 from studio.compiled import CACHE, compiled
 from studio.errors import ApplicationError
 
@@ -142,6 +143,7 @@ def compiled_loop(application: Application) -> Callable:
         draft = path.with_suffix(f".{os.getpid()}")
         draft.write_text(source, encoding="utf-8")
         draft.replace(path)
+    touch(path)
     return load(path).run
 
 

@@ -22,6 +22,15 @@ def is_text(values: dict[str, Any]) -> dict[str, Any]:
 ChangesByPath = Annotated[dict[str, Any], AfterValidator(is_text)]
 
 
+class Compiling(BaseModel):
+    """How far the first compilation on this machine is."""
+
+    done: int = Field(description="functions that are compiled")
+    of: int = Field(description="functions in all")
+    seconds: float = Field(description="since it began [s]")
+    next: str = Field(description="a function that is still to come")
+
+
 class Info(BaseModel):
     """About this server."""
 
@@ -29,6 +38,7 @@ class Info(BaseModel):
     code_version: str
     db: str
     scenarios_folder: str
+    compiling: Compiling | None = Field(description="what is compiled before the first run; null when that is done")
 
 
 class Problem(BaseModel):

@@ -39,13 +39,15 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
     ready = asyncio.create_task(asyncio.to_thread(make_ready, desk))
     yield
     await ready
+    await asyncio.to_thread(desk.warmup.close)
     await asyncio.to_thread(desk.lives.close)
     await asyncio.to_thread(desk.map_jobs.close)
     await asyncio.to_thread(desk.stage.scene.stop)
 
 
 def make_ready(desk: Desk) -> None:
-    """Worker first: it compiles while the scene is made."""
+    """Compiles everything when that has not been done; the worker for the first run and the scene share what is compiled."""
+    desk.warmup.start()
     desk.lives.make_ready()
     desk.stage  # noqa: B018 - made by being looked at
 

@@ -1,11 +1,11 @@
 """What the routes work with: where scenarios, maps and runs are, the live runs, the imports, the stage."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from studio import job
+from studio import job, sample
 from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
@@ -17,6 +17,7 @@ from studio.server.maps import Maps
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
 from studio.store.runs import Runs, reopen_runs
+from studio.warmup import Warmup
 
 
 @dataclass
@@ -32,8 +33,13 @@ class Desk:
         self.lives = Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
+        self.warmup = Warmup()
         self._stage: Stage | None = None
         self._lock = threading.Lock()
+
+    def compiling(self) -> dict[str, Any] | None:
+        """How far the warm-up is, while it goes on."""
+        return None if self.warmup.is_over else asdict(self.warmup.progress())
 
     @property
     def stage(self) -> Stage:
@@ -41,6 +47,23 @@ class Desk:
         with self._lock:
             self._stage = self._stage or Stage()
             return self._stage
+
+    def settle(self) -> None:
+        """Before something is written: the samples of an installed package are copied to ./scenarios, and from now on that is the folder.
+
+        Raises ServerError when it cannot be written.
+        """
+        with self._lock:
+            if self.scenarios != sample.PACKAGED:
+                return
+            own = Path("scenarios").resolve()
+            try:
+                sample.copy_to(own)
+            except OSError as error:
+                problem = Problem("scenarios", error.strerror or str(error), str(own), remedy="start the studio in a folder of your own, or name one with --scenarios")
+                raise ServerError("The samples cannot be copied to a folder of your own.", [problem]) from None
+            self.scenarios = own
+            self.maps = self.map_jobs.maps = Maps(own)
 
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """Frames go to the stage."""

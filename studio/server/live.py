@@ -26,7 +26,7 @@ from studio.server.frame import Frame
 from studio.server.worker import Order
 from studio.store.runs import reopen_runs
 
-START_PATIENCE = 120.0  # [s] the first start compiles
+START_PATIENCE = 600.0  # [s] the first start compiles; the page tells how far it is
 MOST_LIVE = 8  # processes at a time
 END_PATIENCE = 3.0  # [s] for a process to save and end
 STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang

@@ -13,6 +13,7 @@ from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.live import Listener, plain
 from studio.server.worker import pace_factor
+from studio.source import code_version
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
 
@@ -31,8 +32,14 @@ AtDesk = Annotated[Desk, Depends(desk_of)]
 @router.get("/info")
 def info(desk: AtDesk) -> answer.Info:
     """About this server."""
-    code = job.code_version()
-    return answer.Info(version=code.partition("+")[0], code_version=code, db=str(desk.db), scenarios_folder=str(desk.scenarios))
+    code = code_version()
+    return answer.Info(
+        version=code.partition("+")[0],
+        code_version=code,
+        db=str(desk.db),
+        scenarios_folder=str(desk.scenarios),
+        compiling=desk.compiling(),
+    )
 
 
 @router.get("/scenarios")

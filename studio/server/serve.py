@@ -9,13 +9,13 @@ from pathlib import Path
 
 import uvicorn
 
+from studio import sample
 from studio.errors import Problem, ServerError
 from studio.server import page
 from studio.server.door import Door
 from studio.server.origin import SameOrigin
 from studio.store.tables import open_database
 
-SAMPLES = Path(__file__).parent.parent.parent / "scenarios"
 FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent in one piece
 
 
@@ -80,7 +80,7 @@ def scenario_folder(wanted: Path | None) -> Path:
             f"There is no folder {wanted}.", [Problem("--scenarios", "is not a folder", str(wanted), "a folder of YAML files")]
         )
     here = Path("scenarios")
-    return wanted or (here if here.is_dir() else SAMPLES)
+    return wanted or (here if here.is_dir() else sample.folder())
 
 
 def shown(host: str) -> str:

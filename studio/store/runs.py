@@ -2,6 +2,8 @@
 
 A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
 says "running", the run was killed; the row says so as soon as somebody looks.
+
+What only traces and events need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
 
 import json
@@ -12,17 +14,19 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import psutil
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
 from studio.errors import UnknownError
-from studio.execution.record import Happening, Record
-from studio.store import trace
 from studio.store.tables import open_database, reopen_database, unusable
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from studio.execution.record import Happening, Record
 
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
@@ -86,9 +90,11 @@ class Runs:
             self.database["scenarios"].insert(kept, pk="hash", ignore=True)
             return int(self.database["runs"].insert(row, pk="run").last_pk)
 
-    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: Record, sim_time_s: float,
+    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing."""
+        from studio.store import trace
+
         ending = {
             "status": status,
             "error": error,
@@ -178,15 +184,21 @@ class Runs:
 
     def channels(self, run: int) -> list[dict[str, str]]:
         """Recorded channels of a run; none when it has no traces."""
+        from studio.store import trace
+
         found = self.rows("select parquet from traces where run = ?", [run])
         return trace.channels(found[0]["parquet"]) if found else []
 
-    def trace(self, run: int, names: list[str]) -> dict[str, np.ndarray]:
+    def trace(self, run: int, names: list[str]) -> dict[str, "np.ndarray"]:
         """Time and channels of a run."""
+        from studio.store import trace
+
         return trace.read(self.parquet(run), names)
 
-    def events(self, run: int) -> list[Happening]:
+    def events(self, run: int) -> list["Happening"]:
         """What happened in a run."""
+        from studio.execution.record import Happening
+
         rows = self.rows("select time, text, vehicle from events where run = ? order by time, rowid", [run])
         return [Happening(**row) for row in rows]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import httpx
 
-START_PATIENCE = 180.0  # [s] the first start compiles
+START_PATIENCE = 600.0  # [s] the first start compiles
 
 
 @contextmanager

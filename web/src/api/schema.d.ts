@@ -630,6 +630,32 @@ export interface components {
             metrics: components["schemas"]["MetricDifference"][];
         };
         /**
+         * Compiling
+         * @description How far the first compilation on this machine is.
+         */
+        Compiling: {
+            /**
+             * Done
+             * @description functions that are compiled
+             */
+            done: number;
+            /**
+             * Of
+             * @description functions in all
+             */
+            of: number;
+            /**
+             * Seconds
+             * @description since it began [s]
+             */
+            seconds: number;
+            /**
+             * Next
+             * @description a function that is still to come
+             */
+            next: string;
+        };
+        /**
          * Driven
          * @description The scenario that was written.
          */
@@ -662,6 +688,8 @@ export interface components {
             db: string;
             /** Scenarios Folder */
             scenarios_folder: string;
+            /** @description what is compiled before the first run; null when that is done */
+            compiling: components["schemas"]["Compiling"] | null;
         };
         /**
          * LimitCount
