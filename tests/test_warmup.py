@@ -7,22 +7,25 @@ from studio.errors import RunError
 from studio.source import PACKAGE, compiled_functions
 
 
-def test_afterwards_nothing_is_missing():
-    """Every compiled function that the program can reach is used by the rig, the bench or a sample."""
-    current = warmup.Warmup().start()
-    seen = []
+@pytest.fixture(scope="module")
+def seen():
+    """How far a warm-up was, from its start to its end."""
+    current, told = warmup.Warmup().start(), []
     try:
-        current.wait(seen.append)
+        current.wait(told.append)
     finally:
         current.close()
+    return told
+
+
+def test_afterwards_nothing_is_missing(seen):
+    """Every compiled function that the program can reach is used by the rig, the bench or a sample."""
     assert warmup.missing() == []
-    last = seen[-1]
-    assert last.done == last.of and last.next == ""
+    assert seen[-1].done == seen[-1].of and seen[-1].next == ""
     assert [each.done for each in seen] == sorted(each.done for each in seen)
 
 
-def test_a_warm_machine_starts_no_process():
-    test_afterwards_nothing_is_missing()
+def test_a_warm_machine_starts_no_process(seen):
     current = warmup.Warmup().start()
     assert current.processes == [] and current.is_over and current.compiled == 0
 

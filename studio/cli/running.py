@@ -25,13 +25,13 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Runs a scenario as fast as possible and saves the run."""
+    from studio import job
+    from studio.store.runs import open_runs
+
+    load_applications(applications)
+    loaded = job.load(scenario, changes(set_))
     compile_first()
     with progress("starting") as report:
-        from studio import job
-        from studio.store.runs import open_runs
-
-        load_applications(applications)
-        loaded = job.load(scenario, changes(set_))
         result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
     if as_json:
         print_json(run_json(result.row))

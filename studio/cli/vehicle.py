@@ -50,12 +50,12 @@ def drive(
     hydraulics). Without throttle, engine torque or gear the gearbox stays in neutral. --set changes values of the vehicle by
     path (body.mass=1200), and the road: road.friction=0.5, road.slope=0.1.
     """
+    from studio.rig import drive as rig
+    from studio.rig import table
+
+    table.check_output(out, inputs, Path(vehicle))
     compile_first()
     with progress("preparing") as report:
-        from studio.rig import drive as rig
-        from studio.rig import table
-
-        table.check_output(out, inputs, Path(vehicle))
         made = rig.drive(vehicle, inputs, speed=speed, tyre=tyre, changes=changes(set_), step=step, period=period, progress=report)
         rows = rig.write(made, out)
     print(f"{out}: {rows} rows, {made.time[-1]:g} s, {len(made.columns)} columns")

@@ -34,8 +34,9 @@ def create_app(desk: Desk) -> FastAPI:
 
 @asynccontextmanager
 async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-    """The process for the first run gets ready while the page is already served; at the end all processes end."""
+    """Processes compile and get ready for the first run while the page is already served; at the end all processes end."""
     desk: Desk = app.state.desk
+    await asyncio.to_thread(desk.warmup.start)  # before anybody asks how far it is
     ready = asyncio.create_task(asyncio.to_thread(make_ready, desk))
     yield
     await ready
@@ -46,8 +47,7 @@ async def lifespan(app: FastAPI) -> AsyncIterator[None]:
 
 
 def make_ready(desk: Desk) -> None:
-    """Compiles everything when that has not been done; the worker for the first run and the scene share what is compiled."""
-    desk.warmup.start()
+    """Worker first: it gets ready while the scene is made."""
     desk.lives.make_ready()
     desk.stage  # noqa: B018 - made by being looked at
 

@@ -11,7 +11,7 @@ from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road import place
 from studio.server.frame import Frame
-from studio.server.live import Lives, LiveRun
+from studio.server.live import LiveRun, Lives
 from studio.server.map_job import MapJobs
 from studio.server.maps import Maps
 from studio.server.stage import Stage
