@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 FLOORS = [
-    {"errors", "conventions", "cache", "source", "sample", "compiled"},
+    {"errors", "conventions", "cache", "source", "sample", "compiled", "portable"},
     {"model"},
     {"road"},
     {"scenario"},
