@@ -26,7 +26,7 @@ from studio.errors import RunError
 from studio.model.tyre import Tyre
 from studio.rig import drive, tyre
 from studio.scenario import catalogue, tir
-from studio.source import closure, compiled_functions
+from studio.source import PACKAGE, closure, compiled_functions
 
 MODEL, TYRE = "bmw_320i", "smart_175_55r15"
 MOMENT = 0.2  # [s] that a part lasts
@@ -53,9 +53,13 @@ def do(part: str) -> None:
 
 
 def files() -> set[Path]:
-    """The files with compiled functions that this one, or an application, depends on."""
+    """The files of this package with compiled functions that this one, or an application, depends on.
+
+    Applications of the user's own are compiled when they first run.
+    """
     roots = [Path(__file__), *(Path(each.module.__file__) for each in registry.known().values())]
-    return {path for root in roots for path in closure(root) if compiled_functions(path)}
+    ours = {path for root in roots for path in closure(root) if path.is_relative_to(PACKAGE)}
+    return {path for path in ours if compiled_functions(path)}
 
 
 def missing() -> list[str]:

@@ -3,6 +3,7 @@
 import pytest
 
 from studio import sample, warmup
+from studio.application import registry
 from studio.errors import RunError
 from studio.source import PACKAGE, compiled_functions
 
@@ -40,6 +41,15 @@ def test_nothing_is_there_in_an_empty_cache(tmp_path, monkeypatch):
 def test_what_a_run_needs_follows_from_imports():
     files = warmup.files()
     assert PACKAGE / "model" / "tyre.py" in files and PACKAGE / "application" / "acc.py" in files
+
+
+def test_an_application_of_ones_own_does_not_count(seen, tmp_path, monkeypatch):
+    """No warm-up compiles it, so none may wait for it."""
+    monkeypatch.setattr(registry, "_registered", dict(registry.known()))
+    own = tmp_path / "own_cruise.py"
+    own.write_text((PACKAGE / "application" / "acc.py").read_text(encoding="utf-8"))
+    registry.load_file(own)
+    assert own not in warmup.files() and warmup.missing() == []
 
 
 def test_a_process_that_fails_is_told(monkeypatch, tmp_path):
