@@ -34,7 +34,7 @@ from studio.cache import cache_root, forget_old, touch
 from studio.source import closure, digest_of
 
 LOOK_AGAIN = 0.01  # [s] between two looks whether another process has finished a function
-CPU = get_host_cpu_name()
+CPU = numba.config.CPU_NAME or get_host_cpu_name()
 
 
 def folder_of(path: Path) -> Path:

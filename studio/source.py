@@ -73,10 +73,10 @@ def compiled_functions(path: Path) -> list[str]:
 
 
 def source_digest() -> str:
-    """Digest of every room with compiled functions: the version of the simulator."""
-    rooms = {path.parent for path in PACKAGE.rglob("*.py") if compiled_functions(path)}
+    """Digest of every room with compiled functions, and of what they import: the version of the simulator."""
+    rooms = {room for room in PACKAGE.iterdir() if any(compiled_functions(path) for path in room.rglob("*.py"))}
     files = {path for room in rooms for path in room.rglob("*.py")}
-    return digest_of(*sorted(files | {PACKAGE / "compiled.py", PACKAGE / "conventions.py"}))
+    return digest_of(*sorted(files.union(*map(imports, files))))
 
 
 @cache

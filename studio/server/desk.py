@@ -9,7 +9,7 @@ from studio import job, sample
 from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
-from studio.road import place
+from studio.road.library import place
 from studio.server.frame import Frame
 from studio.server.live import LiveRun, Lives
 from studio.server.map_job import MapJobs
