@@ -12,7 +12,7 @@ import multiprocessing
 import os
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -30,7 +30,7 @@ from studio.source import PACKAGE, closure, compiled_functions
 
 MODEL, TYRE = "bmw_320i", "smart_175_55r15"
 MOMENT = 0.2  # [s] that a part lasts
-LOOK = 0.25  # [s] between two looks at how far it is
+LOOK = 0.5  # [s] between two looks at how far it is
 ON_THE_RIG = "rig"
 spawn = multiprocessing.get_context("spawn")
 
@@ -68,9 +68,25 @@ def missing() -> list[str]:
 
 
 def without_code(path: Path) -> list[str]:
-    """Those of one file; numba keeps an index for every function, file.function-line.python.nbi."""
-    kept = {index.name.partition("-")[0].rpartition(".")[2] for index in folder_of(path).glob("*.nbi")}
+    """Those of one file."""
+    kept = {name_of(index) for index in indices(path)}
     return [f"{path.parent.name}.{path.stem}.{name}" for name in compiled_functions(path) if name not in kept]
+
+
+def latest() -> str:
+    """The function that was compiled last, as file.function; "" when there is none."""
+    kept = [index for path in files() for index in indices(path)]
+    return max(kept, key=lambda index: index.stat().st_mtime).name.partition("-")[0] if kept else ""
+
+
+def indices(path: Path) -> Iterator[Path]:
+    """What numba keeps of the functions of a file: an index for each, file.function-line.python.nbi."""
+    return folder_of(path).glob("*.nbi")
+
+
+def name_of(index: Path) -> str:
+    """The function that an index is about."""
+    return index.name.partition("-")[0].rpartition(".")[2]
 
 
 # -- doing it ----------------------------------------------------------------------------------------
@@ -78,12 +94,12 @@ def without_code(path: Path) -> list[str]:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far it is: functions done, of how many, seconds since it began, what is still to come."""
+    """How far it is: functions done, of how many, seconds since it began, the function that was compiled last."""
 
     done: int
     of: int
     seconds: float
-    next: str
+    latest: str
 
 
 @dataclass
@@ -116,8 +132,8 @@ class Warmup:
 
     def progress(self) -> Progress:
         """How far all processes of this machine together are."""
-        left, of = missing(), sum(len(compiled_functions(path)) for path in files())
-        return Progress(of - len(left), of, time.monotonic() - self.began, left[0] if left else "")
+        of = sum(len(compiled_functions(path)) for path in files())
+        return Progress(of - len(missing()), of, time.monotonic() - self.began, latest())
 
     def wait(self, tell: Callable[[Progress], None] = lambda progress: None) -> None:
         """Until it is over; raises RunError when a process has failed."""

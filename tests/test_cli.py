@@ -13,7 +13,7 @@ from tests.broken import BROKEN
 
 def studio(*arguments, cwd):
     """Runs the command; returns exit code, output, errors."""
-    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=300)
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=3600)
     return done.returncode, done.stdout, done.stderr
 
 

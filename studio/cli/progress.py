@@ -35,7 +35,7 @@ def show(current) -> None:
     with bar(MofNCompleteColumn()) as shown:
         told("compiling once, less than a minute ..." if shown.disable else "")
         task = shown.add_task("compiling once", total=None)
-        current.wait(lambda now: shown.update(task, description=f"compiling once: {now.next}", total=now.of, completed=now.done))
+        current.wait(lambda now: shown.update(task, description=f"compiling once: {now.latest}", total=now.of, completed=now.done))
 
 
 def bar(count):

@@ -28,7 +28,7 @@ class Compiling(BaseModel):
     done: int = Field(description="functions that are compiled")
     of: int = Field(description="functions in all")
     seconds: float = Field(description="since it began [s]")
-    next: str = Field(description="a function that is still to come")
+    latest: str = Field(description="the function that was compiled last")
 
 
 class Info(BaseModel):

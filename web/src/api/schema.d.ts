@@ -650,10 +650,10 @@ export interface components {
              */
             seconds: number;
             /**
-             * Next
-             * @description a function that is still to come
+             * Latest
+             * @description the function that was compiled last
              */
-            next: string;
+            latest: string;
         };
         /**
          * Driven

@@ -20,7 +20,7 @@ export interface Compiling {
   done: number;
   of: number;
   seconds: number;
-  next: string;
+  latest: string;
 }
 
 export interface ScenarioRow {

@@ -193,7 +193,7 @@ function Compiling() {
       data-testid="compiling"
     >
       Compiling once for this machine: {now.done} of {now.of} functions, {Math.round(now.seconds)} s
-      {now.next ? <>; next {now.next}</> : null}. A run that is started waits for it.
+      {now.latest ? <>, last {now.latest}</> : null}. A run that is started waits for it.
       <Progress mt={4} size="xs" value={(100 * now.done) / now.of} aria-label="Functions that are compiled" />
     </Alert>
   );
