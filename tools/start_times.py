@@ -44,10 +44,10 @@ def environment_with(**more: str) -> dict[str, str]:
 
 
 def run_outside(folder: Path) -> tuple[float, float]:
-    """A run of the sample without its simulation, which takes as much processor time as wall time or less."""
-    wall, used, output = start([*STUDIO, "run", str(SAMPLE), "--json"], folder)
-    simulated = json.loads(output)["wall_time_s"]
-    return wall - simulated, max(used - simulated, 0.0)
+    """A run of the sample: its wall time without the simulation, and the processor time of a run of two ticks."""
+    wall, _, output = start([*STUDIO, "run", str(SAMPLE), "--json"], folder)
+    _, used, _ = start([*STUDIO, "run", str(SAMPLE), "--set", "clock.duration=0.04"], folder)
+    return wall - json.loads(output)["wall_time_s"], used
 
 
 def server(folder: Path) -> tuple[float, float]:
