@@ -73,6 +73,7 @@ def run(
 
         load_applications(applications)
         loaded = job.load(scenario, changes(set_))
+        tell_migrated(loaded)
         result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
     if as_json:
         print_json(run_json(result.row))
@@ -138,8 +139,26 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
         from studio import job
 
         load_applications(applications)
-        prepared = job.prepare(job.load(scenario, changes(set_)))
+        loaded = job.load(scenario, changes(set_))
+        prepared = job.prepare(loaded)
+    tell_migrated(loaded)
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
+
+
+@app.command()
+def migrate(scenario: ScenarioFile) -> None:
+    """Rewrites an old scenario file in place as the present version of the format has it; comments and order stay."""
+    from studio.scenario import file
+    from studio.scenario.migration import migrated
+    from studio.scenario.schema import VERSION
+
+    source = file.opened(scenario)
+    now, changed = migrated(source)
+    if now.text != source.text:
+        file.write(scenario, now.text)
+    for each in changed:
+        print(f"{scenario}: {each}")
+    print(f"{scenario} is of version {VERSION}" + (" already" if now.text == source.text else " now"))
 
 
 @app.command("import")
@@ -383,6 +402,14 @@ def changes(assignments: list[str] | None) -> dict[str, Any]:
     from studio.scenario.edit import parse_assignment
 
     return dict(parse_assignment(each) for each in assignments or [])
+
+
+def tell_migrated(loaded) -> None:
+    """What an old file says in another way now, on standard error."""
+    for each in loaded.migrated:
+        print(f"{loaded.path}: {each}", file=sys.stderr)
+    if loaded.migrated:
+        print(f"{loaded.path} is of an older version; `studio migrate {loaded.path}` rewrites it", file=sys.stderr)
 
 
 def assigned(assignments: list[str] | None) -> dict[str, str]:

@@ -2,6 +2,8 @@
 
     StudioError
     ├── ScenarioError       a scenario file or a change of it is wrong
+    │   ├── ConflictError   a document is not as the change expects it
+    │   └── SealedError     a document that may be read only
     ├── MapError            a map file is missing, unreadable or holds no roads
     ├── RouteError          roads do not connect, or are not on the map
     ├── ApplicationError    a plug-in does not load, or raised during a run
@@ -60,6 +62,14 @@ class StudioError(Exception):
 
 class ScenarioError(StudioError):
     """A scenario file, or a change of it, is wrong."""
+
+
+class ConflictError(ScenarioError):
+    """A document is not as the change expects it."""
+
+
+class SealedError(ScenarioError):
+    """A document that may be read only."""
 
 
 class MapError(StudioError):

@@ -28,7 +28,9 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
+from studio.scenario.migration import migrated
 from studio.scenario.schema import Scenario
+from studio.scenario.source import Source
 from studio.store.runs import Row, Runs
 from studio.world.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
@@ -38,11 +40,13 @@ LARGEST_SEED = 2**63 - 1
 
 @dataclass(frozen=True)
 class Loaded:
-    """A scenario that was read: the file, what was changed by path, and the valid result."""
+    """A scenario that was read: the file, what was changed by path, the valid result, what stands in the file, and what of it is old."""
 
     path: Path
     changes: dict[str, Any]
     scenario: Scenario
+    source: Source
+    migrated: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -86,14 +90,16 @@ class Run:
 
 def load(path: str | Path, changes: dict[str, Any] | None = None) -> Loaded:
     """Reads a scenario file and applies changes {path: value}. Raises ScenarioError with all problems."""
-    path = Path(path)
-    document = file.read(path)
-    changes = dict(changes or {})
-    if changes:
-        setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
-        document = setup.change(document, changes, path.name)
-    loaded = Loaded(path, changes, setup.complete(document, path.name))
-    check_goals(loaded)
+    path, changes = Path(path), dict(changes or {})
+    source = file.opened(path)
+    now, told = migrated(source)
+    with file.placed(source, path.name):
+        document = now.value
+        if changes:
+            setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
+            document = setup.change(document, changes, path.name)
+        loaded = Loaded(path, changes, setup.complete(document, path.name), source, tuple(told))
+        check_goals(loaded)
     return loaded
 
 
@@ -111,7 +117,8 @@ def check_goals(loaded: Loaded) -> None:
 
 def check(loaded: Loaded) -> None:
     """All that can be checked without the map; raises ScenarioError."""
-    check_names(loaded.scenario, loaded.path.name)
+    with file.placed(loaded.source, loaded.path.name):
+        check_names(loaded.scenario, loaded.path.name)
 
 
 def seeded(loaded: Loaded, seed: int | None) -> Loaded:
@@ -120,12 +127,13 @@ def seeded(loaded: Loaded, seed: int | None) -> Loaded:
         return loaded
     if not 0 <= seed <= LARGEST_SEED:
         raise ScenarioError("The seed is out of range.", [Problem("seed", "is out of range", str(seed), f"0 to {LARGEST_SEED}")])
-    return Loaded(loaded.path, loaded.changes, loaded.scenario.model_copy(update={"seed": seed}))
+    return replace(loaded, scenario=loaded.scenario.model_copy(update={"seed": seed}))
 
 
 def prepare(loaded: Loaded) -> Setting:
     """Map, routes and cars. Raises ScenarioError, MapError or RouteError."""
-    return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
+    with file.placed(loaded.source, loaded.path.name):
+        return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
 
 
 @cache

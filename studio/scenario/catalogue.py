@@ -18,7 +18,8 @@ from typing import Any, Literal
 from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
-from studio.scenario import datasheet, edit, file, tir
+from studio.scenario import datasheet, edit, finding, tir
+from studio.scenario.patch import patched
 from studio.scenario.tir import PropertyFile
 from studio.scenario.vehicle import Origin, Vehicle
 
@@ -109,7 +110,7 @@ def changed(model: VehicleModel, changes: Mapping[str, Any]) -> VehicleModel:
         raise ScenarioError(f"{model.name} has no such values to set.", problems)
     document = full
     for path, value in changes.items():
-        document = edit.put(document, full, path, value)
+        document = patched(document, edit.assignment(document, full, path, value))
     other = replace(model, values=validated(document, model.name), origins=changed_origins(model, full, changes))
     has_tyres(other)
     return other
@@ -154,7 +155,7 @@ def changed_origins(model: VehicleModel, full: dict[str, Any], changes: Iterable
     for path in changes:
         quantity = ".".join(path.split(".")[:2])
         if quantity in origins:
-            given = file.short(edit.get(full, quantity))
+            given = finding.short(edit.get(full, quantity))
             was = model.origins[quantity]
             origins[quantity] = replace(was, origin="set", source=f"in place of {given} ({was.origin}: {was.source})")
     return origins

@@ -16,6 +16,7 @@ from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
 MOST_OBJECTS = 500  # of one change
+VERSION = 2  # of the format; scenario/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
 
@@ -324,7 +325,7 @@ class Goal(Part):
 class Scenario(Part):
     """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
 
-    version: Literal[1] = Field(1, title="Version of this format")
+    version: Literal[2] = Field(VERSION, title="Version of this format")
     title: str = Field(..., min_length=1, max_length=120, title="Title")
     description: str = Field("", max_length=2000, title="Description")
     map: Map = Field(..., title="Map")

@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 
 from studio.errors import MapError, Problem, ScenarioError, StudioError, UnknownError, nearest
 from studio.road import folder, load, osm
@@ -23,6 +22,8 @@ from studio.road.place import attribution, licence, name_of
 from studio.road.reader import ENDINGS, ending_of
 from studio.road.trip import Trip, trip
 from studio.scenario import file as scenario_file
+from studio.scenario.schema import VERSION
+from studio.scenario.splice import written
 from studio.server import answer
 from studio.world.setting import USUAL_RADIUS
 
@@ -298,7 +299,7 @@ def scenario_text(name: str, found: Trip, maker: str, terms: str) -> str:
     """A scenario file: one car on a trip, at the limit."""
     duration = min(600.0, 10.0 * np.ceil((1.2 * found.time + RED_LIGHT * len(found.path.stop_lines)) / 10.0) + 10.0)
     document = {
-        "version": 1,
+        "version": VERSION,
         "title": f"A drive in {name}"[:120],
         "description": f"One car drives {found.length:.0f} m through the map {name}, a way drawn by lot, and stops at red.",
         "map": {"file": f"{CALLED}/{name}"},
@@ -309,7 +310,7 @@ def scenario_text(name: str, found: Trip, maker: str, terms: str) -> str:
     }
     named = " ".join(", ".join(filter(None, (maker, terms))).split())  # a header may hold line breaks
     head = f"# Map data {named}.\n" if named else ""
-    return head + yaml.safe_dump(document, allow_unicode=True, sort_keys=False)
+    return f"{head}{written(document, flow=None)}\n"
 
 
 def write_new(place: Path, base: str, text: str) -> str:
