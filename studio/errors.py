@@ -3,6 +3,7 @@
     StudioError
     ├── ScenarioError       a scenario file or a change of it is wrong
     │   ├── ConflictError   a document is not as the change expects it
+    │   │   └── StaleError  a document has changed since it was read
     │   └── SealedError     a document that may be read only
     ├── MapError            a map file is missing, unreadable or holds no roads
     ├── RouteError          roads do not connect, or are not on the map
@@ -66,6 +67,10 @@ class ScenarioError(StudioError):
 
 class ConflictError(ScenarioError):
     """A document is not as the change expects it."""
+
+
+class StaleError(ConflictError):
+    """A document has changed since it was read."""
 
 
 class SealedError(ScenarioError):

@@ -90,17 +90,21 @@ class Run:
 
 def load(path: str | Path, changes: dict[str, Any] | None = None) -> Loaded:
     """Reads a scenario file and applies changes {path: value}. Raises ScenarioError with all problems."""
-    path, changes = Path(path), dict(changes or {})
-    source = file.opened(path)
+    return loaded(file.opened(Path(path)), Path(path), changes)
+
+
+def loaded(source: Source, path: Path, changes: dict[str, Any] | None = None) -> Loaded:
+    """The same from what stands, or would stand, in the file."""
+    changes = dict(changes or {})
     now, told = migrated(source)
-    with file.placed(source, path.name):
+    with file.placed(source, path.name, changes=changes, told=told):
         document = now.value
         if changes:
             setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
             document = setup.change(document, changes, path.name)
-        loaded = Loaded(path, changes, setup.complete(document, path.name), source, tuple(told))
-        check_goals(loaded)
-    return loaded
+        found = Loaded(path, changes, setup.complete(document, path.name), source, tuple(told))
+        check_goals(found)
+    return found
 
 
 def check_goals(loaded: Loaded) -> None:
@@ -117,7 +121,7 @@ def check_goals(loaded: Loaded) -> None:
 
 def check(loaded: Loaded) -> None:
     """All that can be checked without the map; raises ScenarioError."""
-    with file.placed(loaded.source, loaded.path.name):
+    with file.placed(loaded.source, loaded.path.name, changes=loaded.changes, told=loaded.migrated):
         check_names(loaded.scenario, loaded.path.name)
 
 
@@ -132,7 +136,7 @@ def seeded(loaded: Loaded, seed: int | None) -> Loaded:
 
 def prepare(loaded: Loaded) -> Setting:
     """Map, routes and cars. Raises ScenarioError, MapError or RouteError."""
-    with file.placed(loaded.source, loaded.path.name):
+    with file.placed(loaded.source, loaded.path.name, changes=loaded.changes, told=loaded.migrated):
         return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
 
 

@@ -93,9 +93,49 @@ def test_check_and_schema(folder, sample):
     assert schema["$defs"]["Clock"]["properties"]["duration"]["unit"] == "s"
 
 
+OLD = """\
+# Mine
+title: Old
+map: {file: maps/motorway.xodr}
+routes: {along: {roads: [motorway]}}  # eastbound
+vehicles: {a: {route: along, position: {along: 50}, speed: 20}}
+road: {friction: 0.5}
+"""
+
+
+def test_an_old_scenario_is_read_told_and_rewritten(tmp_path, sample):
+    (tmp_path / "maps").symlink_to(sample.parent / "maps")
+    path = tmp_path / "old.yaml"
+    path.write_text(OLD)
+    code, out, told = studio("check", path, cwd=tmp_path)
+    assert code == 0 and "1 vehicles" in out
+    assert "version 1 to 2: `road.friction` is `weather.friction`" in told and f"`studio migrate {path}` rewrites it" in told
+    assert path.read_text() == OLD
+    code, out, _ = studio("migrate", path, cwd=tmp_path)
+    assert code == 0 and "is of version 2 now" in out
+    assert path.read_text() == OLD.replace("title", "version: 2\ntitle").replace("road: {", "weather: {")
+    assert studio("migrate", path, cwd=tmp_path)[1] == f"{path} is of version 2 already\n"
+    code, out, told = studio("check", path, cwd=tmp_path)
+    assert code == 0 and told == ""
+
+
+def test_what_is_wrong_in_a_file_has_its_line_and_in_an_old_one_its_migration(tmp_path):
+    path = tmp_path / "old.yaml"
+    path.write_text(OLD.replace("0.5", "5").replace("route: along", "rute: along"))
+    code, _, told = studio("check", path, cwd=tmp_path)
+    assert code == 2 and "old.yaml, line 5, column 16: vehicles.a.rute: is not a field that exists here; did you mean 'route'" in told
+    assert "old.yaml: weather.friction" in told and "old.yaml: version 1 to 2: `road.friction` is `weather.friction`" in told
+    code, _, told = studio("check", path, "--set", "a=1", cwd=tmp_path)
+    assert code == 2 and "line 5" in told
+    path.write_text("version: 9\n")
+    code, out, told = studio("migrate", path, cwd=tmp_path)
+    assert code == 2 and "newer than this studio" in told and path.read_text() == "version: 9\n"
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
+        (("run", "{sample}", "--set", "clock.duration=on"), ["--set clock.duration", "YAML 1.1 and 1.2", "write true"]),
         (("run", "{sample}", "--set", "clock.duraton=3"), ["clock.duraton", "did you mean 'clock.duration'"]),
         (("run", "{sample}", "--set", "clock.duration=-3"), ["clock.duration", "-3", "> 0"]),
         (("run", "{sample}", "--set", "nonsense"), ["--set", "PATH=VALUE"]),

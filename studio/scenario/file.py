@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -51,10 +51,14 @@ def content(path: Path, what: str, limit: int) -> bytes:
 
 def mapping(data: bytes, where: str, what: str) -> Source:
     """The mapping in a YAML text; raises ScenarioError with the line."""
-    found = source.read(source.decoded(data, where), where)
+    return checked(source.read(source.decoded(data, where), where), what)
+
+
+def checked(found: Source, what: str) -> Source:
+    """A source that is a mapping; raises ScenarioError."""
     if not isinstance(found.root.children, dict):
         given = "empty" if found.root.scalar is None and found.root.children is None else kind(found.value)
-        raise ScenarioError(f"{where} is not a {what}.", [Problem(where, f"is {given}", allowed="a YAML mapping")])
+        raise ScenarioError(f"{found.where} is not a {what}.", [Problem(found.where, f"is {given}", allowed="a YAML mapping")])
     return found
 
 
@@ -88,19 +92,23 @@ def validate(document: dict[str, Any], where: str) -> Scenario:
 
 
 @contextmanager
-def placed(found: Source, name: str) -> Iterator[None]:
-    """Problems of fields, `name: path`, get the line and column that the field has in a file."""
+def placed(found: Source, name: str, *, changes: Iterable[str] = (), told: Iterable[str] = ()) -> Iterator[None]:
+    """Problems of fields, `name: path`, get the line and column that the field has in a file, unless a change has set it.
+
+    What a migration has told is added: it says why a path may not stand in the file.
+    """
     try:
         yield
     except StudioError as error:
-        error.problems = [with_place(each, found, name) for each in error.problems]
+        error.problems = [with_place(each, found, name, changes) for each in error.problems] + [Problem(name, each) for each in told]
         raise
 
 
-def with_place(problem: Problem, found: Source, name: str) -> Problem:
+def with_place(problem: Problem, found: Source, name: str, changes: Iterable[str]) -> Problem:
     """A problem with its place, if its field, or a part around it, stands in the file."""
     path = problem.where.removeprefix(f"{name}: ")
-    if path == problem.where or found.find(path.split(".")[:1]) is None:
+    is_set = any(f"{path}.".startswith(f"{each}.") for each in changes)
+    if path == problem.where or is_set or found.find(path.split(".")[:1]) is None:
         return problem
     line, column = found.place(path.split("."))
     return replace(problem, where=f"{name}, line {line}, column {column}: {path}")

@@ -9,6 +9,7 @@ The standard says nothing about the order of keys, comments and the way a value 
 says it in one more member of its operations, `layout`, which other programs ignore, as the standard demands (section 4).
 """
 
+import json
 from collections.abc import Callable, Iterable, Sequence
 from functools import reduce
 from typing import Any, Literal
@@ -48,6 +49,15 @@ class Operation(BaseModel):
         needed = NEEDS.get(self.op)
         if needed and (needed not in self.model_fields_set or (needed == "from_" and self.from_ is None)):
             raise ValueError(f"the operation {self.op} needs the member {needed.rstrip('_')!r}")
+        return self
+
+    @model_validator(mode="after")
+    def is_text(self):
+        """Half characters (lone surrogates) are refused: JSON can carry them, a file cannot."""
+        try:
+            json.dumps(self.as_json(), ensure_ascii=False).encode()
+        except UnicodeEncodeError as error:
+            raise ValueError(f"holds text that is no Unicode: {error.reason}") from None
         return self
 
     @property

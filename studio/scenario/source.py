@@ -23,7 +23,7 @@ import yaml
 
 from studio.errors import Problem, ScenarioError
 
-MOST_NODES = 200_000  # values in a file, those that aliases repeat counted each time
+MOST_NODES = 100_000  # values in a file, those that aliases repeat counted each time
 DEEPEST = 64  # levels of a file; the schema has 8
 LONGEST_NUMBER = 400  # characters; a double ends at 1e308
 LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)  # the same events; libyaml is fifty times faster
@@ -47,8 +47,8 @@ TWOFOLD = re.compile(
     r"(?i:yes|no|on|off)|[-+]?0[0-9_]+(\.[0-9_]*)?|[-+]?0b[01_]+|[-+]0x[0-9a-fA-F_]+|0x[0-9a-fA-F]*_[0-9a-fA-F_]*"
     r"|[-+]?[0-9]+_[0-9_]*(\.[0-9_]*)?|[-+]?[1-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt ].*)?"
 )
-KINDS = {"str": str, "int": int, "float": (int, float), "bool": bool, "null": type(None), "map": dict, "seq": list}
-TAGS = {f"tag:yaml.org,2002:{name}": kind for name, kind in KINDS.items()} | {"!": str}
+TAG = "tag:yaml.org,2002:"  # written !!
+KINDS = {"str": (str,), "int": (int,), "float": (float, int), "bool": (bool,), "null": (type(None),), "map": (dict,), "seq": (list,)}
 MERGE = "<<"
 
 
@@ -282,7 +282,7 @@ class Composer:
 
     def scalar(self, event: yaml.ScalarEvent) -> Any:
         """The value of a scalar: a text in quotes or in a block, else what it looks like."""
-        is_plain = event.implicit[0] or (event.tag in TAGS and event.tag not in ("!", "tag:yaml.org,2002:str"))
+        is_plain = event.implicit[0] or (event.tag or "!!str").removeprefix(TAG) in KINDS.keys() - {"str"}
         return self.tagged(event, self.plain(event) if is_plain else event.value)
 
     def plain(self, event: yaml.ScalarEvent) -> Any:
@@ -301,8 +301,8 @@ class Composer:
 
     def tagged(self, event: yaml.Event, value: Any) -> Any:
         """The value, if its tag is one of JSON's kinds and says the same."""
-        if event.tag is None or isinstance(value, TAGS.get(event.tag, ())):
-            return float(value) if event.tag == "tag:yaml.org,2002:float" else value
+        if event.tag is None or type(value) in KINDS.get(event.tag.removeprefix(TAG), ()):
+            return float(value) if event.tag == f"{TAG}float" else value
         allowed = ", ".join(f"!!{name}" for name in KINDS)
         raise self.refused(event, "has a tag that does not fit, or is not taken", event.tag, allowed, "leave it out")
 

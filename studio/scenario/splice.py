@@ -205,7 +205,8 @@ def removed(given: Source, step: Operation) -> tuple[int, int] | None:
     end = line_end(given.text, node.end)
     if before is None:
         return line_start(given.text, head(given.text, node)), end + 1
-    return with_comments(given.text, head(given.text, node), line_end(given.text, before.end)), end
+    bound = line_end(given.text, before.end)
+    return with_blank(given.text, with_comments(given.text, head(given.text, node), bound), end, bound), end
 
 
 def added(given: Source, step: Operation) -> tuple[int, int] | None:
@@ -274,6 +275,13 @@ def with_comments(text: str, place: int, bound: int) -> int:
     while (above := line_start(text, max(start - 1, 0))) > bound and text.startswith(mark, above):
         start = above
     return start - 1
+
+
+def with_blank(text: str, start: int, end: int, bound: int) -> int:
+    """The same with the blank line above, when another one follows: two would be left."""
+    above = line_start(text, start)
+    alone = above > bound and not text[above:start].strip() and not text[end : line_end(text, end + 1)].strip()
+    return above - 1 if alone else start
 
 
 # -- what is written anew ---------------------------------------------------------------------------

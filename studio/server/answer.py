@@ -5,6 +5,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from studio.scenario.patch import Operation
+
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
@@ -87,6 +89,14 @@ class Check(BaseModel):
 
     ok: bool
     problems: list[Problem]
+    document: dict[str, Any]
+
+
+class Patched(BaseModel):
+    """A scenario after a patch: the patch that takes it back, the digest of its text (its ETag), and the document as it stands in it."""
+
+    inverse: list[Operation]
+    digest: str
     document: dict[str, Any]
 
 

@@ -12,7 +12,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.responses import Response
 
-from studio.errors import Problem, ServerError, SizeError, StoreError, StudioError, UnknownError
+from studio.errors import ConflictError, Problem, SealedError, ServerError, SizeError, StaleError, StoreError, StudioError, UnknownError
 from studio.server import map_routes, relay, routes
 from studio.server.desk import Desk
 
@@ -50,15 +50,14 @@ def make_ready(desk: Desk) -> None:
     desk.stage  # noqa: B018 - made by being looked at
 
 
+STATUS = {UnknownError: 404, StaleError: 412, ConflictError: 409, SealedError: 403, StoreError: 500, SizeError: 413}
+
+
 def status_of(error: StudioError) -> int:
     """HTTP status of an error."""
-    if isinstance(error, UnknownError):
-        return 404
-    if isinstance(error, StoreError):
-        return 500
-    if isinstance(error, SizeError):
-        return 413
-    return 409 if isinstance(error, ServerError) and "is over" in error.message else 422
+    if isinstance(error, ServerError) and "is over" in error.message:
+        return 409
+    return next((status for kind, status in STATUS.items() if isinstance(error, kind)), 422)
 
 
 def refusal(error: StudioError, status: int) -> Response:

@@ -10,6 +10,7 @@ from studio.errors import Problem, ServerError, StudioError, UnknownError, neare
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road import place
+from studio.server.documents import Documents
 from studio.server.frame import Frame
 from studio.server.live import Lives, LiveRun
 from studio.server.map_job import MapJobs
@@ -30,6 +31,7 @@ class Desk:
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)
         self.lives = Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
+        self.documents = Documents(self.scenarios)
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self._stage: Stage | None = None

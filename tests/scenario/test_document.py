@@ -14,7 +14,7 @@ from tests.conftest import ROOT
 from tests.scenario import yaml_text
 
 FILES = sorted([*(ROOT / "scenarios").glob("*.yaml"), *catalogue.VEHICLES.glob("*.yaml")])
-SLOW = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
+SLOW = settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
 HEADED = """\
 # The file
 version: 2
@@ -77,7 +77,7 @@ def test_the_inverse_of_any_patch_gives_the_same_bytes(data):
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=10, deadline=None, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_steps_in_real_files_are_undone_and_done_again(path, data):
     text = text_of(path)
