@@ -25,6 +25,17 @@ MOST_OPERATIONS = 1000  # of a patch
 NEEDS = {"add": "value", "replace": "value", "test": "value", "move": "from_", "copy": "from_"}
 
 
+def is_text(value: Any) -> Any:
+    """Refuses what is no JSON, and half characters (lone surrogates): JSON can carry them, a file cannot."""
+    try:
+        json.dumps(value, ensure_ascii=False).encode()
+    except UnicodeEncodeError as error:
+        raise ValueError(f"holds text that is no Unicode: {error.reason}") from None
+    except TypeError as error:
+        raise ValueError(f"holds what JSON cannot say: {error}") from None
+    return value
+
+
 class Layout(BaseModel):
     """How a value was written, so that an inverse is exact to the letter."""
 
@@ -52,12 +63,8 @@ class Operation(BaseModel):
         return self
 
     @model_validator(mode="after")
-    def is_text(self):
-        """Half characters (lone surrogates) are refused: JSON can carry them, a file cannot."""
-        try:
-            json.dumps(self.as_json(), ensure_ascii=False).encode()
-        except UnicodeEncodeError as error:
-            raise ValueError(f"holds text that is no Unicode: {error.reason}") from None
+    def can_be_sent(self):
+        is_text(self.as_json())
         return self
 
     @property

@@ -90,7 +90,7 @@ def shared(given: Source, path: Sequence[str]) -> list[tuple[str, ...]]:
     for place, node in walk(given.root, ()):
         if node.anchor:
             anchors[node.anchor] = place
-        if node.alias and node.alias != MERGE and (on_way(place, path) or related(anchors[node.alias], path)):
+        if node.alias and node.alias != MERGE and (on_way(place, path) or related(anchors.get(node.alias, ()), path)):
             found.append(place)
     return found
 

@@ -1,24 +1,14 @@
 """What REST takes and gives, as pydantic models: OpenAPI and the page's types are made from them."""
 
-import json
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from studio.scenario.patch import Operation
+from studio.scenario.patch import Operation, is_text
 
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
-
-
-def is_text(values: dict[str, Any]) -> dict[str, Any]:
-    """Refuses half characters (lone surrogates): JSON can carry them, a scenario cannot."""
-    try:
-        json.dumps(values, ensure_ascii=False).encode()
-    except UnicodeEncodeError as error:
-        raise ValueError(f"holds text that is no Unicode: {error.reason}") from None
-    return values
 
 
 ChangesByPath = Annotated[dict[str, Any], AfterValidator(is_text)]

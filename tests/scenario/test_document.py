@@ -151,6 +151,12 @@ def test_what_a_merge_brings_can_be_changed_too():
     assert after == {"base": {"a": 1, "b": 2}, "mine": {"a": 7, "b": 3}}
 
 
+def test_an_anchor_within_a_merge():
+    text = "mine: {<<: &part {a: 1}, b: 2}\nother: *part\n"
+    after = source.read(changed(text, {"op": "replace", "path": "/mine/a", "value": 7}), "my.yaml").value
+    assert after == {"mine": {"a": 7, "b": 2}, "other": {"a": 1}}
+
+
 def test_an_inverse_still_fits_when_others_have_changed_something_else():
     document = Document.read(HEADED, "my.yaml")
     inverse = document.apply(patch.operations([{"op": "remove", "path": "/clock/tick"}]))

@@ -99,6 +99,8 @@ DOCUMENT = {"clock": {"duration": 60}, "roads": ["a", "b"], "title": "x", "a/b":
         ({"op": "move", "from": "/clock", "path": "/clock/inner"}, ["/clock/inner", "lies within /clock"]),
         ({"op": "copy", "from": "/clok", "path": "/other"}, ["/clok", "did you mean 'clock'"]),
         ({"op": "move", "path": "/other"}, ["needs the member 'from'"]),
+        ({"op": "add", "path": "/x", "value": {1, 2}}, ["patch: 0", "what JSON cannot say"]),
+        ({"op": "add", "path": "/x", "value": "\ud800"}, ["patch: 0", "no Unicode"]),
         ({"op": "put", "path": "/clock", "value": 1}, ["patch: 0.op", "'put'", "'add'", "'replace'"]),
         ({"op": "add", "value": 1}, ["patch: 0.path", "is missing"]),
         ({"op": "test", "path": "/title", "value": "y"}, ["/title", "'x'", "allowed: 'y'", "read it again"]),
