@@ -16,11 +16,13 @@ from typing import Any
 import numpy as np
 
 from studio.errors import MapError, Problem, ScenarioError, StudioError, UnknownError, nearest
-from studio.road import folder, load, osm
+from studio.road import load
+from studio.road.formats import osm
+from studio.road.library import folder
+from studio.road.library.place import attribution, licence, name_of
+from studio.road.library.reader import ENDINGS, ending_of
 from studio.road.network import Network
-from studio.road.place import attribution, licence, name_of
-from studio.road.reader import ENDINGS, ending_of
-from studio.road.trip import Trip, trip
+from studio.road.ways.trip import Trip, trip
 from studio.scenario import file as scenario_file
 from studio.scenario.schema import VERSION
 from studio.scenario.splice import written
