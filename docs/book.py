@@ -25,7 +25,7 @@ POLICY = "policy.json"  # digests of the scripts that stand in the pages, for th
 SOURCES = ("docs", "studio", "web/public", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE")
 ENDINGS = (".py", ".md", ".toml", ".css", ".svg", ".yaml", ".tir", ".png", "LICENSE")
 SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
-ABORTED = "Traceback (most recent call last):\n  File \"<frozen runpy>"  # of Zensical itself, once it has told what is wrong
+ABORTED = 'Traceback (most recent call last):\n  File "<frozen runpy>'  # of Zensical itself, once it has told what is wrong
 ANSI = re.compile(r"\x1b\[[0-9;]*m")
 
 HINT = """The documentation could not be built.
@@ -81,14 +81,16 @@ def made() -> dict[str, str]:
 
 def lay_out(folder: Path) -> None:
     """Puts pages and settings together as Zensical wants them."""
-    for name, text in (written() | made()).items():
+    pages = written() | made()
+    for name, text in pages.items():
         path = folder / "pages" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     for source in (ROOT / "docs" / "style.css", ROOT / "web" / "public" / "favicon.svg"):
         shutil.copy(source, folder / "pages")
+    rooms = ", ".join(f'"{name}"' for name in pages if name.startswith("reference/modules/") and not name.endswith("index.md"))
     settings = (ROOT / "docs" / "zensical.toml").read_text(encoding="utf-8")
-    (folder / "zensical.toml").write_text(settings.replace("{ROOT}", ROOT.as_posix()), encoding="utf-8")
+    (folder / "zensical.toml").write_text(settings.replace("{ROOT}", ROOT.as_posix()).replace("{MODULES}", rooms), encoding="utf-8")
 
 
 def press(folder: Path) -> Path:

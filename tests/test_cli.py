@@ -186,7 +186,7 @@ def test_drive(tmp_path):
 def test_tyre(tmp_path, root):
     (tmp_path / "rows.csv").write_text("kappa,alpha_rad,gamma_rad,Fz_N\n0.1,0,0,3000\n0,0.05,0,3000\n")
     file = root / "studio" / "scenario" / "tyres" / "smart_175_55r15.tir"
-    code, out, err = studio("tyre", file, "--rows", "rows.csv", "--out", "out.csv", "--plot", "plot.png", cwd=tmp_path)
+    code, _, err = studio("tyre", file, "--rows", "rows.csv", "--out", "out.csv", "--plot", "plot.png", cwd=tmp_path)
     assert code == 0, err
     rows = (tmp_path / "out.csv").read_text().splitlines()
     assert rows[0] == "kappa,alpha_rad,gamma_rad,Fz_N,Fx_N,Fy_N,Mz_Nm" and len(rows) == 3

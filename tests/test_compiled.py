@@ -76,7 +76,7 @@ def test_two_processes_that_compile_at_once_do_not_mix_their_code(program):
     program("helper_of_mine", HELPER.format(3))
     one, other = program("own_of_mine", USER).twice, program("own_of_mine", USER).twice
     read = other._cache._cache_file._load_index
-    other._cache._cache_file._load_index = lambda: {}  # what it read before the first had written
+    other._cache._cache_file._load_index = dict  # what it read before the first had written
     assert one(1.5) == 9.0 and other(2) == 12
     other._cache._cache_file._load_index = read
     later = program("own_of_mine", USER).twice

@@ -2,25 +2,33 @@
 
 import json
 import re
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 from docs.reference.table import code, table
 
 HEAD = ("field", "kind", "unit", "range", "default", "meaning")
 BOUNDS = (("minimum", "≥"), ("exclusiveMinimum", ">"), ("maximum", "≤"), ("exclusiveMaximum", "<"))
-LENGTHS = (("minLength", "maxLength", "characters"), ("minItems", "maxItems", "entries"), ("minProperties", "maxProperties", "entries"))
+LENGTHS = (
+    ("minLength", "maxLength", "characters"),
+    ("minItems", "maxItems", "entries"),
+    ("minProperties", "maxProperties", "entries"),
+)
+NONE: Mapping[str, dict[str, Any]] = MappingProxyType({})
 LONGEST_DEFAULT = 60  # characters; a longer default is told as "its defaults"
 
 
-def fields(node: dict[str, Any]) -> str:
-    """The table of an object's fields."""
+def fields(node: dict[str, Any], parts: Mapping[str, dict[str, Any]] = NONE) -> str:
+    """The table of an object's fields; a field that is a part means what the part says of itself."""
     needed = node.get("required", ())
-    return table(HEAD, [row(name, each, name in needed) for name, each in node.get("properties", {}).items()])
+    return table(HEAD, [row(name, each, name in needed, parts) for name, each in node.get("properties", {}).items()])
 
 
-def row(name: str, node: dict[str, Any], needed: bool) -> list[str]:
+def row(name: str, node: dict[str, Any], needed: bool, parts: Mapping[str, dict[str, Any]]) -> list[str]:
     """One field."""
-    return [code(name), kind(node), unit(node), allowed(node), "must be given" if needed else default(node), meaning(node)]
+    said = meaning(node) or meaning(parts.get(node.get("$ref", "").rpartition("/")[2], {}))
+    return [code(name), kind(node), unit(node), allowed(node), "must be given" if needed else default(node), said]
 
 
 def kind(node: dict[str, Any]) -> str:
@@ -37,7 +45,8 @@ def kind(node: dict[str, Any]) -> str:
         return f"list of {kind(node.get('items', {}))}"
     if node.get("type") == "object":
         return f"names, each with {kind(inner)}" if (inner := inside(node)) else "mapping"
-    return {"integer": "whole number", "string": "text", "boolean": "true or false", None: "anything"}.get(node.get("type"), node.get("type", ""))
+    named = node.get("type", "anything")
+    return {"integer": "whole number", "string": "text", "boolean": "true or false"}.get(named, named)
 
 
 def members_of(node: dict[str, Any]) -> list[dict[str, Any]]:
@@ -70,12 +79,17 @@ def unit(node: dict[str, Any]) -> str:
 def allowed(node: dict[str, Any]) -> str:
     """Bounds of a number, or of the length of a text or list."""
     for each in (node, *members_of(node)):
-        bounds = [f"{sign} {each[key]:g}" for key, sign in BOUNDS if key in each]
+        bounds = [f"{sign} {plain(each[key])}" for key, sign in BOUNDS if key in each]
         lengths = [length(each.get(least), each.get(most), what) for least, most, what in LENGTHS if least in each or most in each]
         pattern = [code(each["pattern"])] if "pattern" in each else []
         if bounds or lengths or pattern:
             return " and ".join(bounds + lengths + pattern)
     return ""
+
+
+def plain(number: float) -> str:
+    """A whole number in full, any other with as many digits as it needs."""
+    return str(number) if isinstance(number, int) else f"{number:g}"
 
 
 def length(least: int | None, most: int | None, what: str) -> str:
@@ -95,6 +109,7 @@ def default(node: dict[str, Any]) -> str:
 
 
 def meaning(node: dict[str, Any]) -> str:
-    """Title and description."""
-    found = [node.get("title", ""), node.get("description", "")]
-    return ": ".join(each for each in found if each)
+    """Title and description; of a part its description, whose first line is about what it is."""
+    if "properties" in node:
+        return node.get("description", "").partition("\n\n")[0]
+    return ": ".join(each for each in (node.get("title", ""), node.get("description", "")) if each)

@@ -1,7 +1,8 @@
 """The metrics of a run."""
 
 from docs.reference.table import code, table
-from studio.assess import measure  # imports every built-in metric
+from studio.assess import measure  # noqa: F401 - it imports every built-in metric
+from studio.assess.metric import registered
 
 HEAD = """# Metrics
 
@@ -12,8 +13,5 @@ is met by it. `goals` of a scenario bound them by name.
 
 def page() -> str:
     """All metrics by name."""
-    rows = [
-        [code(name), each.unit, {"higher": "higher", "lower": "lower"}.get(each.goal or "", ""), f"{each.title}. {each.measure.__doc__ or ''}"]
-        for name, each in measure.registered().items()
-    ]
+    rows = [[code(name), each.unit, each.goal or "", f"{each.title}. {each.measure.__doc__ or ''}"] for name, each in registered().items()]
     return HEAD + "\n" + table(["metric", "unit", "better", "meaning"], rows)

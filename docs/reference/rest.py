@@ -19,7 +19,7 @@ def page() -> str:
     api = description()
     routes = [route(path, method, each) for path, methods in api["paths"].items() for method, each in methods.items()]
     objects = api["components"]["schemas"]
-    parts = [f"### {name}\n\n{filled(node.get('description', ''))}\n\n{fields(node)}" for name, node in objects.items()]
+    parts = [f"### {name}\n\n{filled(node.get('description', ''))}\n\n{fields(node, objects)}" for name, node in objects.items()]
     return "\n".join([HEAD, "## Routes\n", *routes, "## Objects\n", *parts])
 
 
@@ -43,4 +43,5 @@ def parameter(each: dict[str, Any]) -> list[str]:
 def body(described: dict[str, Any]) -> str:
     """What a body holds."""
     contents = described.get("content", {})
-    return ", ".join(kind(each.get("schema", {})) if kept == "application/json" else code(kept) for kept, each in contents.items()) or "nothing"
+    told = (kind(each.get("schema", {})) if form == "application/json" else code(form) for form, each in contents.items())
+    return ", ".join(told) or "nothing"

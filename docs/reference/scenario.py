@@ -15,4 +15,5 @@ def page() -> str:
     """Every part of a scenario with its fields."""
     schema = Scenario.model_json_schema()
     parts = {"Scenario": schema, **schema["$defs"]}
-    return "\n".join([HEAD, *(f"## {name}\n\n{filled(node.get('description', ''))}\n\n{fields(node)}" for name, node in parts.items())])
+    sections = [f"## {name}\n\n{filled(node.get('description', ''))}\n\n{fields(node, parts)}" for name, node in parts.items()]
+    return "\n".join([HEAD, *sections])

@@ -1,5 +1,6 @@
 """Tables and sections in Markdown."""
 
+import inspect
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -22,6 +23,4 @@ def code(value: Any) -> str:
 
 def filled(text: str) -> str:
     """A docstring's text with its indentation taken away."""
-    import inspect
-
     return inspect.cleandoc(text or "")

@@ -106,7 +106,7 @@ def put(command, v, commands):
     i = 0
     for value in literal_unroll(command):
         commands[i, v] = value
-        i += 1
+        i += 1  # noqa: SIM113 - numba unrolls no enumeration
 
 
 def memory_of(remembered, kind: type) -> tuple[float, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from studio.assess.metric import metric
 from studio.execution.record import Chain, Record
+import itertools
 
 QUIET = 0.05  # [m/s²] root mean square below which there is no disturbance to pass on
 
@@ -20,7 +21,7 @@ def strength(record: Record, vehicle: str) -> float:
 def gains(record: Record, chain: Chain) -> list[float]:
     """Gain of every hop of a chain that had something to pass on."""
     levels = [strength(record, vehicle) for vehicle in chain.vehicles if vehicle in record.vehicles]
-    return [level / ahead for ahead, level in zip(levels, levels[1:], strict=False) if ahead > QUIET]
+    return [level / ahead for ahead, level in itertools.pairwise(levels) if ahead > QUIET]
 
 
 @metric("worst_hop_gain", unit="1", goal="lower", title="Greatest gain from car to car")

@@ -215,9 +215,10 @@ def sequence_problems(rows: table.Table, values: Mapping[str, np.ndarray]) -> li
     for i in np.flatnonzero(np.diff(time) <= 0.0):
         what = f"is not later than the row before ({time[i]:g} s)"
         problems.append(Problem(rows.where(i + 1, "time_s"), what, f"{time[i + 1]:g}", remedy="sort the rows by time"))
-    for i in np.flatnonzero(values.get("gear", np.zeros(1)) % 1.0):
-        problems.append(Problem(rows.where(i, "gear"), "is not a whole number", f"{values['gear'][i]:g}", "-1, 0, 1, 2 ..."))
-    return problems
+    return problems + [
+        Problem(rows.where(i, "gear"), "is not a whole number", f"{values['gear'][i]:g}", "-1, 0, 1, 2 ...")
+        for i in np.flatnonzero(values.get("gear", np.zeros(1)) % 1.0)
+    ]
 
 
 def pairs_problems(rows: table.Table) -> list[Problem]:

@@ -64,9 +64,9 @@ UNITS = {
 DEGREES = ("degree", "degrees", "deg")
 # Keys that carry a unit. Angles must be radians; the coefficients of the formula relate to FNOMIN, UNLOADED_RADIUS.
 EXPONENTS = {
-    **dict.fromkeys(("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH"), {"LENGTH": 1}),
-    **dict.fromkeys(("FNOMIN", "FZMIN", "FZMAX"), {"FORCE": 1}),
-    **dict.fromkeys(("LONGVL", "VXLOW"), {"LENGTH": 1, "TIME": -1}),
+    **{key: {"LENGTH": 1} for key in ("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH")},
+    **{key: {"FORCE": 1} for key in ("FNOMIN", "FZMIN", "FZMAX")},
+    **{key: {"LENGTH": 1, "TIME": -1} for key in ("LONGVL", "VXLOW")},
     "VERTICAL_STIFFNESS": {"FORCE": 1, "LENGTH": -1},
     "VERTICAL_DAMPING": {"FORCE": 1, "LENGTH": -1, "TIME": 1},
     "MBELT": {"MASS": 1},

@@ -39,7 +39,7 @@ def test_blocks_are_found_with_their_lines(tmp_path):
 
 
 FAILING = {
-    "a command of the studio": ("sh", "uv run studio vehicles\nuv run studio vehicles smart_forfour\n", 11, ["uv run studio vehicles smart_forfour", "smart_fortwo"]),
+    "a command of the studio": ("sh", "uv run studio vehicles\nuv run studio vehicles smart\n", 11, ["vehicles smart\n", "smart_fortwo"]),
     "a command without output": ("sh", "echo before\nfalse\n", 10, ["failed: false", "before"]),
     "a program": ("python", "x = 1\nassert x == 2\n", 11, ["assert x == 2", "AssertionError"]),
     "no program": ("python", "x = (\n", 10, ["SyntaxError"]),

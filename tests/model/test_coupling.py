@@ -27,7 +27,7 @@ def engaged(w_e, w_in, T_cap, T_net=0.0):
 @patient
 @given(speeds, speeds, st.floats(-300, 300))
 def test_a_strong_clutch_makes_both_sides_equally_fast(w_e, w_in, T_net):
-    T_c, after_e, after_in = engaged(w_e, w_in, 1e9, T_net)
+    _, after_e, after_in = engaged(w_e, w_in, 1e9, T_net)
     assert after_e == pytest.approx(after_in, abs=1e-6)
     momentum = J_E * w_e + J_IN * w_in + DT * T_net
     assert J_E * after_e + J_IN * after_in == pytest.approx(momentum, rel=1e-9, abs=1e-9)

@@ -241,7 +241,7 @@ def test_parts_of_the_aligning_moment():
     def moment(**factors):
         return tyre.forces(t._replace(**factors), kappa, alpha, 0.0, F_z, 1.0)[2]
 
-    none = dict(LTR=0.0, LRES=0.0, LS=0.0)
+    none = {"LTR": 0.0, "LRES": 0.0, "LS": 0.0}
     parts = [moment(**{**none, name: 1.0}) for name in none]
     assert moment(**none) == 0.0
     assert all(abs(part) > 1.0 for part in parts)

@@ -187,7 +187,7 @@ def test_files_that_are_not_there(tyre_file, tmp_path):
     (tmp_path / "rows.csv").write_text(f"{HEAD}\n0,0,0,4000\n")
     with pytest.raises(ScenarioError, match="cannot be written: there is no such folder"):
         rig.bench(tyre_file, tmp_path / "rows.csv", tmp_path / "nowhere" / "out.csv")
-    with pytest.raises(ScenarioError, match="There is no tyre|is no file"):
+    with pytest.raises(ScenarioError, match=r"There is no tyre|is no file"):
         rig.bench(tmp_path / "none.tir", tmp_path / "rows.csv", tmp_path / "out.csv")
 
 

@@ -71,8 +71,8 @@ def test_missing_file_and_unknown_kind_are_refused(tmp_path):
         load(tmp_path / "gone.osm")
     with pytest.raises(MapError, match=r"\.osm\.gz"):
         load(written(tmp_path, "x", "map.kml"))
+    (tmp_path / "folder.osm").mkdir()
     with pytest.raises(MapError, match="cannot be read"):
-        (tmp_path / "folder.osm").mkdir()
         load(tmp_path / "folder.osm")
 
 

@@ -11,6 +11,7 @@ from studio.road import elevation, load
 from studio.road.motorway import motorway
 from studio.road.path import PATH_HEIGHT, PATH_SLOPE, path
 from studio.road.route import all_routes, connect
+import itertools
 
 MAPS = File(__file__).parents[1] / "reference"
 STEP = 0.0009  # [deg] of latitude: 100 m
@@ -134,7 +135,7 @@ def test_streets_that_hang_together_meet_at_one_height(draft, tmp_path):
     network = load(draft.write(tmp_path / "cross.osm"))
     for each in network.connections:
         chain = [network.lanes[lane] for lane in (each.from_lane, *each.via, each.to_lane)]
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             assert a.height[-1] == pytest.approx(b.height[0], abs=0.01)
     heights = {lane.road.removeprefix("-").split("#")[0]: lane.height for lane in network.lanes if not lane.internal}
     assert not heights["9"].any() and np.ptp(heights["1"]) > 4.0

@@ -128,7 +128,7 @@ def test_a_file_over_the_limit_is_refused(tmp_path):
 
 def test_a_disk_that_does_not_take_it(tmp_path):
     (tmp_path / "file").write_text("in the way")
-    with pytest.raises(MapError, match="cannot be written|in the way"):
+    with pytest.raises(MapError, match=r"cannot be written|in the way"):
         folder.write(load(PERTH), PERTH, tmp_path / "file" / "place", bbox=None)
 
 

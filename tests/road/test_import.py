@@ -119,7 +119,7 @@ def test_outline_with_parts_is_drawn_once(draft, tmp_path, own_cache):
     corners = [(52.5010, 13.4010), (52.5010, 13.4013), (52.5012, 13.4013), (52.5012, 13.4010)]
     ring = [draft.node(*corner) for corner in corners]
     draft.way(2, [*ring, ring[0]], building="yes", height="30")
-    draft.way(3, [*ring, ring[0]], **{"building__part": "yes"}, height="20", min_height="5")
+    draft.way(3, [*ring, ring[0]], building__part="yes", height="20", min_height="5")
     loaded = load(draft.write(tmp_path / "house.osm"))
     assert [(b.height, b.base) for b in loaded.scenery.buildings] == [(20.0, 5.0)]
 

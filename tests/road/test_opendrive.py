@@ -20,6 +20,7 @@ from studio.road.path import PATH_CURVATURE, path
 from studio.road.reference_line import Bend, Cubic, Profile, ReferenceLine
 from studio.road.route import all_routes, connect
 from studio.road.xodr import Header, read_header
+import itertools
 
 FILES = sorted((Path(__file__).parents[1] / "reference" / "opendrive").glob("*.xodr"))
 FOLDER = FILES[0].parent
@@ -79,17 +80,17 @@ def spiral(s, k_0, k_1, length):
 @pytest.mark.parametrize(("k_0", "k_1"), [(0.0, 0.02), (0.02, 0.0), (-0.01, 0.03), (0.004, -0.004), (0.1, 0.3)])
 def test_spiral_is_fresnels(k_0, k_1):
     s = np.linspace(0.0, 80.0, 41)
-    x, y, heading = Bend(0.0, 0.0, 0.0, 0.0, 80.0, k_0, k_1).at(s)
+    x, y, _ = Bend(0.0, 0.0, 0.0, 0.0, 80.0, k_0, k_1).at(s)
     assert np.abs([x, y] - np.array(spiral(s, k_0, k_1, 80.0))).max() < 1e-10
     assert heading == pytest.approx(k_0 * s + (k_1 - k_0) * s**2 / 160.0)
 
 
 def test_arc_and_line_are_circle_and_line():
     s = np.linspace(0.0, 300.0, 7)
-    x, y, heading = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.02, 0.02).at(s)
+    x, y, _ = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.02, 0.02).at(s)
     assert np.abs(x - (5.0 + (np.sin(0.3 + s / 50) - np.sin(0.3)) * 50)).max() < 1e-10
     assert np.abs(y - (-2.0 - (np.cos(0.3 + s / 50) - np.cos(0.3)) * 50)).max() < 1e-10
-    x, y, heading = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.0, 0.0).at(s)
+    x, y, _ = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.0, 0.0).at(s)
     assert np.abs([x - 5.0 - s * np.cos(0.3), y + 2.0 - s * np.sin(0.3)]).max() < 1e-10
 
 
@@ -195,7 +196,7 @@ def test_connections_join_what_they_name(file):
     network = load(file)
     for each in network.connections:
         chain = [network.lanes[lane] for lane in (each.from_lane, *each.via, each.to_lane)]
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             assert np.hypot(*(a.centre[:, -1] - b.centre[:, 0])) < 0.05
             t, d = a.centre[:, -1] - a.centre[:, -2], b.centre[:, 1] - b.centre[:, 0]
             assert t @ d > 0.98 * np.hypot(*t) * np.hypot(*d)
@@ -210,7 +211,7 @@ def test_kerb_lanes_come_first_and_traffic_keeps_its_side(file):
         inner = [network.lanes[lane] for lane in one.lanes]
         back = network.roads.get(one.id.removeprefix("-") if one.id.startswith("-") else "-" + one.id)
         order = [*inner, network.lanes[back.lanes[-1]]] if back and not one.internal and "#" not in one.id else inner
-        for a, b in zip(order, order[1:], strict=False):
+        for a, b in itertools.pairwise(order):
             (t_x, t_y), middle = a.centre[:, 1] - a.centre[:, 0], b.centre[:, 0] if a.road == b.road else b.centre[:, -1]
             d_x, d_y = middle - a.centre[:, 0]
             assert (t_x * d_y - t_y * d_x) * network.middle > 0.0

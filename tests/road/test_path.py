@@ -21,6 +21,7 @@ from studio.road.path import (
     project,
 )
 from studio.road.route import LanePath
+import itertools
 
 LATERAL, BRAKING = 2.5, 1.5  # [m/s²] the defaults of path()
 
@@ -72,7 +73,7 @@ def test_paths_stay_on_their_lanes(place, routes, paths):
         all_lines = np.array([nearest_of(one.points[:2], [lane]) for lane in lanes])
         closest = all_lines.min(axis=0)
         changed = {
-            a.road for a, b in zip(lanes, lanes[1:], strict=False) if a.road == b.road and not a.internal
+            a.road for a, b in itertools.pairwise(lanes) if a.road == b.road and not a.internal
         }
         plain = np.array([lane.road not in changed for lane in lanes])
         alone = all_lines[plain].min(axis=0) == closest

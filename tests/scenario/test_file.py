@@ -129,7 +129,7 @@ def test_two_applications_on_one_car(document, folder):
 
 def test_a_period_that_is_no_whole_number_of_ticks(document, folder):
     document["radio"] = {"period": 0.03}
-    with pytest.raises(ScenarioError, match="radio.period"):
+    with pytest.raises(ScenarioError, match=r"radio\.period"):
         prepared(document, folder)
 
 
@@ -170,13 +170,13 @@ def test_a_missing_map(document, folder):
 def test_a_map_that_is_none(document, tmp_path):
     (tmp_path / "place.osm").write_text("hello")
     document["map"]["file"] = "place.osm"
-    with pytest.raises(MapError, match="place.osm"):
+    with pytest.raises(MapError, match=r"place\.osm"):
         prepared(document, tmp_path)
 
 
 def test_too_much_traffic(document, folder):
     document["traffic"] = {"count": 500, "spacing": 150}
-    with pytest.raises(ScenarioError, match="traffic.count"):
+    with pytest.raises(ScenarioError, match=r"traffic\.count"):
         prepared(document, folder)
 
 
@@ -200,5 +200,5 @@ def test_files_that_are_no_scenario(tmp_path, content, words):
 
 
 def test_a_missing_file_names_its_neighbour(sample):
-    with pytest.raises(ScenarioError, match="did you mean 'grosser_stern_platoon.yaml'"):
+    with pytest.raises(ScenarioError, match=r"did you mean 'grosser_stern_platoon\.yaml'"):
         file.read(sample.with_name("grosser_stern_platon.yaml"))

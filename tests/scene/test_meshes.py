@@ -159,7 +159,7 @@ def test_masts_stand_at_the_kerb_and_heads_hang_over_their_lanes(town):
     mesh = signal.masts(town)
     pole = mesh.vertices[mesh.vertices[:, 2] < 0.01]
     assert (pole[:, 1] < -3.5).all() and (pole[:, 0] > 150.0).all()
-    x, y = signal.head_places(town)
+    _, y = signal.head_places(town)
     np.testing.assert_allclose(y, [-1.75, 1.75])
     assert mesh.vertices[:, 1].max() > 1.75
 

@@ -48,9 +48,9 @@ def test_the_whole_scene_arrives_in_binary_under_visers_protocol(port, path):
 
 def test_what_the_browser_says_reaches_viser(scene, port):
     camera = {
-        **{"type": "ViewerCameraMessage", "wxyz": [1.0, 0.0, 0.0, 0.0], "position": [1.0, 2.0, 3.0]},
-        **{"fov": 0.7, "near": 0.1, "far": 100.0, "image_height": 90, "image_width": 160},
-        **{"look_at": [0.0, 0.0, 0.0], "up_direction": [0.0, 0.0, 1.0]},
+        "type": "ViewerCameraMessage", "wxyz": [1.0, 0.0, 0.0, 0.0], "position": [1.0, 2.0, 3.0],
+        "fov": 0.7, "near": 0.1, "far": 100.0, "image_height": 90, "image_width": 160,
+        "look_at": [0.0, 0.0, 0.0], "up_direction": [0.0, 0.0, 1.0],
     }
 
     async def look() -> list[tuple[float, ...]]:
@@ -130,7 +130,7 @@ def test_when_viser_stops_the_browser_is_told():
             async with connect(port) as client:
                 await client.recv()
                 await asyncio.to_thread(scene.stop)
-                with pytest.raises(websockets.ConnectionClosed):
+                with pytest.raises(websockets.ConnectionClosed):  # noqa: PT012 - whatever still comes before
                     while True:
                         await asyncio.wait_for(client.recv(), 20.0)
                 return client.close_code

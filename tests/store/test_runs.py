@@ -46,7 +46,7 @@ def test_traces_keep_all_bits(kept):
 
 
 def test_newest_first_and_lineage(kept):
-    runs, first = kept
+    runs, _ = kept
     assert [row.run for row in runs.select()] == [2, 1]
     assert runs.find(2).parent == 1 and runs.find(2).seed == 5
 
@@ -70,7 +70,7 @@ def test_an_unknown_run(kept, wrong):
 
 
 def test_an_unknown_channel(kept):
-    with pytest.raises(UnknownError, match="did you mean 'leader.speed'"):
+    with pytest.raises(UnknownError, match=r"did you mean 'leader\.speed'"):
         kept[0].trace(1, ["leader.sped"])
 
 
@@ -167,7 +167,7 @@ def test_only_the_wanted_channels_are_kept(sample, tmp_path):
     job.run(job.load(sample, {"clock.duration": 1, "recording.channels": ["speed"]}), runs=runs)
     assert {each["name"].partition(".")[2] for each in runs.channels(1)} == {"speed"}
     assert runs.find(1).metrics["min_gap"].value > 0  # metrics see everything
-    with pytest.raises(Exception, match="recording.channels.0.*did you mean 'speed'"):
+    with pytest.raises(Exception, match=r"recording\.channels\.0.*did you mean 'speed'"):
         job.run(job.load(sample, {"recording.channels": ["sped"]}), runs=runs)
 
 

@@ -343,7 +343,7 @@ def test_objects_are_not_seen_through_fog(sample):
     """A driver who sees 30 m takes a barrier for nothing at 60 m, and stops before it all the same."""
     each = scenario(sample, wall(at=430.0), weather={"visibility": 30.0})
     assert np.isnan(run_for([each], 0.5).vehicles.mind[GAP, 0])
-    station, speed, world = drive(each, 25)
+    _, speed, world = drive(each, 25)
     assert speed[-1] < 0.05 and world.events.hits_found == 0
 
 

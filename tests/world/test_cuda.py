@@ -25,10 +25,10 @@ def code():
 
 def test_the_kernel_is_one_function(code):
     """One entry, for GPUs from CAPABILITY on; it calls nothing: all the mathematics is inside."""
-    assert re.search(rf"^\.target sm_{cuda.CAPABILITY[0]}{cuda.CAPABILITY[1]}", code, re.M)
+    assert re.search(rf"^\.target sm_{cuda.CAPABILITY[0]}{cuda.CAPABILITY[1]}", code, re.MULTILINE)
     entries = re.findall(r"\.visible \.entry (\w+)", code)
     assert len(entries) == 1 and "kernel" in entries[0]
-    assert not re.findall(r"^\s*(?:@\S+\s+)?call", code, re.M)
+    assert not re.findall(r"^\s*(?:@\S+\s+)?call", code, re.MULTILINE)
     assert not re.findall(r"\.extern|\.func", code)
 
 

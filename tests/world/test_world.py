@@ -11,6 +11,7 @@ from studio.road.signals import GREEN
 from studio.world.build import build
 from studio.world.state import ACTIVE, FRONT, OFFSET, OMEGA, OMEGA_E, RED_STATION, STATION, V_EAST, V_X, X, Y
 from studio.world.tick import tick
+import itertools
 
 
 def run_for(settings, seconds):
@@ -86,7 +87,7 @@ def test_nobody_passes_a_red_light(long_run):
     setting, world, places = long_run
     front = world.vehicles.parameter[FRONT]
     crossings = reds = 0
-    for (before, mind_before, _), (after, mind, shown) in zip(places, places[1:], strict=False):
+    for (before, mind_before, _), (after, mind, shown) in itertools.pairwise(places):
         for v, car in enumerate(setting.cars):
             for stop, link in car.path.stop_lines:
                 if mind_before[STATION, v] + front[v] < stop <= mind[STATION, v] + front[v] and after[ACTIVE, v] and before[ACTIVE, v]:

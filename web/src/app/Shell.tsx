@@ -124,6 +124,9 @@ function Navigation() {
       {place("/runs", "nav-runs", "Runs")}
       {place("/compare", "nav-compare", "Compare")}
       {place("/maps", "nav-maps", "Maps")}
+      <a href="/docs/" className={classes.nav} data-testid="nav-docs">
+        Docs
+      </a>
     </nav>
   );
 }
