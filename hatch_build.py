@@ -13,6 +13,7 @@ def load_bundle(root: str):
     if not path.is_file():
         return None
     spec = importlib.util.spec_from_file_location("studio_web_bundle", path)
+    assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

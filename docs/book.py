@@ -25,7 +25,8 @@ POLICY = "policy.json"  # digests of the scripts that stand in the pages, for th
 SOURCES = ("docs", "studio", "web/public", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE")
 ENDINGS = (".py", ".md", ".toml", ".css", ".svg", ".yaml", ".tir", ".png", "LICENSE")
 SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
-ABORTED = 'Traceback (most recent call last):\n  File "<frozen runpy>'  # of Zensical itself, once it has told what is wrong
+STRICT = "RuntimeError: Aborted because --strict flag is set"  # ends what Zensical says when a page does not fit
+TRACEBACK = "Traceback (most recent call last):"
 ANSI = re.compile(r"\x1b\[[0-9;]*m")
 
 HINT = """The documentation could not be built.
@@ -102,7 +103,7 @@ def press(folder: Path) -> Path:
     )  # fmt: skip
     said = ANSI.sub("", done.stdout + done.stderr)
     if done.returncode != 0:
-        raise BookError(HINT.format(what=said.partition(ABORTED)[0].strip()))
+        raise BookError(HINT.format(what=(said.partition(TRACEBACK)[0] if STRICT in said else said).strip()))
     return folder / "site"
 
 

@@ -5,12 +5,13 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
-from typing import Any
+from typing import Any, Literal
 
 from latex2mathml.converter import convert
 from markdown import Markdown
 from markdown.extensions import Extension
 from markdown.inlinepatterns import InlineProcessor
+from pymdownx.superfences import SuperFencesException
 
 IN_LINE = r"(?<![\\$])\$(?!\s)([^$\n]+?)(?<!\s)\$(?!\d)"
 NAMESPACE = re.compile(r"\sxmlns=\"[^\"]*\"")
@@ -20,7 +21,7 @@ class Formula(InlineProcessor):
     """A formula in a line."""
 
     def handleMatch(self, m: re.Match[str], data: str) -> tuple[ElementTree.Element, int, int]:
-        return ElementTree.fromstring(NAMESPACE.sub("", convert(m.group(1)))), m.start(0), m.end(0)
+        return ElementTree.fromstring(NAMESPACE.sub("", drawn(m.group(1), "inline"))), m.start(0), m.end(0)
 
 
 class Formulas(Extension):
@@ -32,7 +33,15 @@ class Formulas(Extension):
 
 def block(source: str, language: str, class_name: str, options: dict[str, Any], md: Markdown, **others: Any) -> str:
     """A formula by itself, for a fenced block."""
-    return f'<div class="formula">{convert(source.strip(), display="block")}</div>'
+    return f'<div class="formula">{drawn(source.strip(), "block")}</div>'
+
+
+def drawn(source: str, display: Literal["block", "inline"]) -> str:
+    """MathML of a formula; raises SuperFencesException, the one that no extension takes for a block of another kind."""
+    try:
+        return convert(source, display=display)
+    except Exception as error:
+        raise SuperFencesException(f"The formula {source} cannot be read: {type(error).__name__} {error}") from None
 
 
 def makeExtension(**options: Any) -> Formulas:

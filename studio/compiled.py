@@ -24,10 +24,11 @@ import sys
 import sysconfig
 import time
 import uuid
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache, partial
 from pathlib import Path
+from typing import Any, ParamSpec, Protocol, TypeVar, overload
 
 import llvmlite
 import numba
@@ -146,7 +147,24 @@ numba.config.CACHE_DIR = str(CACHE)
 numba.config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Locator.__name__}"
 
 
-def compiled(function=None, **options):
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result", covariant=True)
+
+
+class Compiled(Protocol[Arguments, Result]):
+    """A compiled function as the type checker sees it: called as it is written; `py_func` is the function itself."""
+
+    @property
+    def py_func(self) -> Callable[Arguments, Result]: ...
+
+    def __call__(self, *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result: ...
+
+
+@overload
+def compiled(function: Callable[Arguments, Result], **options: Any) -> Compiled[Arguments, Result]: ...
+@overload
+def compiled(function: None = None, **options: Any) -> Callable[[Callable[Arguments, Result]], Compiled[Arguments, Result]]: ...
+def compiled(function: Any = None, **options: Any) -> Any:
     """`function` as machine code, with numba's `options` besides those of the house."""
     if function is None:
         return partial(compiled, **options)

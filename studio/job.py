@@ -219,9 +219,9 @@ def run(
         current = simulation(prepared)
         as_fast_as_possible(current, progress)
         result = outcome(loaded, current)
-        row = save(number, result, runs) if runs else None
+        row = save(number, result, runs) if runs and number else None
     except BaseException as error:
-        if runs:
+        if runs and number:
             runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
         raise
     return replace(result, row=row)

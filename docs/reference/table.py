@@ -21,6 +21,6 @@ def code(value: Any) -> str:
     return f"`{value}`" if str(value) else ""
 
 
-def filled(text: str) -> str:
+def filled(text: str | None) -> str:
     """A docstring's text with its indentation taken away."""
     return inspect.cleandoc(text or "")

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from math import nan
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numba import literal_unroll
@@ -126,7 +127,8 @@ def command_of(command) -> Command | Actuators:
 def observation_of(values: list[float]) -> Observation:
     """An observation from its row of numbers."""
     parts, start = [], 0
-    for part in (Clock, Own, Front, Message):
+    kinds: tuple[Any, ...] = (Clock, Own, Front, Message)
+    for part in kinds:
         fields = dict(zip(part._fields, values[start : start + len(part._fields)], strict=True))
         parts.append(part(**{key: bool(value) if key in FLAGS else value for key, value in fields.items()}))
         start += len(part._fields)
@@ -136,7 +138,7 @@ def observation_of(values: list[float]) -> Observation:
 def compiled_loop(application: Application) -> Callable:
     """The loop written for this application, loaded from its file."""
     source = loop_source(application)
-    key = hashlib.sha256((source + Path(application.module.__file__).read_text("utf-8")).encode()).hexdigest()[:16]
+    key = hashlib.sha256((source + Path(str(application.module.__file__)).read_text("utf-8")).encode()).hexdigest()[:16]
     path = CACHE / f"host_{application.name}_{key}.py"
     if not path.exists():
         draft = path.with_suffix(f".{os.getpid()}")
@@ -148,6 +150,7 @@ def compiled_loop(application: Application) -> Callable:
 def load(path: Path):
     """A module from a file."""
     spec = spec_from_file_location(path.stem, path)
+    assert spec and spec.loader, "a file whose name ends in .py has a loader"
     module = module_from_spec(spec)
     sys.modules[path.stem] = module
     spec.loader.exec_module(module)

@@ -15,6 +15,7 @@ from importlib.metadata import entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from studio.errors import ApplicationError, Problem, UnknownError, nearest
 
@@ -73,7 +74,7 @@ def register(name: str, module: ModuleType) -> Application:
     broken = [problem for check in (check_values, check_compiled) if (problem := check(module))]
     if broken:
         raise ApplicationError(f"The application {name!r} does not keep the contract.", broken)
-    module.ParameterTuple = parameter_tuple(module)
+    vars(module)["ParameterTuple"] = parameter_tuple(module)
     _registered[name] = Application(name, module)
     return _registered[name]
 
@@ -100,7 +101,8 @@ def check_compiled(module: ModuleType) -> Problem | None:
 
 def parameter_tuple(module: ModuleType) -> type:
     """The parameters as a NamedTuple, for `decide`. It belongs to the module: cached machine code finds it there by name."""
-    return namedtuple("ParameterTuple", list(module.Parameters.model_fields), module=module.__name__)
+    make: Any = namedtuple  # its fields are known at run time only
+    return make("ParameterTuple", list(module.Parameters.model_fields), module=module.__name__)
 
 
 @cache
@@ -122,6 +124,7 @@ def load_file(path: Path) -> Application:
     if present and getattr(present.module, "__file__", None) == str(path):
         return present
     spec = spec_from_file_location(f"studio_application_{path.stem}", path)
+    assert spec and spec.loader, "a file whose name ends in .py has a loader"
     module = module_from_spec(spec)
     sys.modules[module.__name__] = module
     try:

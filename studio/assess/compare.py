@@ -51,6 +51,7 @@ def metrics(a: dict[str, Measured], b: dict[str, Measured]) -> list[MetricDiffer
 def metric(name: str, a: Measured | None, b: Measured | None) -> MetricDifference:
     """One metric."""
     known = a or b
+    assert known, f"no run has {name}"
     left, right = (each.value if each else None for each in (a, b))
     if left is None or right is None:
         return MetricDifference(name, known.unit, known.goal, left, right, None, None, None)

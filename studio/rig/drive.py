@@ -212,12 +212,12 @@ def sequence_problems(rows: table.Table, values: Mapping[str, np.ndarray]) -> li
         problems.append(Problem(rows.where(0, "time_s"), "does not begin with 0", f"{time[0]:g}", "0 [s]"))
     if time.size < 2:
         problems.append(Problem(rows.name, "has one row only", allowed="two rows or more"))
-    for i in np.flatnonzero(np.diff(time) <= 0.0):
+    for i in np.flatnonzero(np.diff(time) <= 0.0).tolist():
         what = f"is not later than the row before ({time[i]:g} s)"
         problems.append(Problem(rows.where(i + 1, "time_s"), what, f"{time[i + 1]:g}", remedy="sort the rows by time"))
     return problems + [
         Problem(rows.where(i, "gear"), "is not a whole number", f"{values['gear'][i]:g}", "-1, 0, 1, 2 ...")
-        for i in np.flatnonzero(values.get("gear", np.zeros(1)) % 1.0)
+        for i in np.flatnonzero(values.get("gear", np.zeros(1)) % 1.0).tolist()
     ]
 
 

@@ -59,8 +59,9 @@ def bench(file: Path, rows: Path, out: Path) -> int:
 def sweep(t: Tyre, kappa, alpha, gamma, F_z) -> np.ndarray:
     """F_x, F_y [N], M_z [Nm], shaped [3, row], for slips kappa [1], angles alpha, gamma [rad] and loads F_z [N]."""
     given = np.broadcast_arrays(kappa, np.tan(alpha), np.sin(gamma), F_z)
-    result = np.empty((len(OUTPUTS), given[0].size))
-    sweep_rows(t, *[np.ascontiguousarray(column, dtype=float) for column in given], result)
+    kappa, tangent, sine, F_z = (np.ascontiguousarray(column, dtype=float) for column in given)
+    result = np.empty((len(OUTPUTS), kappa.size))
+    sweep_rows(t, kappa, tangent, sine, F_z, result)
     return result
 
 

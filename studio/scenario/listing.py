@@ -9,7 +9,7 @@ from typing import Any
 
 from studio.scenario import catalogue, edit
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.datasheet import quantities
+from studio.scenario.datasheet import quantities, sections
 from studio.scenario.figures import drive, peak_power
 from studio.scenario.vehicle import Vehicle
 
@@ -86,7 +86,7 @@ def row(
 def text_title(path: str) -> str:
     """Title of a text of the schema."""
     part, _, name = path.rpartition(".")
-    return (Vehicle.model_fields[part].annotation if part else Vehicle).model_fields[name].title or name.capitalize()
+    return (sections()[part] if part else Vehicle).model_fields[name].title or name.capitalize()
 
 
 def shown(value: Any) -> str:

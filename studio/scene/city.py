@@ -104,7 +104,7 @@ def _flat(name: str, mesh: roads.Mesh, height: float) -> Layer:
 
 def _level(mesh: roads.Mesh, name: str, height: float = 0.0) -> Surface:
     # the layers' heights are ours: shadows must lie low, or they climb up the wheels
-    vertices = mesh.vertices * np.float32([1.0, 1.0, 0.0]) + np.float32([0.0, 0.0, height])
+    vertices = mesh.vertices * np.array([1.0, 1.0, 0.0], np.float32) + np.array([0.0, 0.0, height], np.float32)
     return surface(vertices, mesh.faces, on_level_ground(COLOURS[name]))
 
 
@@ -131,7 +131,7 @@ def _buildings(network: Network) -> list[Layer]:
 def shade(network: Network) -> Surface:
     """The shadow of all buildings on the ground, one see-through sheet."""
     mesh = roads.shadow_mesh(network, sun=tuple(-SUN))
-    flat = mesh.vertices * np.float32([1.0, 1.0, 0.0])
+    flat = mesh.vertices * np.array([1.0, 1.0, 0.0], np.float32)
     return surface(flat, mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
 
 

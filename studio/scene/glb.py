@@ -3,6 +3,7 @@
 import json
 import struct
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -60,7 +61,7 @@ class _Buffer:
 def glb(mesh: Surface, material: Material, *, uv: np.ndarray | None = None) -> bytes:
     """A binary glTF file with one mesh of one material; uv [n, 2] are texture coordinates."""
     buffer = _Buffer()
-    document = {
+    document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "Cooperative ADAS Studio"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],

@@ -19,7 +19,7 @@ LIT_IN = {"red": (RED, RED_AMBER), "amber": (RED_AMBER, AMBER), "green": (GREEN,
 STEEL, HOUSING, OFF = "#6f757a", "#1b1e20", "#33302c"
 # a lit lamp stands a little before the dark one [m]
 PROUD = 0.02
-HIDDEN = np.float32([0.0, 0.0, -500.0])
+HIDDEN = np.array([0.0, 0.0, -500.0], np.float32)
 
 
 def masts(network: Network) -> Surface:

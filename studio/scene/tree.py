@@ -1,8 +1,11 @@
 """Trees: those that are mapped, and as many as a park needs to look like one."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 import viser
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.network import Network
 from studio.road.plane import polygon, polygons, rectangles
@@ -63,7 +66,7 @@ def _planted(network: Network, lanes: list[shapely.Geometry]) -> np.ndarray:
     return spots
 
 
-def _clear(spots: np.ndarray, things: list[shapely.Geometry], distance: float) -> np.ndarray:
+def _clear(spots: np.ndarray, things: Sequence[shapely.Geometry], distance: float) -> np.ndarray:
     """Which spots lie farther than this [m] from all things."""
     clear = np.ones(spots.shape[1], dtype=bool)
     near, _ = shapely.STRtree(things).query(shapely.points(spots.T), predicate="dwithin", distance=distance)
@@ -75,7 +78,7 @@ def _lanes(network: Network) -> list[shapely.Geometry]:
     return [strip(lane.centre, lane.width) for lane in network.lanes]
 
 
-def _grid(region: shapely.Geometry) -> np.ndarray:
+def _grid(region: BaseGeometry) -> np.ndarray:
     if region.is_empty:
         return np.zeros((2, 0))
     spacing = max(SPACING, np.sqrt(region.area / MOST))
@@ -109,7 +112,7 @@ def plant(
     thrown = spots - CROWN_HEIGHT * scales[:, 2:] * SUN[:2] / SUN[2]
     crowns = glb(tree(), Material())
     patches = glb(shadow(), Material(unlit=True, blend=True))
-    level = np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (len(spots), 1))
+    level = np.tile(np.array([1.0, 0.0, 0.0, 0.0], np.float32), (len(spots), 1))
     options = {"batched_scales": scales, "cast_shadow": False, "receive_shadow": False}
     add = server.scene.add_batched_glb
     return [

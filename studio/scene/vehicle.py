@@ -166,9 +166,9 @@ def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
     kinds = np.full((len(middle), half), PAINT)
     kinds[:, :FLANK_FROM] = TRIM
     kinds[:, FLANK_FROM] = TRIM
-    tail = middle < 0.03
-    kinds[np.ix_((middle > 0.945) & (middle < 0.987), [FLANK_TO - 1, FLANK_TO])] = HEADLIGHT
-    kinds[np.ix_(tail, [FLANK_TO - 1, FLANK_TO])] = TAILLIGHT
+    tail, ends = middle < 0.03, np.array([FLANK_TO - 1, FLANK_TO])
+    kinds[np.ix_((middle > 0.945) & (middle < 0.987), ends)] = HEADLIGHT
+    kinds[np.ix_(tail, ends)] = TAILLIGHT
     return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
 
 
@@ -253,7 +253,7 @@ def wheel(size: Dimensions) -> Surface:
     kinds = np.tile(np.concatenate([rows, [TYRE], rows[::-1]]), (40, 1))
     # five spokes, each three of eight segments wide
     spokes = np.arange(40) % 8 < 3
-    kinds[np.ix_(spokes, [2, len(profile) - 4])] = RIM
+    kinds[np.ix_(spokes, np.array([2, len(profile) - 4]))] = RIM
     return lathe(profile, kinds, WHEEL_COLOURS)
 
 

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
+ImportStatus = Literal["running", "done", "failed", "cancelled"]
 
 
 def is_text(values: dict[str, Any]) -> dict[str, Any]:
@@ -517,7 +518,7 @@ class MapJob(BaseModel):
 
     id: int
     map: str = Field(description="id of the map that it makes")
-    status: Literal["running", "done", "failed", "cancelled"]
+    status: ImportStatus
     stage: str = Field(description="what is being done; may be waiting for others")
     share: float | None = Field(description="of the work that is done, 0 to 1; null where nobody knows")
     seconds: float = Field(description="since it was asked for, until its end [s]")

@@ -23,8 +23,8 @@ def create_app(desk: Desk) -> FastAPI:
     """REST and scene of one desk."""
     app = FastAPI(title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan, docs_url=None, redoc_url=None)
     app.state.desk = desk
-    app.add_exception_handler(StudioError, refused)
-    app.add_exception_handler(RequestValidationError, misread)
+    app.exception_handler(StudioError)(refused)
+    app.exception_handler(RequestValidationError)(misread)
     app.include_router(routes.router)
     app.include_router(map_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.port))

@@ -10,6 +10,7 @@ from studio.errors import Problem, ServerError, StudioError, UnknownError, neare
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road import place
+from studio.server.answer import Pace
 from studio.server.frame import Frame
 from studio.server.live import Lives, LiveRun
 from studio.server.map_job import MapJobs
@@ -87,7 +88,7 @@ class Desk:
         return reopen_runs(self.db)
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
-              pace: float | str, paused: bool) -> LiveRun:  # fmt: skip
+              pace: Pace, paused: bool) -> LiveRun:  # fmt: skip
         """Starts a run in a process of its own; what is wrong with it is told before."""
         loaded = job.seeded(self.load(scenario, changes), seed)
         check_pace(pace)
@@ -95,7 +96,7 @@ class Desk:
         return self.lives.start(order, scenario, loaded)
 
 
-def check_pace(pace: float | str) -> None:
+def check_pace(pace: Pace) -> None:
     """Raises ServerError for a pace that nobody can watch."""
     if pace != "fast" and not SLOWEST <= pace <= FASTEST:
         raise ServerError(

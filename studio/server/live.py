@@ -247,6 +247,7 @@ class Lives:
         self.make_ready()
         with self.lock:
             process, self.spare = self.spare, None
+        assert process, "made ready above"
         return process
 
     def start(self, order: Order, scenario: str, loaded: Loaded) -> LiveRun:

@@ -43,7 +43,7 @@ class MapJob:
     id: int
     map: str
     order: Order
-    status: str = "running"
+    status: answer.ImportStatus = "running"
     stage: str = WAITING
     share: float | None = None
     problem: StudioError | None = None
@@ -67,7 +67,7 @@ class MapJob:
                 problem=self.problem.as_json() if self.problem else None,
             )  # fmt: skip
 
-    def end(self, status: str, problem: StudioError | None = None) -> None:
+    def end(self, status: answer.ImportStatus, problem: StudioError | None = None) -> None:
         """It is over, unless it has been before."""
         with self.lock:
             if not self.is_over:
@@ -101,7 +101,7 @@ class MapJob:
                 self.process.start()
         return ours
 
-    def listen(self, pipe: Connection) -> tuple[str, StudioError | None]:
+    def listen(self, pipe: Connection) -> tuple[answer.ImportStatus, StudioError | None]:
         """Hears the process out; the status that it ends with, and the problem."""
         outcome = None
         with pipe, suppress(EOFError, OSError):
@@ -114,7 +114,7 @@ class MapJob:
         kill(self.process)
         return outcome or ("failed", gone(self.process.exitcode))
 
-    def hear(self, pipe: Connection, word: str, values: list[Any]) -> tuple[str, StudioError | None] | None:
+    def hear(self, pipe: Connection, word: str, values: list[Any]) -> tuple[answer.ImportStatus, StudioError | None] | None:
         """One piece of news; the last one is how it ended."""
         if word in ("done", "failed"):
             return word, values[0]
@@ -205,7 +205,7 @@ class MapJobs:
             problem = Problem("place, bbox", "are none or both given", remedy="give one of them")
             raise MapError("What shall be downloaded?", [problem])
         by = download.servers()
-        place = new.place if new.bbox is None else osm.bounding_box(",".join(map(repr, new.bbox)))
+        place = new.place or "" if new.bbox is None else osm.bounding_box(",".join(map(repr, new.bbox)))
         if isinstance(place, osm.Box):
             download.check_area(place)
         base = plain_name(new.name or name_for(place))

@@ -3,14 +3,14 @@
 Imports are answered at once with a job; whoever asked looks at it until it is over.
 """
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request
 
 from studio.server import answer
 from studio.server.routes import AtDesk
 
-REFUSALS = {status: {"model": answer.Refusal} for status in (404, 409, 413, 422)}
+REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 413, 422)}
 BODY = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
 Name = Annotated[str, Query(description="name of the file; its ending tells the kind: .osm, .osm.gz, .osm.pbf, .json", max_length=300)]
 Box = Annotated[str | None, Query(description="the part to keep, west,south,east,north [deg]")]

@@ -16,7 +16,7 @@ from studio.server.worker import pace_factor
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
 
-REFUSALS = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
+REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
 router = APIRouter(prefix="/api", responses=REFUSALS)
 
 

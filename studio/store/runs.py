@@ -83,8 +83,10 @@ class Runs:
             kept = {"hash": scenario_hash, "title": title, "map_digest": map_digest}
             content = {key: value for key, value in document.items() if key != "seed"}
             kept["document"] = json.dumps(content, ensure_ascii=False)
-            self.database["scenarios"].insert(kept, pk="hash", ignore=True)
-            return int(self.database["runs"].insert(row, pk="run").last_pk)
+            self.database.table("scenarios").insert(kept, pk="hash", ignore=True)
+            number = self.database.table("runs").insert(row, pk="run").last_pk
+            assert number is not None, "a row that was inserted has a key"
+            return int(number)
 
     def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: Record, sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
@@ -99,10 +101,10 @@ class Runs:
         }
         parquet = trace.write(record, channels)
         with self.writing():
-            self.database["runs"].update(run, ending)
-            self.database["metrics"].insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
-            self.database["events"].insert_all({"run": run, **asdict(each)} for each in record.happenings)
-            self.database["traces"].insert({"run": run, "parquet": parquet}, pk="run", replace=True)
+            self.database.table("runs").update(run, ending)
+            self.database.table("metrics").insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
+            self.database.table("events").insert_all({"run": run, **asdict(each)} for each in record.happenings)
+            self.database.table("traces").insert({"run": run, "parquet": parquet}, pk="run", replace=True)
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
@@ -134,7 +136,7 @@ class Runs:
             raise UnknownError(f"There is no run {run} in {self.path}; {have}")
         return rows[0]
 
-    def select(self, *, where: str = "1", values: list = (), limit: int = -1) -> list[Row]:
+    def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
         self.mark_killed()
         query = f"select * from runs where {where} order by run desc limit {int(limit)}"
@@ -166,7 +168,7 @@ class Runs:
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
-        return json.loads(self.database["scenarios"].get(row.scenario_hash)["document"]) | {"seed": row.seed}
+        return json.loads(self.database.table("scenarios").get(row.scenario_hash)["document"]) | {"seed": row.seed}
 
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
