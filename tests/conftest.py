@@ -30,17 +30,45 @@ def sample_setting():
     return job.prepare(job.load(SAMPLE, {"clock.duration": 10}))
 
 
-def pytest_terminal_summary(terminalreporter, config):
-    """What the vehicles were compared with, where that was tested: in short here, every row in a file."""
+# What takes longest comes first, so that no process is left alone with it at the end.
+LONGEST_FIRST = ("tests/world/test_random_routes.py", "tests/test_readme.py", "tests/test_cli.py", "tests/world", "tests/browser", "tests/server")
+
+
+def pytest_collection_modifyitems(items):
+    """Long files first; within a file the order stays."""
+    rank = {start: i for i, start in enumerate(LONGEST_FIRST)}
+    items.sort(key=lambda item: next((rank[start] for start in LONGEST_FIRST if item.nodeid.startswith(start)), len(rank)))
+
+
+# -- tables that a test run prints -------------------------------------------------------------------
+
+MEASURED: dict[str, list[str]] = {}  # by heading; several processes test, and one of them prints
+
+
+def pytest_sessionfinish(session):
+    """What was measured here: on the track, and against the multi-body references."""
     ground, multibody = sys.modules.get("tests.proving_ground"), sys.modules.get("tests.multibody")
     if ground and ground.FIGURES:
-        terminalreporter.section("track tests")
-        terminalreporter.write_line("\n".join(ground.FIGURES))
+        MEASURED["track tests"] = [*MEASURED.get("track tests", []), *ground.FIGURES]
     if multibody and multibody.table.cache_info().currsize:
-        folder = Path(os.environ.get("STUDIO_TABLES") or config.rootpath / ".pytest_cache")
+        folder = Path(os.environ.get("STUDIO_TABLES") or session.config.rootpath / ".pytest_cache")
         folder.mkdir(parents=True, exist_ok=True)
         file = folder / "vehicle_reference.txt"
         file.write_text(multibody.full_table(), encoding="utf-8")
-        terminalreporter.section("multi-body references")
-        lines = [*multibody.short_table(), "", *multibody.halving_table(), "", f"Every row: {file}"]
+        MEASURED["multi-body references"] = [*multibody.short_table(), "", *multibody.halving_table(), "", f"Every row: {file}"]
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["measured"] = MEASURED
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """A testing process has ended: what it measured is printed by this one."""
+    for heading, lines in getattr(node, "workeroutput", {}).get("measured", {}).items():
+        MEASURED[heading] = [*MEASURED.get(heading, []), *lines]
+
+
+def pytest_terminal_summary(terminalreporter):
+    """The tables, where they were made."""
+    for heading, lines in MEASURED.items():
+        terminalreporter.section(heading)
         terminalreporter.write_line("\n".join(lines))

@@ -12,6 +12,7 @@ sharper is a bend of the road, and drivers slow down for it.
 """
 
 import itertools
+import math
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
@@ -19,6 +20,8 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
+from studio import portable
+from studio.portable import arctan2, cross, dot, resolved
 from studio.road import curve
 from studio.road.bend import unit
 from studio.road.network import Connection, Lane, Net
@@ -89,8 +92,8 @@ def bent(net: Net, connection: Connection) -> float:
     """How much a connection turns and steps aside [rad]."""
     start, direction, end, after = ends(net, connection)
     apart = end - start
-    aside = abs(direction[0] * apart[1] - direction[1] * apart[0])
-    return turned(direction, after) + float(np.arctan2(aside, 1.0 + np.hypot(*apart)))
+    aside = abs(cross(direction, apart))
+    return turned(direction, after) + math.atan2(aside, 1.0 + np.hypot(*apart))
 
 
 def ends(net: Net, connection: Connection) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -109,7 +112,7 @@ def direction_at(line: np.ndarray, end: int) -> np.ndarray:
 
 def turned(a: np.ndarray, b: np.ndarray) -> float:
     """The angle between two directions [rad]."""
-    return abs(float(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b)))
+    return abs(portable.turn(a, b))
 
 
 # -- room for turns --------------------------------------------------------------------------------
@@ -153,14 +156,14 @@ def lacking(start: np.ndarray, direction: np.ndarray, end: np.ndarray, after: np
     """
     theta, apart = turned(direction, after), end - start
     if theta < np.radians(20.0):
-        aside = abs(direction[0] * apart[1] - direction[1] * apart[0])
-        room = np.sqrt(5.77 * aside / (curvature or SHARPEST)) - apart @ direction
-        steady = 0.0 if curvature else np.cbrt(60.0 * aside / STEADY) - apart @ direction
+        aside = abs(cross(direction, apart))
+        room = np.sqrt(5.77 * aside / (curvature or SHARPEST)) - dot(apart, direction)
+        steady = 0.0 if curvature else math.cbrt(60.0 * aside / STEADY) - dot(apart, direction)
         return (max(0.0, room / 2.0, steady / 2.0),) * 2
     if theta > np.radians(150.0):
         return 0.0, 0.0  # turning back needs width, not length
     needs = legs(bow(theta)) / (curvature or gentlest(theta))
-    before, behind = np.linalg.solve(np.column_stack([direction, after]), apart)
+    before, behind = resolved(direction, after, apart)
     return max(0.0, needs - before), max(0.0, needs - behind)
 
 
@@ -337,11 +340,11 @@ def bowed(p, direction, q, after) -> list[np.ndarray]:
     theta = turned(direction, after)
     if not np.radians(5.0) < theta < np.radians(170.0):
         return []
-    before, behind = np.linalg.solve(np.column_stack([direction, after]), q - p)
+    before, behind = resolved(direction, after, q - p)
     if min(before, behind) < SPACING:
         return []
     line = bow(theta) * (min(before, behind) / legs(bow(theta)))
-    left = np.array([-direction[1], direction[0]]) * np.sign(direction[0] * after[1] - direction[1] * after[0])
+    left = np.array([-direction[1], direction[0]]) * np.sign(cross(direction, after))
     first = p + max(0.0, before - behind) * direction
     placed = first[:, None] + direction[:, None] * line[0] + left[:, None] * line[1]
     whole = np.column_stack([p, placed, q]) if before > behind else np.column_stack([placed, q])
@@ -357,7 +360,7 @@ def end_of(line: np.ndarray, end: int) -> tuple[np.ndarray, float]:
     """Direction and signed curvature [1/m] of a smooth lane at its start (0) or end (-1)."""
     if line.shape[1] < 4:
         return direction_at(line, end), 0.0
-    heading = np.unwrap(np.arctan2(*np.diff(line)[::-1]))
+    heading = np.unwrap(arctan2(*np.diff(line)[::-1]))
     middle = curve.stations(line)[:-1] + np.hypot(*np.diff(line)) / 2.0
     i, j = (0, 1) if end == 0 else (-2, -1)
     kappa = (heading[j] - heading[i]) / (middle[j] - middle[i])
@@ -370,11 +373,12 @@ def quintics(u: np.ndarray, p, start, q, end, reaches: np.ndarray) -> np.ndarray
     (t, kappa), (w, after) = start, end
     m, n = (each.ravel()[:, None] for each in np.meshgrid(reaches, reaches))
     vectors = [
-        np.broadcast_to(p, (m.size, 2)), m * t, kappa * m**2 * np.array([-t[1], t[0]]),
-        np.broadcast_to(q, (m.size, 2)), n * w, after * n**2 * np.array([-w[1], w[0]]),
+        np.broadcast_to(p, (m.size, 2)), m * t, kappa * m * m * np.array([-t[1], t[0]]),
+        np.broadcast_to(q, (m.size, 2)), n * w, after * n * n * np.array([-w[1], w[0]]),
     ]  # fmt: skip
+    u2, u3, u4, u5 = u * u, u * u * u, u * u * u * u, u * u * u * u * u
     weights = [
-        1 - 10 * u**3 + 15 * u**4 - 6 * u**5, u - 6 * u**3 + 8 * u**4 - 3 * u**5, (u**2 - 3 * u**3 + 3 * u**4 - u**5) / 2,
-        10 * u**3 - 15 * u**4 + 6 * u**5, -4 * u**3 + 7 * u**4 - 3 * u**5, (u**3 - 2 * u**4 + u**5) / 2,
+        1 - 10 * u3 + 15 * u4 - 6 * u5, u - 6 * u3 + 8 * u4 - 3 * u5, (u2 - 3 * u3 + 3 * u4 - u5) / 2,
+        10 * u3 - 15 * u4 + 6 * u5, -4 * u3 + 7 * u4 - 3 * u5, (u3 - 2 * u4 + u5) / 2,
     ]  # fmt: skip
     return np.einsum("vkc,vn->kcn", np.array(vectors), np.array(weights))

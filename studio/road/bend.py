@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from studio import portable
 from studio.road.osm import Box, Way
 
 CORNER = np.radians(40.0)  # [rad] a sharper turn is a corner
@@ -93,8 +94,7 @@ def straightest(places, candidates: set[int], beside: int, node: int) -> Point |
 
 def turn(a: Point, b: Point, c: Point) -> float:
     """How much one turns at b on the way from a to c [rad], 0 for straight on."""
-    (t_x, t_y), (d_x, d_y) = b - a, c - b
-    return abs(np.arctan2(t_x * d_y - t_y * d_x, t_x * d_x + t_y * d_y))
+    return abs(portable.turn(b - a, c - b))
 
 
 def tangents_of(line: list[Point], before: Point | None, after: Point | None) -> list[tuple[Point, Point]]:
@@ -143,14 +143,10 @@ def hermite(a: Point, b: Point, start: Point, end: Point, *, spacing: float = SP
     count = 0 if straight else int(far / spacing)
     u = np.linspace(0.0, 1.0, count + 2)[1:-1]
     p, q, s, t = (vector[:, None] for vector in (a, b, start * far, end * far))
-    return (
-        (2 * u**3 - 3 * u**2 + 1) * p
-        + (u**3 - 2 * u**2 + u) * s
-        + (3 * u**2 - 2 * u**3) * q
-        + (u**3 - u**2) * t
-    )
+    u2, u3 = u * u, u * u * u
+    return (2 * u3 - 3 * u2 + 1) * p + (u3 - 2 * u2 + u) * s + (3 * u2 - 2 * u3) * q + (u3 - u2) * t
 
 
 def angle(a: Point, b: Point) -> float:
     """The angle between two directions [rad]."""
-    return abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b))
+    return abs(portable.turn(a, b))

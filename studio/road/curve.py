@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from studio.road.band import solve
+
 BESIDE = 0.5  # [m]
 LOCK = 0.19  # [1/m] the sharpest curve that a car can drive, with the wheels at full lock
 
@@ -59,7 +61,8 @@ def curvature(points: np.ndarray) -> np.ndarray:
     first = np.gradient(points, axis=-1)
     second = np.gradient(first, axis=-1)
     (x, y), (a, b) = np.moveaxis(first, -2, 0), np.moveaxis(second, -2, 0)
-    return np.abs(x * b - y * a) / np.maximum(1e-9, np.hypot(x, y) ** 3)
+    speed = np.hypot(x, y)
+    return np.abs(x * b - y * a) / np.maximum(1e-9, speed * speed * speed)
 
 
 def smoothed(points: np.ndarray, *, spacing: float, wavelength: float, corridor: np.ndarray) -> np.ndarray:
@@ -97,6 +100,4 @@ def whittaker(points: np.ndarray, weight: np.ndarray, stiffness: float) -> np.nd
         for b in range(a, 4):
             band[3 - (b - a), b : n - 3 + b] += stiffness * third[a] * third[b]
     band[3] += weight
-    from scipy.linalg import solveh_banded  # takes a third of a second, and kept paths do not need it
-
-    return solveh_banded(band, (weight * points).T).T
+    return solve(band, weight * points)

@@ -31,6 +31,7 @@ SLACK = 0.5  # [1/m]
 STEEPEST = 0.35  # [1] the steepest streets there are
 ROUNDING = 2.0  # [m] that two tags may be wrong together
 FEET = 0.3048  # [m]
+PLACES = 3  # decimals of a height [m]: the digits behind them depend on how a processor sums
 
 Heights = dict[int, float]  # by node [m]
 
@@ -177,7 +178,7 @@ def spline(tags: Heights, part: list[int], grid: Grid, ways: list[Way]) -> Heigh
     j, v = ([each for row in rows for each in row[side]] for side in (0, 1))
     A = coo_matrix((v, (i, j)), shape=(len(rows), len(part))).tocsc()
     z = np.atleast_1d(spsolve((A.T @ A).tocsc(), A.T @ wanted)) + mean
-    return dict(zip(part, z.tolist(), strict=True))
+    return dict(zip(part, z.round(PLACES).tolist(), strict=True))
 
 
 def triples(grid: Grid, ways: list[Way]) -> set[tuple[int, int, int]]:

@@ -20,6 +20,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from studio.portable import arctan2, tan, turn
 from studio.road import grid
 from studio.road.grid import Grid
 from studio.road.network import Connection, Network
@@ -139,14 +140,14 @@ def centre_points(centre: np.ndarray) -> np.ndarray:
         line = np.column_stack([centre[:, 0], centre[:, 0] + (0.5 * SHORTEST, 0.0)])
     step = np.diff(line)
     pieces = np.hypot(*step)
-    heading = np.unwrap(np.arctan2(step[1], step[0]))
+    heading = np.unwrap(arctan2(step[1], step[0]))
     corner = np.diff(heading)
     points = np.zeros((7, line.shape[1]))
     points[[P_X, P_Y]] = line
     points[P_S, 1:] = np.cumsum(pieces)
     points[[P_EAST, P_NORTH], :-1] = step / pieces
     points[[P_EAST, P_NORTH], -1] = points[[P_EAST, P_NORTH], -2]
-    points[P_MITRE, 1:-1] = np.tan(0.5 * np.clip(corner, -SHARPEST_CORNER, SHARPEST_CORNER))
+    points[P_MITRE, 1:-1] = tan(0.5 * np.clip(corner, -SHARPEST_CORNER, SHARPEST_CORNER))
     points[P_HEADING] = np.concatenate([heading[:1], 0.5 * (heading[1:] + heading[:-1]), heading[-1:]])
     return points
 
@@ -204,5 +205,4 @@ def steps_of(network: Network) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def corner(network: Network, connection: Connection) -> float:
     """How far one turns from the end of a lane to the start of the lane reached, to either side [rad]."""
     before, after = network.lanes[connection.from_lane].centre, network.lanes[connection.to_lane].centre
-    (t_x, t_y), (d_x, d_y) = before[:, -1] - before[:, -2], after[:, 1] - after[:, 0]
-    return float(abs(np.arctan2(t_x * d_y - t_y * d_x, t_x * d_x + t_y * d_y)))
+    return abs(turn(before[:, -1] - before[:, -2], after[:, 1] - after[:, 0]))

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import shapely
 
+from studio import portable
 from studio.errors import MapError
 from studio.road import curve
 from studio.road.network import Connection, Lane, Net, Road
@@ -459,8 +460,7 @@ def connections(lanes: list[Lane], onward: dict[int, list[int]], origin: dict[in
 
 def direction(a: Lane, b: Lane, *, back: bool) -> str:
     """Where a connection leads: "straight", "slight_left", "left", …, or "turn" where one comes back on the same road."""
-    (t_x, t_y), (d_x, d_y) = a.centre[:, -1] - a.centre[:, -2], b.centre[:, 1] - b.centre[:, 0]
-    turn = float(np.arctan2(t_x * d_y - t_y * d_x, t_x * d_x + t_y * d_y))
+    turn = portable.turn(a.centre[:, -1] - a.centre[:, -2], b.centre[:, 1] - b.centre[:, 0])
     if back and abs(turn) > np.pi / 2.0:
         return "turn"
     if abs(turn) < STRAIGHT:

@@ -171,8 +171,8 @@ def arrow(lane: Lane, tip: float, ways: set[str]) -> Mesh:
     t = (ahead - base) / max(1e-9, np.hypot(*(ahead - base)))
     stem = STEM if "straight" in ways else [STEM[0], (2.4, -0.08), (2.4, 0.08), STEM[3]]
     pieces = [stem, *(each for way in sorted(ways) for each in HEADS[way])]
-    turn = np.array([[t[0], -t[1]], [t[1], t[0]]])
-    return merged([flat(shapely.Polygon((turn @ np.array(piece).T).T + base), MARKING) for piece in pieces])
+    forward, left = t, np.array([-t[1], t[0]])
+    return merged([flat(shapely.Polygon([base + x * forward + y * left for x, y in piece]), MARKING) for piece in pieces])
 
 
 # -- parking spaces --------------------------------------------------------------------------------

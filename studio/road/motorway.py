@@ -23,6 +23,7 @@ SHORTEST, LONGEST = 500.0, 50_000.0  # [m]
 LANE_WIDTH, MEDIAN, STRIP, SHOULDER = 3.75, 4.0, 0.75, 2.5  # [m] the strip lies between lanes and median, and lanes and shoulder
 MOST_LANES = 6
 LIMIT = 130.0  # [km/h]
+PLACES = 6  # decimals of a position [m]: a map needs no more, and the digits behind them differ from processor to processor
 
 
 def motorway(*, length: float = 6000.0, lanes: int = 3, radius: float = 1000.0, grade: float = 0.0) -> str:
@@ -104,6 +105,7 @@ def cut(shapes: Iterator[tuple[float, float, float]], length: float) -> Iterator
         if s >= length - 1e-6:
             return
         x, y, heading = bend.at([left])[:, 0].tolist()
+        x, y = round(x, PLACES), round(y, PLACES)
 
 
 def geometry(bend: Bend) -> str:

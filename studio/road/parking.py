@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from studio.portable import arctan2, cross, dot, wrapped
 from studio.road import curve
 from studio.road.bend import is_one_way
 from studio.road.kind import area_kind
@@ -86,7 +87,7 @@ def in_area(tags: dict[str, str], form: shapely.Geometry, aisles: Aisles, site: 
     for i in range(count):
         place = middle + (i - (count - 1) / 2.0) * each
         axis, across = sorted((each, short), key=lambda side: -np.hypot(*side))
-        yield (*place, inward(place, np.arctan2(axis[1], axis[0]), aisles, site), np.hypot(*axis), np.hypot(*across))
+        yield (*place, inward(place, arctan2(axis[1], axis[0]), aisles, site), np.hypot(*axis), np.hypot(*across))
 
 
 def inward(place: np.ndarray, axis: float, aisles: Aisles, site: Site) -> float:
@@ -96,13 +97,13 @@ def inward(place: np.ndarray, axis: float, aisles: Aisles, site: Site) -> float:
         return float(axis)
     foot, along, one_way = near
     ahead, aside = np.array([np.cos(axis), np.sin(axis)]), foot - place
-    if abs(aside @ ahead) >= SIDEWAYS * abs(aside @ [-ahead[1], ahead[0]]):
-        turned = aside @ ahead > 0.0
+    if abs(dot(aside, ahead)) >= SIDEWAYS * abs(cross(ahead, aside)):
+        turned = dot(aside, ahead) > 0.0
     else:
-        right_of_it = along[0] * -aside[1] + along[1] * aside[0] < 0.0  # the space, seen along the aisle
+        right_of_it = cross(along, aside) > 0.0  # the space, seen along the aisle
         with_it = one_way or right_of_it != site.left_hand
-        turned = (along @ ahead > 0.0) != with_it
-    return float(np.angle(np.exp(1j * (axis + np.pi * turned))))
+        turned = (dot(along, ahead) > 0.0) != with_it
+    return float(wrapped(axis + np.pi * turned))
 
 
 def at_point(thing: Thing, aisles: Aisles, site: Site, found: Survey) -> tuple[float, ...]:
@@ -111,7 +112,7 @@ def at_point(thing: Thing, aisles: Aisles, site: Site, found: Survey) -> tuple[f
     near = aisles.beside(place)
     away = place - near[0] if near is not None else np.array([1.0, 0.0])
     found.notes.guess("parking space", f"{USUAL[0]:g} m by {USUAL[1]:g} m", thing.spot, source="a point only", sure="low")
-    return (*place, float(np.arctan2(away[1], away[0])), *USUAL)
+    return (*place, float(arctan2(away[1], away[0])), *USUAL)
 
 
 # -- along kerbs -----------------------------------------------------------------------------------
@@ -209,7 +210,7 @@ def row(lane: Lane, how: str, way: Way, side: str, site: Site, *, alone: bool) -
     s = np.arange(CLEAR + step / 2.0, lane.length - CLEAR - step / 2.0, step)
     if not len(s):
         return np.empty((SPACE_ROWS, 0))
-    heading = np.unwrap(np.arctan2(*np.diff(lane.centre)[::-1]))
+    heading = np.unwrap(arctan2(*np.diff(lane.centre)[::-1]))
     own = curve.stations(lane.centre)
     heading = np.interp(s, (own[:-1] + own[1:]) / 2.0, heading)
     deep = length * np.sin(angle) + width * np.cos(angle)
@@ -219,4 +220,4 @@ def row(lane: Lane, how: str, way: Way, side: str, site: Site, *, alone: bool) -
         line = shapely.LineString(site.line(way).T)
         others = shapely.distance(line, shapely.points(x, y)) > abs(away) + 2.5 * lane.width * 2.0
         x, y, heading = x[~others], y[~others], heading[~others]
-    return np.stack([x, y, np.angle(np.exp(1j * (heading + sign * angle))), np.full(len(x), length), np.full(len(x), width)])
+    return np.stack([x, y, wrapped(heading + sign * angle), np.full(len(x), length), np.full(len(x), width)])

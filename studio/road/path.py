@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.compiled import compiled
+from studio.portable import arctan2
 from studio.road import curve, kept
 from studio.road.network import Lane, Network
 from studio.road.route import LanePath
@@ -177,7 +178,7 @@ def blended(used: list[Lane]) -> tuple[np.ndarray, np.ndarray]:
 def ease(u: np.ndarray) -> np.ndarray:
     """From 0 to 1 with neither slope nor curvature at the ends: 10 u³ - 15 u⁴ + 6 u⁵."""
     u = np.clip(u, 0.0, 1.0)
-    return u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+    return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
 
 
 def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -230,7 +231,7 @@ def curvature_of(line: np.ndarray) -> np.ndarray:
 
 def heading_of(line: np.ndarray) -> np.ndarray:
     """Direction at every point [rad], without jumps."""
-    return np.unwrap(np.arctan2(np.gradient(line[1]), np.gradient(line[0])))
+    return np.unwrap(arctan2(np.gradient(line[1]), np.gradient(line[0])))
 
 
 def sampled(fine: np.ndarray, height: np.ndarray) -> np.ndarray:

@@ -13,7 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(5)
+from studio.portable import arctan2
+
+# Gauss-Legendre with five places: Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, table 25.4.
+OUTER, INNER = 0.906179845938663993, 0.538469310105683091
+NODES = np.array([-OUTER, -INNER, 0.0, INNER, OUTER])
+WEIGHTS = (0.236926885056189088, 0.478628670499366468, 0.568888888888888889, 0.478628670499366468, 0.236926885056189088)
 MOST_TURN = 0.2  # [rad] of one piece: the quadrature's error is then below 1e-15 of its length
 FINE = 0.05  # [m] between the points at which a poly3's arc length is known
 SAGITTA = 0.001  # [m] a chord may leave its arc by that much
@@ -39,8 +44,8 @@ class Bend:
         grid = np.union1d(ds, np.linspace(0.0, max(self.length, ds.max(initial=0.0)), pieces + 1))
         half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
         theta = self.turned(middle + np.multiply.outer(NODES, half))
-        x = np.append(0.0, np.cumsum(half * (WEIGHTS @ np.cos(theta))))
-        y = np.append(0.0, np.cumsum(half * (WEIGHTS @ np.sin(theta))))
+        x = np.append(0.0, np.cumsum(half * weighted(np.cos(theta))))
+        y = np.append(0.0, np.cumsum(half * weighted(np.sin(theta))))
         here = np.searchsorted(grid, ds)
         return np.array([self.x + x[here], self.y + y[here], self.turned(ds)])
 
@@ -73,7 +78,7 @@ class Cubic:
         p = self.parameter(np.asarray(ds, dtype=float))
         u, v = cubic(self.u, p), cubic(self.v, p)
         c, s = np.cos(self.heading), np.sin(self.heading)
-        heading = self.heading + np.unwrap(np.arctan2(slope(self.v, p), slope(self.u, p)))
+        heading = self.heading + np.unwrap(arctan2(slope(self.v, p), slope(self.u, p)))
         return np.array([self.x + u * c - v * s, self.y + u * s + v * c, heading])
 
     def parameter(self, ds: np.ndarray) -> np.ndarray:
@@ -83,7 +88,7 @@ class Cubic:
         grid = np.linspace(0.0, self.length, max(2, int(self.length / FINE) + 1))
         half, middle = 0.5 * np.diff(grid), 0.5 * (grid[1:] + grid[:-1])
         speed = np.hypot(1.0, slope(self.v, middle + np.multiply.outer(NODES, half)))
-        arc = np.append(0.0, np.cumsum(half * (WEIGHTS @ speed)))
+        arc = np.append(0.0, np.cumsum(half * weighted(speed)))
         p = np.interp(ds, arc, grid)
         return p + (ds - np.interp(p, grid, arc)) / np.hypot(1.0, slope(self.v, p))
 
@@ -92,7 +97,13 @@ class Cubic:
         """The greatest curvature [1/m], without its sign."""
         p = self.parameter(np.linspace(0.0, self.length, 64))
         du, dv, ddu, ddv = slope(self.u, p), slope(self.v, p), bow(self.u, p), bow(self.v, p)
-        return float(np.max(np.abs(du * ddv - dv * ddu) / np.maximum(np.hypot(du, dv), 1e-6) ** 3))
+        speed = np.maximum(np.hypot(du, dv), 1e-6)
+        return float(np.max(np.abs(du * ddv - dv * ddu) / (speed * speed * speed)))
+
+
+def weighted(values: np.ndarray) -> np.ndarray:
+    """Mean over the places of Gauss, float64[place, n]; their sum is written out, since BLAS sums in another order elsewhere."""
+    return sum(weight * value for weight, value in zip(WEIGHTS, values, strict=True))
 
 
 def cubic(k, p):

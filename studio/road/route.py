@@ -1,10 +1,10 @@
 """Ways through the network: from road to road over its lanes, in the least time."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
 
 from studio.errors import Problem, RouteError, nearest
 from studio.road.graph import graph_of, search
@@ -51,7 +51,7 @@ def arms(network: Network) -> Arms:
 def bearing(network: Network, road: str, end: int) -> float:
     """Direction from the map's centre to the start (0) or end (-1) of a road [rad]."""
     x, y = network.lanes_of(road)[0].centre[:, end]
-    return float(np.arctan2(y, x) % (2.0 * np.pi))
+    return math.atan2(y, x) % (2.0 * math.pi)
 
 
 def all_routes(network: Network) -> tuple[LanePath, ...]:

@@ -4,6 +4,7 @@ from collections import Counter
 
 import numpy as np
 
+from studio.portable import arctan2
 from studio.road.country import Country
 from studio.road.osm import Way
 from studio.road.report import DriveSide
@@ -40,5 +41,5 @@ def turning(way: Way) -> float:
     """How far a way turns to the left from its start to its end [rad]."""
     longitude, latitude = np.array(way.points).T
     x, y = longitude * np.cos(np.radians(latitude[0])), latitude
-    heading = np.arctan2(np.diff(y), np.diff(x))
+    heading = arctan2(np.diff(y), np.diff(x))
     return float(((np.diff(heading) + np.pi) % (2.0 * np.pi) - np.pi).sum())

@@ -16,6 +16,7 @@ import numpy as np
 import shapely
 
 from studio.compiled import compiled
+from studio.portable import arctan2
 
 RED, RED_AMBER, GREEN, AMBER = range(4)
 
@@ -302,7 +303,7 @@ def arrays(approaches, against, phases, offset, cycle: float, lanes) -> Signals:
         link_lane=np.array([lane for _, lane in links], dtype=np.int64),
         link_x=ends[0].copy(),
         link_y=ends[1].copy(),
-        link_heading=np.arctan2(steps[1], steps[0]),
+        link_heading=arctan2(steps[1], steps[0]),
         link_width=np.array([lanes[lane].width for _, lane in links], dtype=float),
         programme=np.array([phase.programme for phase in own], dtype=np.int64),
         cycle=np.full(len(links), cycle),

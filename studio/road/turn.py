@@ -12,12 +12,14 @@ into another one without arrows and with as many lanes, they hold at that one's 
 """
 
 import itertools
+import math
 from collections import defaultdict
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
+from studio import portable
 from studio.road import curve
 from studio.road.bend import hermite, is_one_way, unit
 from studio.road.network import Connection, Lane, Net, Road
@@ -188,8 +190,7 @@ def turn_to(net: Net, road: str, following: str) -> float:
     lines = [net.lanes[lane].centre for lane in net.roads[following].lanes]
     start = np.mean([line[:, 0] for line in lines], axis=0)
     ahead = np.mean([curve.along(line, np.array([min(AHEAD, curve.length(line))]))[:, 0] for line in lines], axis=0)
-    (t_x, t_y), (d_x, d_y) = at - before, ahead - start
-    return float(np.degrees(np.arctan2(t_x * d_y - t_y * d_x, t_x * d_x + t_y * d_y)))
+    return math.degrees(portable.turn(at - before, ahead - start))
 
 
 def matched(names: set[str], turns: dict[str, float]) -> dict[str, str]:
