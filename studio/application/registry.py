@@ -15,7 +15,6 @@ from importlib.metadata import entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from studio.errors import ApplicationError, Problem, UnknownError, nearest
 
@@ -101,8 +100,8 @@ def check_compiled(module: ModuleType) -> Problem | None:
 
 def parameter_tuple(module: ModuleType) -> type:
     """The parameters as a NamedTuple, for `decide`. It belongs to the module: cached machine code finds it there by name."""
-    make: Any = namedtuple  # its fields are known at run time only
-    return make("ParameterTuple", list(module.Parameters.model_fields), module=module.__name__)
+    fields = list(module.Parameters.model_fields)  # known at run time only, which the type checker does not expect
+    return namedtuple("ParameterTuple", fields, module=module.__name__)  # pyrefly: ignore[bad-class-definition, invalid-argument]
 
 
 @cache

@@ -4,11 +4,12 @@ Per-hop gain in the L2 sense, ||a_i|| / ||a_{i-1}|| of the accelerations (J. Plo
 Technology 22 (2014) 786): above 1 the next car works harder than the one ahead of it.
 """
 
+import itertools
+
 import numpy as np
 
 from studio.assess.metric import metric
 from studio.execution.record import Chain, Record
-import itertools
 
 QUIET = 0.05  # [m/s²] root mean square below which there is no disturbance to pass on
 

@@ -1,5 +1,6 @@
 """The engine: what the pedal means, drag, rev limit, idle, governor and lag."""
 
+import itertools
 from math import exp
 
 import pytest
@@ -7,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studio.model import engine
-import itertools
 
 patient = settings(deadline=None)  # the first call compiles
 T_DRAG, T_CURVE, LIMIT, IDLE, J_E = -25.0, 150.0, 600.0, 80.0, 0.15

@@ -1,11 +1,11 @@
 """Spring, damper, anti-roll bar, links and the vertical tyre: the laws of one corner."""
 
+import itertools
 from math import exp, log, pi, sqrt
 
 import pytest
 
 from studio.model import suspension
-import itertools
 
 k, d, k_a, F_0 = 25_000.0, 1500.0, 6000.0, 3000.0
 k_t, m_u, R = 200_000.0, 40.0, 0.3

@@ -1,11 +1,12 @@
 """Lanes are curves that a car can follow: they meet without a kink, and a mapped corner is no reason to brake."""
 
+import itertools
+
 import numpy as np
 import pytest
 
 from studio.road import alignment, curve, load
 from studio.road.alignment import COMFORT, MOST_SETBACK, SHARPEST, STEADY
-import itertools
 
 METRE = 1.0 / 111_194.9  # [deg] of latitude on a sphere of 6371 km
 

@@ -1,5 +1,6 @@
 """Heights: from OpenDRIVE's elevation as they are, from OpenStreetMap's `ele` tags as a smooth guess, and none where none is known."""
 
+import itertools
 import math
 from pathlib import Path as File
 from xml.etree import ElementTree
@@ -11,7 +12,6 @@ from studio.road import elevation, load
 from studio.road.motorway import motorway
 from studio.road.path import PATH_HEIGHT, PATH_SLOPE, path
 from studio.road.route import all_routes, connect
-import itertools
 
 MAPS = File(__file__).parents[1] / "reference"
 STEP = 0.0009  # [deg] of latitude: 100 m

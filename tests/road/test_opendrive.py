@@ -1,6 +1,7 @@
 """OpenDRIVE: every lane lies where the document says, lanes join as it says, and what cannot be used is told or refused."""
 
 import gzip
+import itertools
 import json
 import subprocess
 import sys
@@ -20,7 +21,6 @@ from studio.road.path import PATH_CURVATURE, path
 from studio.road.reference_line import Bend, Cubic, Profile, ReferenceLine
 from studio.road.route import all_routes, connect
 from studio.road.xodr import Header, read_header
-import itertools
 
 FILES = sorted((Path(__file__).parents[1] / "reference" / "opendrive").glob("*.xodr"))
 FOLDER = FILES[0].parent
@@ -80,7 +80,7 @@ def spiral(s, k_0, k_1, length):
 @pytest.mark.parametrize(("k_0", "k_1"), [(0.0, 0.02), (0.02, 0.0), (-0.01, 0.03), (0.004, -0.004), (0.1, 0.3)])
 def test_spiral_is_fresnels(k_0, k_1):
     s = np.linspace(0.0, 80.0, 41)
-    x, y, _ = Bend(0.0, 0.0, 0.0, 0.0, 80.0, k_0, k_1).at(s)
+    x, y, heading = Bend(0.0, 0.0, 0.0, 0.0, 80.0, k_0, k_1).at(s)
     assert np.abs([x, y] - np.array(spiral(s, k_0, k_1, 80.0))).max() < 1e-10
     assert heading == pytest.approx(k_0 * s + (k_1 - k_0) * s**2 / 160.0)
 

@@ -1,5 +1,7 @@
 """Paths are evenly spaced, smooth, on their lanes, and slow enough for their bends."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,9 +12,9 @@ from studio.road.alignment import STEADY
 from studio.road.curve import LOCK
 from studio.road.path import (
     CORRIDOR,
-    PATH_SPACING,
     PATH_CURVATURE,
     PATH_HEADING,
+    PATH_SPACING,
     PATH_SPEED,
     PATH_X,
     PATH_Y,
@@ -21,7 +23,6 @@ from studio.road.path import (
     project,
 )
 from studio.road.route import LanePath
-import itertools
 
 LATERAL, BRAKING = 2.5, 1.5  # [m/s²] the defaults of path()
 

@@ -1,6 +1,7 @@
 """The whole world on the real map: determinism, batches, traffic that keeps to its lanes and lights."""
 
 import copy
+import itertools
 
 import numpy as np
 import pytest
@@ -11,7 +12,6 @@ from studio.road.signals import GREEN
 from studio.world.build import build
 from studio.world.state import ACTIVE, FRONT, OFFSET, OMEGA, OMEGA_E, RED_STATION, STATION, V_EAST, V_X, X, Y
 from studio.world.tick import tick
-import itertools
 
 
 def run_for(settings, seconds):
