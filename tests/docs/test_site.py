@@ -3,11 +3,13 @@
 import re
 import subprocess
 import sys
+import threading
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import ClassVar
 
 import pytest
+import uvicorn
 
 from docs import book
 from docs.formula import block, makeExtension
@@ -15,7 +17,12 @@ from docs.reference import field
 from studio.assess.measure import registered
 from studio.scenario.datasheet import quantities
 from studio.scenario.schema import Scenario
+from studio.server import book as shown
+from studio.server import page as front
+from tests.browser.browser import browser
 from tests.conftest import ROOT
+
+PATIENCE = 180_000  # [ms] of the browser
 
 
 @pytest.fixture(scope="module")
@@ -125,6 +132,44 @@ def test_the_policy_names_every_script_that_stands_in_a_page(site):
     for page in pages(site):
         for script in book.SCRIPT.findall(page.read_text(encoding="utf-8")):
             assert base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() in permitted, page
+
+
+@pytest.fixture
+def address(site, monkeypatch):
+    """The site as the studio's server shows it."""
+    monkeypatch.setattr(shown, "SITE", site)
+    monkeypatch.setattr(shown, "press", shown.Press())
+    monkeypatch.setattr(shown, "CHECKOUT", site)  # where nothing can be made anew
+    server = uvicorn.Server(uvicorn.Config(front.app, port=0, log_level="warning"))
+    socket = server.config.bind_socket()
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [socket]})
+    thread.start()
+    yield f"http://127.0.0.1:{socket.getsockname()[1]}"
+    server.should_exit = True
+    thread.join()
+
+
+def test_a_browser_shows_and_searches_it_and_calls_nobody(address):
+    """In the dark theme too; whatever the policy forbids would stand in the console."""
+    said, called = [], []
+    with browser() as chromium:
+        opened = chromium.new_page(color_scheme="dark")
+        opened.set_default_timeout(PATIENCE)
+        opened.on("console", lambda message: said.append(message.text))
+        opened.on("request", lambda request: called.append(request.url))
+        opened.goto(f"{address}/docs/explanation/drivers/")
+        assert opened.locator("math").count() > 5
+        colour = opened.locator("body").evaluate("body => getComputedStyle(body).backgroundColor")
+        red, green, blue = map(int, re.findall(r"\d+", colour)[:3])
+        assert max(red, green, blue) < 80
+        opened.get_by_role("button", name="Search").first.click()
+        opened.locator("input:focus").fill("Intelligent Driver Model")
+        opened.locator("a", has_text="The Intelligent Driver Model (M. Treiber").first.wait_for()
+        opened.goto(f"{address}/docs/reference/scenario/")
+        opened.get_by_role("link", name="Clock", exact=True).first.click()
+        assert opened.url.endswith("/docs/reference/scenario/#clock")
+    assert said == []
+    assert called and all(url.startswith(address) for url in called)
 
 
 def test_a_wrong_link_ends_the_build_with_page_and_line(tmp_path, monkeypatch):
