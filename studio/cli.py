@@ -151,7 +151,7 @@ def import_(
     as_json: AsJson = False,
 ) -> None:
     """Imports a map into a folder that a scenario can name, and reports what was found, guessed and skipped."""
-    from studio.road import intake
+    from studio.road.library import intake
 
     print_import(out, intake.take(file, out, bbox=bbox, parking_aisles=parking_aisles, progress=told), as_json)
 
@@ -167,7 +167,8 @@ def download(
 ) -> None:  # fmt: skip
     """Downloads a place from OpenStreetMap and imports it, as `studio import` does."""
     from studio.errors import MapError
-    from studio.road import intake, osm
+    from studio.road.formats import osm
+    from studio.road.library import intake
 
     if (place is None) == (bbox is None):
         raise MapError("What shall be downloaded?", [Problem("PLACE, --bbox", "are none or both given", remedy="give one of them")])
@@ -186,7 +187,7 @@ def correct(
 ) -> None:
     """Corrects tags of a map element and imports the map again; the correction is kept for later imports into the folder."""
     from studio.errors import MapError
-    from studio.road import intake, tag
+    from studio.road.library import intake, tag
 
     if undo and (tags or remove):
         raise MapError("--undo takes all corrections of the element back.", [Problem("--undo", "stands alone", remedy="leave the tags out")])
@@ -206,7 +207,7 @@ def motorway(
     grade: Annotated[float, typer.Option(help="Steepest slope of its hills [1]; 0 is level.")] = 0.0,
 ) -> None:
     """Writes a motorway with straights, clothoids and bends as OpenDRIVE."""
-    from studio.road.motorway import motorway as written
+    from studio.road.drawn.motorway import motorway as written
 
     text = written(length=length, lanes=lanes, radius=radius, grade=grade)
     try:
@@ -220,7 +221,7 @@ def motorway(
 @generate.command("grid")
 def generate_grid(out: MapOut) -> None:
     """Draws a town of 5 by 5 blocks: main streets with signals, quiet streets, a one-way pair, a roundabout, houses, parking."""
-    from studio.road.town import town
+    from studio.road.drawn.town import town
 
     town().write(out)
     print(f"{out}: a town of 5 by 5 blocks")
@@ -229,7 +230,7 @@ def generate_grid(out: MapOut) -> None:
 @generate.command("deck")
 def generate_deck(out: MapOut) -> None:
     """Draws a parking deck: one level, a one-way loop, sixty spaces, pillars and walls. Import it with --parking-aisles."""
-    from studio.road.deck import deck
+    from studio.road.drawn.deck import deck
 
     deck().write(out)
     print(f"{out}: a parking deck of 60 spaces")
@@ -445,8 +446,8 @@ def told(text: str) -> None:
 
 def print_import(out: Path, network, as_json: bool) -> None:
     """The report of an import, as it stands in its folder or for people."""
-    from studio.road import folder
-    from studio.road.report import rows
+    from studio.road.library import folder
+    from studio.road.network.report import rows
 
     if as_json:
         print_json(json.loads((out / folder.REPORT).read_text(encoding="utf-8")))

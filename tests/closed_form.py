@@ -13,8 +13,30 @@ from studio.model.tyre import Tyre
 from studio.model.wheel import SIGMA
 from studio.world import fleet
 from studio.world.state import (
-    ARB_F, ARB_R, CAMBER_F, CAMBER_R, GAIN_F, GAIN_R, H, J_Z, K_F, K_R, K_TF, K_TR, L_F, L_R, LINK_F, LINK_R, M_UF, M_UR, MASS,
-    RADIUS, STATIC_F, STATIC_R, TRACK_F, TRACK_R,
+    ARB_F,
+    ARB_R,
+    CAMBER_F,
+    CAMBER_R,
+    GAIN_F,
+    GAIN_R,
+    J_Z,
+    K_F,
+    K_R,
+    K_TF,
+    K_TR,
+    L_F,
+    L_R,
+    LINK_F,
+    LINK_R,
+    M_UF,
+    M_UR,
+    MASS,
+    RADIUS,
+    STATIC_F,
+    STATIC_R,
+    TRACK_F,
+    TRACK_R,
+    H,
 )  # fmt: skip
 
 SMALL = 1e-5  # [1] slip or camber, [relative] load of a finite difference

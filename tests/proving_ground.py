@@ -6,8 +6,32 @@ from studio.scenario import catalogue
 from studio.world import fleet
 from studio.world.fleet import Start
 from studio.world.state import (
-    C_D, C_ROLL, GEAR, IDLE, J_GEAR, J_WF, J_WR, MASS, MU, NEXT_GEAR, NEXT_RATIO, OMEGA_E, RADIUS, RATIO, RING, SLOPE_X,
-    U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER, U_STEER_TORQUE, V_X,
+    C_D,
+    C_ROLL,
+    GEAR,
+    IDLE,
+    J_GEAR,
+    J_WF,
+    J_WR,
+    MASS,
+    MU,
+    NEXT_GEAR,
+    NEXT_RATIO,
+    OMEGA_E,
+    RADIUS,
+    RATIO,
+    RING,
+    SLOPE_X,
+    U_APPLIED,
+    U_APPLIED_BRAKE,
+    U_BRAKE,
+    U_DRIVE,
+    U_ENGINE,
+    U_GEAR,
+    U_PEDAL,
+    U_STEER,
+    U_STEER_TORQUE,
+    V_X,
 )  # fmt: skip
 
 TICK = 0.02

@@ -1,12 +1,13 @@
 """Imports point down only: the floors of the house, from the ground up."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
 
 FLOORS = [
-    {"errors", "conventions", "compiled"},
+    {"errors", "conventions", "compiled", "portable"},
     {"model"},
     {"road"},
     {"scenario"},
@@ -54,6 +55,19 @@ def test_imports_point_down(path):
     own = FLOOR_OF[path.relative_to(PACKAGE).parts[0].removesuffix(".py")]
     above = {room for room in imported(path) if FLOOR_OF[room] > own}
     assert not above
+
+
+ROAD_FLOORS = [{"kept"}, {"network"}, {"formats", "ways"}, {"scenery"}, {"assembly"}, {"library", "drawn"}]
+ROAD_FLOOR_OF = {room: height for height, rooms in enumerate(ROAD_FLOORS) for room in rooms}
+
+
+def test_rooms_of_maps_import_downwards_too():
+    """Within `road`, in the same way; its door, `__init__.py`, opens what stands behind it when it is asked."""
+    for path in sorted((PACKAGE / "road").rglob("*.py")):
+        room = path.relative_to(PACKAGE / "road").parts[0].removesuffix(".py")
+        names = set(re.findall(r"(?:from|import) studio\.road\.(\w+)", path.read_text(encoding="utf-8")))
+        if room != "__init__":
+            assert {name for name in names if ROAD_FLOOR_OF[name] > ROAD_FLOOR_OF[room]} == set(), path
 
 
 def test_models_are_pure():

@@ -14,7 +14,7 @@ BITS = """
 import hashlib, sys
 from studio import job
 from studio.road import load
-from studio.road.motorway import motorway
+from studio.road.drawn.motorway import motorway
 from studio.world.build import build
 from studio.world.tick import tick
 

@@ -5,7 +5,6 @@ import numpy as np
 from studio.assess.metric import metric
 from studio.execution.record import Record
 
-
 CLOSING = 0.1  # [m/s] slower than this nobody comes nearer: it would take minutes, and sensors could not tell
 
 

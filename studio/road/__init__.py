@@ -2,7 +2,7 @@
 
 from typing import Any
 
-NAMES = {"Network": "studio.road.network", "load": "studio.road.place"}
+NAMES = {"Network": "studio.road.network", "load": "studio.road.library.place"}
 
 __all__ = ["Network", "load"]
 

@@ -10,17 +10,15 @@ import pickle
 import tempfile
 from pathlib import Path
 
-from studio.compiled import cache_root
+from studio.compiled import cache_root, closure
 
 
-def digest_of(*parts: object, sources: tuple[str, ...]) -> str:
-    """Digest of what something is made of, and of the files that make it: names in this folder, or paths from it."""
+def digest_of(*parts: object, maker: str) -> str:
+    """Digest of what something is made of, and of the file that makes it with all that this depends on."""
+    made_by = [file.read_bytes() for file in closure(Path(maker))]
     digest = hashlib.sha256(repr([part for part in parts if not isinstance(part, bytes)]).encode())
-    for name in sources:
-        digest.update((Path(__file__).parent / name).read_bytes())
-    for part in parts:
-        if isinstance(part, bytes):
-            digest.update(part)
+    for part in (*made_by, *(part for part in parts if isinstance(part, bytes))):
+        digest.update(part)
     return digest.hexdigest()
 
 

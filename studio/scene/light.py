@@ -3,14 +3,13 @@
 import numpy as np
 import viser
 
-from studio.road import surface
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
 from studio.scene.shape import Surface
 from studio.scene.shape import surface as painted
 
-# direction towards the sun, unit vector in the local east-north-up frame
-SUN = -np.array(surface.SUN) / np.linalg.norm(surface.SUN)
+# Direction towards the sun, a unit vector in the local east-north-up frame: a forenoon sun in the south-east, 55° high.
+SUN = np.array([0.45, -0.35, 0.82]) / np.linalg.norm([0.45, -0.35, 0.82])
 
 SUNLIGHT, SUN_STRENGTH = "#fff0d8", 2.8
 SKYLIGHT, GROUNDLIGHT, SKY_STRENGTH = "#dbe8f7", "#77705f", 2.1

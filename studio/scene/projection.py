@@ -11,7 +11,8 @@ import shapely
 import viser
 
 from studio.road.network import Network
-from studio.scene import city, tree
+from studio.scene import city
+from studio.scene.city import tree
 from studio.scene.fleet import Fleet, Look
 from studio.scene.light import HAZE_FAR, SKY_RADIUS, air, light
 from studio.scene.obstacle import Obstacles, Place

@@ -6,7 +6,7 @@ import numpy as np
 import viser
 
 from studio.road.network import Network
-from studio.road.signals import AMBER, GREEN, RED, RED_AMBER
+from studio.road.network.signals import AMBER, GREEN, RED, RED_AMBER
 from studio.scene.glb import Material, glb
 from studio.scene.shape import Surface, ball, box, cylinder, joined
 

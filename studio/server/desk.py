@@ -9,10 +9,10 @@ from studio import job
 from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
-from studio.road import place
+from studio.road.library import place
 from studio.server.answer import Pace
 from studio.server.frame import Frame
-from studio.server.live import Lives, LiveRun
+from studio.server.live import LiveRun, Lives
 from studio.server.map_job import MapJobs
 from studio.server.maps import Maps
 from studio.server.stage import Stage

@@ -22,7 +22,8 @@ import psutil
 from starlette.concurrency import run_in_threadpool
 
 from studio.errors import MapError, Problem, ServerError, SizeError, StudioError, UnknownError
-from studio.road import folder, intake, osm, tag
+from studio.road.formats import osm
+from studio.road.library import folder, intake, tag
 from studio.server import answer, map_worker
 from studio.server.map_worker import Order
 from studio.server.maps import Maps, file_name, free_name, plain_name
@@ -199,7 +200,7 @@ class MapJobs:
 
     def download(self, new: answer.NewDownload) -> answer.MapJob:
         """Downloads and imports a place. Raises MapError or ServerError."""
-        from studio.road import download
+        from studio.road.library import download
 
         if (new.place is None) == (new.bbox is None):
             problem = Problem("place, bbox", "are none or both given", remedy="give one of them")

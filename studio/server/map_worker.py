@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from studio.errors import MapError, Problem, StudioError
-from studio.road import intake
+from studio.road.library import intake
 
 MOST_MEMORY = 6 * 2**30  # [B] of address space, for this process and for netconvert each
 SHARES = {"reading": 0.05, "building": 0.3, "placing": 0.7, "writing": 0.95}  # of the work, by the first word of a stage

@@ -17,11 +17,13 @@ import numpy as np
 import yaml
 
 from studio.errors import MapError, Problem, ScenarioError, StudioError, UnknownError, nearest
-from studio.road import folder, load, osm
+from studio.road import load
+from studio.road.formats import osm
+from studio.road.library import folder
+from studio.road.library.place import attribution, licence, name_of
+from studio.road.library.reader import ENDINGS, ending_of
 from studio.road.network import Network
-from studio.road.place import attribution, licence, name_of
-from studio.road.reader import ENDINGS, ending_of
-from studio.road.trip import Trip, trip
+from studio.road.ways.trip import Trip, trip
 from studio.scenario import file as scenario_file
 from studio.server import answer
 from studio.world.setting import USUAL_RADIUS

@@ -12,8 +12,8 @@ from studio.application.contract import ACTUATORS
 from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
 from studio.conventions import GRAVITY
 from studio.model.driver import sight_speed
-from studio.road import shadow
-from studio.road.shadow import Shadow
+from studio.road.network import shadow
+from studio.road.network.shadow import Shadow
 from studio.scenario.schema import Driver, Friction, Weather
 from studio.world import ground
 from studio.world.change import changes_of

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from studio.compiled import compiled
-from studio.road.detour import limited
-from studio.road.path import PATH_SPEED, project
+from studio.road.ways.detour import limited
+from studio.road.ways.path import PATH_SPEED, project
 from studio.scenario.schema import Limit
 from studio.world import obstacle
 from studio.world.line import Lines, zones

@@ -12,8 +12,16 @@ from math import cos, sin
 import numpy as np
 
 from studio.compiled import compiled
-from studio.road.path import PATH_HEADING, PATH_HEIGHT, PATH_SLOPE, PATH_SPACING, PATH_X, PATH_Y, interpolate
-from studio.road.path import Path as RoadPath
+from studio.road.ways.path import (
+    PATH_HEADING,
+    PATH_HEIGHT,
+    PATH_SLOPE,
+    PATH_SPACING,
+    PATH_X,
+    PATH_Y,
+    interpolate,
+)
+from studio.road.ways.path import Path as RoadPath
 from studio.scenario.schema import Friction
 from studio.world.corner import side_of
 from studio.world.state import *  # noqa: F403 - the names of the rows

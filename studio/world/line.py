@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.road import conflict
-from studio.road.path import Path
+from studio.road.ways import conflict
+from studio.road.ways.path import Path
 from studio.world.setting import Setting
 from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.way import MOST_WORKS, Way

@@ -18,7 +18,18 @@ from studio.world.corner import attitude, corners_step, tyre_step
 from studio.world.force import forces_step
 from studio.world.powertrain import brake_step, drive_step, steer_step
 from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.tile import COMMAND_AT, CONTACT_AT, CORNERS, GROUND_AT, LANES, PARAMETER_AT, STATE_AT, WHEEL_AT, tyre_at, window
+from studio.world.tile import (
+    COMMAND_AT,
+    CONTACT_AT,
+    CORNERS,
+    GROUND_AT,
+    LANES,
+    PARAMETER_AT,
+    STATE_AT,
+    WHEEL_AT,
+    tyre_at,
+    window,
+)
 
 TICK_EPSILON = 1e-9  # a dead time that is a whole number of ticks must not fall one tick short by rounding
 STATES, WHEELS, GROUNDS, PARAMETERS = len(VEHICLE), len(WHEEL), len(GROUND), len(PARAMETER)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.compiled import compiled
-from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.scenario.schema import CloseLane, Objects
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting

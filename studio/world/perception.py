@@ -8,9 +8,17 @@ from math import atan2, cos, nan, sin, sqrt
 from studio.compiled import compiled
 from studio.model import radio, satellite, sensor
 from studio.model.random import (
-    GPS_DRIFT, GPS_NOISE, MESSAGE_DELAY, MESSAGE_LOSS, RANGE_NOISE, RATE_NOISE, normal, normal_pair, uniform,
+    GPS_DRIFT,
+    GPS_NOISE,
+    MESSAGE_DELAY,
+    MESSAGE_LOSS,
+    RANGE_NOISE,
+    RATE_NOISE,
+    normal,
+    normal_pair,
+    uniform,
 )  # fmt: skip
-from studio.road.shadow import EYE, open_sky, walls_between
+from studio.road.network.shadow import EYE, open_sky, walls_between
 from studio.world.collision import reach_along
 from studio.world.state import *  # noqa: F403 - the names of the rows
 

@@ -13,10 +13,10 @@ import numpy as np
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
-from studio.road import path as road_path
 from studio.road.network import Network
-from studio.road.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
-from studio.road.route import all_routes, connect
+from studio.road.ways import path as road_path
+from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
+from studio.road.ways.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Driver, FrontSensor, Gps, Place, Scenario

@@ -11,12 +11,12 @@ from math import inf
 import numpy as np
 
 from studio.errors import Problem, RouteError, nearest
-from studio.road import path as road_path
-from studio.road.alignment import SHARPEST
-from studio.road.detour import STEEPEST, Work, lane_line
+from studio.road.assembly.alignment import SHARPEST
 from studio.road.network import Lane, Network
-from studio.road.path import Path
-from studio.road.route import connect
+from studio.road.ways import path as road_path
+from studio.road.ways.detour import STEEPEST, Work, lane_line
+from studio.road.ways.path import Path
+from studio.road.ways.route import connect
 from studio.scenario.schema import Change, CloseLane, LaneWork, Moment, Scenario, ShiftLane
 
 WORDS = {

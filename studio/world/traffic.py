@@ -9,7 +9,8 @@ from math import cos, inf, nan, sin
 
 from studio.compiled import compiled
 from studio.model import driver
-from studio.road.path import (
+from studio.road.network.signals import GREEN, signal_state
+from studio.road.ways.path import (
     PATH_CURVATURE,
     PATH_HEADING,
     PATH_SPACING,
@@ -19,7 +20,6 @@ from studio.road.path import (
     interpolate,
     project,
 )
-from studio.road.signals import GREEN, signal_state
 from studio.world.ground import touch_all
 from studio.world.shift import start
 from studio.world.state import *  # noqa: F403 - the names of the rows

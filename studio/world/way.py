@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studio.road.detour import led, passing
-from studio.road.path import Path
+from studio.road.ways.detour import led, passing
+from studio.road.ways.path import Path
 from studio.world.site import Site
 
 MOST_WORKS = 4  # on one path: each doubles the number of its paths

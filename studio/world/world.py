@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.application.host import Hosted
-from studio.road.shadow import Shadow
+from studio.road.network.shadow import Shadow
 from studio.world.fleet import Fleet
 from studio.world.state import OBJECT
 

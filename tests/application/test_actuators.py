@@ -9,11 +9,26 @@ from studio import job
 from studio.application import registry
 from studio.application.contract import ACTUATORS, LEAVE, Actuators, Command
 from studio.application.setup import complete
-from studio.road.signals import AMBER, GREEN
+from studio.road.network.signals import AMBER, GREEN
 from studio.world.build import build
 from studio.world.setting import setting
 from studio.world.state import (
-    A_X, ACCELERATOR, DELTA, FRONT, GEAR, RATIO, RING, STATION, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, U, U_BRAKE, U_DRIVE, U_STEER, V_X,
+    A_X,
+    ACCELERATOR,
+    DELTA,
+    FRONT,
+    GEAR,
+    RATIO,
+    RING,
+    STATION,
+    T_ENGINE,
+    TORQUE_BRAKE,
+    TORQUE_DRIVE,
+    U_BRAKE,
+    U_DRIVE,
+    U_STEER,
+    V_X,
+    U,
 )  # fmt: skip
 from studio.world.tick import tick
 

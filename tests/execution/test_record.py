@@ -6,7 +6,7 @@ import pytest
 from studio import job
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
-from studio.road.path import PATH_SPEED
+from studio.road.ways.path import PATH_SPEED
 
 
 def result(sample, **changes):

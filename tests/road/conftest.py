@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from studio.road import load
-from studio.road.extract import ATTRIBUTION
+from studio.road.assembly.extract import ATTRIBUTION
 from studio.road.network import Connection, Lane, Network, Road, Scenery
-from studio.road.path import path
-from studio.road.route import all_routes
-from studio.road.signals import signals
+from studio.road.network.signals import signals
+from studio.road.ways.path import path
+from studio.road.ways.route import all_routes
 
 GROSSER_STERN = Path(__file__).parents[2] / "scenarios" / "maps" / "berlin_siegessaeule_grosser_stern.osm.gz"
 

@@ -5,8 +5,10 @@ import itertools
 import numpy as np
 import pytest
 
-from studio.road import alignment, curve, load
-from studio.road.alignment import COMFORT, MOST_SETBACK, SHARPEST, STEADY
+from studio.road import load
+from studio.road.assembly import alignment
+from studio.road.assembly.alignment import COMFORT, MOST_SETBACK, SHARPEST, STEADY
+from studio.road.network import curve
 
 METRE = 1.0 / 111_194.9  # [deg] of latitude on a sphere of 6371 km
 

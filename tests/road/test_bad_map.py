@@ -6,7 +6,8 @@ import os
 import pytest
 
 from studio.errors import MapError
-from studio.road import load, place
+from studio.road import load
+from studio.road.library import place
 
 ROAD = (
     '<node id="1" version="1" lat="52.5" lon="13.4"/><node id="2" version="1" lat="52.501" lon="13.404"/>'
@@ -61,7 +62,7 @@ def test_a_file_that_is_no_gzip_is_refused(tmp_path):
 
 
 def test_a_bomb_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr("studio.road.osm.LARGEST", 1000)
+    monkeypatch.setattr("studio.road.formats.osm.LARGEST", 1000)
     with pytest.raises(MapError, match="larger"):
         load(written(tmp_path, gzip.compress(b"<osm>" + b" " * 10_000), "bomb.osm.gz"))
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import solveh_banded
 
-from studio.road.band import solve
+from studio.road.network.band import solve
 
 
 def smoothing(n, seed):

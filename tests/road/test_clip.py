@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.road import bend, osm
+from studio.road.assembly import bend
+from studio.road.formats import osm
 
 UNIT = osm.Box(0.0, 0.0, 1.0, 1.0)
 coordinate = st.floats(-2.0, 3.0, allow_nan=False)

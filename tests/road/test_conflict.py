@@ -5,8 +5,8 @@ import time
 import numpy as np
 import pytest
 
-from studio.road.conflict import zones
-from studio.road.path import PATH_ROWS
+from studio.road.ways.conflict import zones
+from studio.road.ways.path import PATH_ROWS
 
 WIDTH = 2.4
 

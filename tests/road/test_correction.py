@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from studio.errors import MapError
-from studio.road import folder, intake, load, tag
-from studio.road.correction import Correction, added
-from studio.road.report import rows
+from studio.road import load
+from studio.road.formats.correction import Correction, added
+from studio.road.library import folder, intake, tag
+from studio.road.network.report import rows
 
 MANCHESTER = Path(__file__).parents[1] / "reference" / "maps" / "manchester_kingsway_lht.osm.gz"
 STREET = "way 59876790"  # Dorset Street: neither lanes nor maxspeed are mapped

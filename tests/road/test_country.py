@@ -2,10 +2,11 @@
 
 import pytest
 
-from studio.road import limit, load, osm
-from studio.road.country import Country, country_at
-from studio.road.report import Notes
-from studio.road.side import drive_side
+from studio.road import load
+from studio.road.assembly.side import drive_side
+from studio.road.formats import limit, osm
+from studio.road.formats.country import Country, country_at
+from studio.road.network.report import Notes
 
 
 # capitals and towns on both sides of the world; sides as their traffic codes have them

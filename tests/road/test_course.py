@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from studio.road import load
-from studio.road.course import ahead, follow, light, light_at_end, successors
-from studio.road.frenet import Place, to_world
-from studio.road.index import KERB_SIDE, LIGHT, MIDDLE_SIDE, NONE, index_of, joined
+from studio.road.network.index import KERB_SIDE, LIGHT, MIDDLE_SIDE, NONE, index_of, joined
+from studio.road.ways.course import ahead, follow, light, light_at_end, successors
+from studio.road.ways.frenet import Place, to_world
 from tests.road.conftest import lane, network
 from tests.road.test_places import FILES
 

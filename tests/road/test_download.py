@@ -16,9 +16,11 @@ from xml.etree import ElementTree
 import pytest
 
 from studio.errors import MapError
-from studio.road import download, folder, intake, load, osm
-from studio.road.download import Patience
-from studio.road.kind import GREEN
+from studio.road import load
+from studio.road.formats import osm
+from studio.road.formats.kind import GREEN
+from studio.road.library import download, folder, intake
+from studio.road.library.download import Patience
 
 SEATTLE = Path(__file__).parents[1] / "reference" / "maps" / "seattle_triangle_small.osm.gz"
 BOX = osm.bounding_box("-122.3400,47.6155,-122.3365,47.6185")

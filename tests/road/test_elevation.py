@@ -8,10 +8,11 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from studio.road import elevation, load
-from studio.road.motorway import motorway
-from studio.road.path import PATH_HEIGHT, PATH_SLOPE, path
-from studio.road.route import all_routes, connect
+from studio.road import load
+from studio.road.assembly import elevation
+from studio.road.drawn.motorway import motorway
+from studio.road.ways.path import PATH_HEIGHT, PATH_SLOPE, path
+from studio.road.ways.route import all_routes, connect
 
 MAPS = File(__file__).parents[1] / "reference"
 STEP = 0.0009  # [deg] of latitude: 100 m

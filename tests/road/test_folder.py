@@ -9,7 +9,9 @@ from pathlib import Path
 import pytest
 
 from studio.errors import MapError
-from studio.road import folder, load, overpass
+from studio.road import load
+from studio.road.formats import overpass
+from studio.road.library import folder
 
 MAPS = Path(__file__).parents[1] / "reference" / "maps"
 PERTH = MAPS / "perth_peanut_roundabout_lht.osm.gz"

@@ -6,10 +6,22 @@ import numpy as np
 import pytest
 
 from studio.road import load
-from studio.road.frenet import Place, nearest, nearest_lane, nearest_piece, to_lane, to_world
-from studio.road.index import (
-    CELL, NONE, P_EAST, P_HEADING, P_MITRE, P_NORTH, P_S, P_X, P_Y, POINT_COUNT, POINT_FIRST, index_of, joined,
+from studio.road.network.index import (
+    CELL,
+    NONE,
+    P_EAST,
+    P_HEADING,
+    P_MITRE,
+    P_NORTH,
+    P_S,
+    P_X,
+    P_Y,
+    POINT_COUNT,
+    POINT_FIRST,
+    index_of,
+    joined,
 )  # fmt: skip
+from studio.road.ways.frenet import Place, nearest, nearest_lane, nearest_piece, to_lane, to_world
 from tests.road.conftest import lane, network
 from tests.road.test_places import FILES
 

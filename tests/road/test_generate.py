@@ -9,14 +9,15 @@ import shapely
 
 from studio import job
 from studio.errors import MapError
-from studio.road import deck, load
-from studio.road import town as drawn
-from studio.road.drawing import Drawing
-from studio.road.extract import ATTRIBUTION
+from studio.road import load
+from studio.road.assembly.extract import ATTRIBUTION
+from studio.road.drawn import deck
+from studio.road.drawn import town as drawn
+from studio.road.drawn.drawing import Drawing
 from studio.road.network import SPACE_HEADING, SPACE_LENGTH, SPACE_WIDTH, SPACE_X, SPACE_Y
-from studio.road.path import PATH_SPEED
-from studio.road.plane import polygon
-from studio.road.route import all_routes, arms
+from studio.road.network.plane import polygon
+from studio.road.ways.path import PATH_SPEED
+from studio.road.ways.route import all_routes, arms
 
 SCENARIOS = Path(__file__).parents[2] / "scenarios"
 MAPS = SCENARIOS / "maps"
@@ -89,7 +90,7 @@ def test_limits_are_those_of_the_kinds_of_streets(town):
 
 
 def test_nothing_stands_on_the_road(town):
-    from studio.road.surface import road_form
+    from studio.road.network.outline import road_form
 
     form = road_form(town).buffer(-0.1)
     shapely.prepare(form)

@@ -10,12 +10,25 @@ import numpy as np
 import pytest
 
 from studio.errors import RouteError
-from studio.road import extract, load, osm
-from studio.road.graph import CHANGE_EASE, CHANGE_TIME, CLOSED_TIME, NARROW_TIME, YIELD_TIME, cheapest, graph_of, lane_times, mean_wait, mean_waits
-from studio.road.index import index_of
+from studio.road import load
+from studio.road.assembly import extract
+from studio.road.formats import osm
 from studio.road.network import Connection
-from studio.road.route import connect
-from studio.road.signals import AMBER, GREEN, RED, RED_AMBER
+from studio.road.network.graph import (
+    CHANGE_EASE,
+    CHANGE_TIME,
+    CLOSED_TIME,
+    NARROW_TIME,
+    YIELD_TIME,
+    cheapest,
+    graph_of,
+    lane_times,
+    mean_wait,
+    mean_waits,
+)
+from studio.road.network.index import index_of
+from studio.road.network.signals import AMBER, GREEN, RED, RED_AMBER
+from studio.road.ways.route import connect
 from tests.road.conftest import lane, network
 from tests.road.test_places import FILES
 

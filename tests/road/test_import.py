@@ -6,9 +6,10 @@ import numpy as np
 import pyproj
 import pytest
 
-from studio.road import load, osm
-from studio.road.netconvert import DEFAULT_LANE_WIDTH
-from studio.road.route import arms
+from studio.road import load
+from studio.road.formats import osm
+from studio.road.formats.netconvert import DEFAULT_LANE_WIDTH
+from studio.road.ways.route import arms
 
 
 @pytest.fixture(scope="module")

@@ -7,11 +7,11 @@ import pytest
 
 from studio.errors import MapError
 from studio.road import load
-from studio.road.motorway import LANE_WIDTH, motorway
-from studio.road.path import PATH_CURVATURE, WAVELENGTH, path
-from studio.road.reference_line import ReferenceLine
-from studio.road.route import all_routes, connect
-from studio.road.xodr import document
+from studio.road.drawn.motorway import LANE_WIDTH, motorway
+from studio.road.formats.reference_line import ReferenceLine
+from studio.road.formats.xodr import document
+from studio.road.ways.path import PATH_CURVATURE, WAVELENGTH, path
+from studio.road.ways.route import all_routes, connect
 
 SAMPLE = Path(__file__).parents[2] / "scenarios" / "maps" / "motorway.xodr"
 LIMIT = 130.0 / 3.6

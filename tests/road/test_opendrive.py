@@ -16,11 +16,12 @@ from scipy.optimize import brentq
 from scipy.special import fresnel
 
 from studio.errors import MapError
-from studio.road import load, place
-from studio.road.path import PATH_CURVATURE, path
-from studio.road.reference_line import Bend, Cubic, Profile, ReferenceLine
-from studio.road.route import all_routes, connect
-from studio.road.xodr import Header, read_header
+from studio.road import load
+from studio.road.formats.reference_line import Bend, Cubic, Profile, ReferenceLine
+from studio.road.formats.xodr import Header, read_header
+from studio.road.library import place
+from studio.road.ways.path import PATH_CURVATURE, path
+from studio.road.ways.route import all_routes, connect
 
 FILES = sorted((Path(__file__).parents[1] / "reference" / "opendrive").glob("*.xodr"))
 FOLDER = FILES[0].parent

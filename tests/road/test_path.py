@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studio.road import curve
-from studio.road.alignment import STEADY
-from studio.road.curve import LOCK
-from studio.road.path import (
+from studio.road.assembly.alignment import STEADY
+from studio.road.network import curve
+from studio.road.network.curve import LOCK
+from studio.road.ways.path import (
     CORRIDOR,
     PATH_CURVATURE,
     PATH_HEADING,
@@ -22,7 +22,7 @@ from studio.road.path import (
     path,
     project,
 )
-from studio.road.route import LanePath
+from studio.road.ways.route import LanePath
 
 LATERAL, BRAKING = 2.5, 1.5  # [m/s²] the defaults of path()
 

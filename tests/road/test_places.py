@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 import shapely
 
-from studio.road import load, osm, surface
-from studio.road.signals import GREEN
+from studio.road import load
+from studio.road.formats import osm
+from studio.road.network.signals import GREEN
+from studio.scene.city.line import road_lines
 
 MAPS = Path(__file__).parents[1] / "reference" / "maps"
 SCENARIOS = Path(__file__).parents[2] / "scenarios" / "maps"
@@ -105,7 +107,7 @@ def test_dashes_lie_between_the_lanes_of_a_road(here, name):
         lanes = here.lanes_of(road.id)
         if len(lanes) > 1 and not road.internal:
             lines = [shapely.LineString(lane.centre.T) for lane in lanes]
-            dashes = [dash.centroid for dash in surface.road_lines(here, road.id)]
+            dashes = [dash.centroid for dash in road_lines(here, road.id)]
             between += [sum(line.distance(dash) < 0.65 * lanes[0].width for line in lines) == 2 for dash in dashes]
     assert len(between) > 10 or name == "perth_peanut_roundabout_lht"  # it has short second lanes only
     assert np.mean(between or [True]) > 0.97

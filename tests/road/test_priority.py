@@ -70,7 +70,7 @@ def test_our_rule_for_equal_streets_is_netconverts(draft, tmp_path, own_cache, m
     path = crossing(draft, BERLIN).write(tmp_path / "cross.osm")
     ours = [c.yields for c in load(path).connections]
     monkeypatch.setenv("STUDIO_CACHE", str(tmp_path / "other"))
-    monkeypatch.setattr("studio.road.priority.Ground.is_equal", lambda self, i: False)
+    monkeypatch.setattr("studio.road.assembly.priority.Ground.is_equal", lambda self, i: False)
     theirs = [c.yields for c in load(path).connections]
     assert ours == theirs and any(ours)
 

@@ -5,7 +5,7 @@ import itertools
 import pytest
 
 from studio.errors import RouteError
-from studio.road.route import arms, connect
+from studio.road.ways.route import arms, connect
 
 
 def test_every_step_is_a_connection_or_a_lane_change(place, routes):

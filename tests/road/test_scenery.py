@@ -9,9 +9,14 @@ import numpy as np
 import pytest
 import shapely
 
-from studio.road import kind, load, marking, osm, parking, scenery, surface
+from studio.road import load, scenery
+from studio.road.formats import kind, osm
 from studio.road.network import SPACE_HEADING, SPACE_LENGTH, SPACE_WIDTH, Area, Crossing, Scenery
-from studio.road.plane import polygon, rectangles
+from studio.road.network.outline import road_form
+from studio.road.network.plane import polygon, rectangles
+from studio.road.scenery import parking
+from studio.scene.city import line, marking
+from studio.scene.city.area import area_forms
 from tests.road.conftest import lane, network
 
 LAT, LON = 52.0, 10.0
@@ -118,7 +123,7 @@ def test_spaces_along_kerbs_keep_off_road_crossing_driveway_and_tree(plan, tmp_p
     spaces = found.scenery.spaces
     forms = rectangles(*spaces)
     assert found.report.parking.along_kerbs == spaces.shape[1] > 40
-    assert not shapely.intersects(surface.road_form(found), forms).any()
+    assert not shapely.intersects(road_form(found), forms).any()
     right = spaces[1] < 0
     assert np.cos(spaces[SPACE_HEADING, right]) == pytest.approx(1.0) and np.cos(spaces[SPACE_HEADING, ~right]) == pytest.approx(-1.0)
     # the zebra is 4 m wide, and 5 m on both sides stay free
@@ -220,8 +225,8 @@ def test_a_crossing_with_lights_has_two_broken_lines():
     crossing = Crossing(np.array([[0.0, 10.4], [0.0, 0.0]]), 3.5, "lines", True)
     pieces = list(marking.crossing_pieces(crossing))
     assert len(pieces) == 2 * 15
-    assert sum(piece.area for piece in pieces) == pytest.approx(30 * 0.5 * surface.LINE_WIDTH)
-    assert {round(abs(piece.centroid.y), 3) for piece in pieces} == {round((3.5 - surface.LINE_WIDTH) / 2, 3)}
+    assert sum(piece.area for piece in pieces) == pytest.approx(30 * 0.5 * line.LINE_WIDTH)
+    assert {round(abs(piece.centroid.y), 3) for piece in pieces} == {round((3.5 - line.LINE_WIDTH) / 2, 3)}
     assert not list(marking.crossing_pieces(Crossing(crossing.line, 3.0, "none", False)))
 
 
@@ -229,7 +234,7 @@ def test_lane_lines_end_before_a_painted_crossing(plan, tmp_path):
     node = plan.node(0.0, 0.0, highway="crossing", crossing="zebra")
     plan.way([(-150, 0), node, (150, 0)], **STREET)
     found = plan.load(tmp_path)
-    painted = shapely.union_all(marking.painted(found, surface.road_form(found)))
+    painted = shapely.union_all(marking.painted(found, road_form(found)))
     (crossing,) = found.scenery.crossings
     strip = marking.ground_of(crossing)
     # six stripes on 6.4 m and nothing else
@@ -341,6 +346,6 @@ def test_where_areas_overlap_the_smaller_one_is_seen_and_none_lies_on_another():
     square = np.array([[-10.0, 10.0, 10.0, -10.0], [-10.0, -10.0, 10.0, 10.0]])
     areas = (Area("water", 0.3 * square, ()), Area("green", square, ()), Area("sand", 0.1 * square, ()), Area("green", square + 5.0, ()))
     bare = network([lane(0, "a", 0, [[0.0, 50.0], [0.0, 0.0]])])
-    forms = surface.area_forms(replace(bare, scenery=Scenery((), areas, np.empty((2, 0)))))
+    forms = area_forms(replace(bare, scenery=Scenery((), areas, np.empty((2, 0)))))
     assert forms["sand"].area == pytest.approx(4.0) and forms["water"].area == pytest.approx(36.0 - 4.0)
     assert sum(form.area for form in forms.values()) == pytest.approx(shapely.union_all([polygon(area) for area in areas]).area)

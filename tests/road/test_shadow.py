@@ -9,7 +9,16 @@ import shapely
 from studio.model import radio
 from studio.road import load
 from studio.road.network import Building
-from studio.road.shadow import EYE, SKY_REACH, joined, open_sky, shadow, shadow_of, sky_above, walls_between
+from studio.road.network.shadow import (
+    EYE,
+    SKY_REACH,
+    joined,
+    open_sky,
+    shadow,
+    shadow_of,
+    sky_above,
+    walls_between,
+)
 from tests.road.test_places import FILES
 
 

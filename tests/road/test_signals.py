@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from studio.road.signals import AMBER, GREEN, RED, RED_AMBER, signal_state
+from studio.road.network.signals import AMBER, GREEN, RED, RED_AMBER, signal_state
 
 STEP = 0.25  # [s]
 

@@ -6,8 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studio.road import bend, cross_section, load, netconvert, osm, route, turn
-from studio.road.report import Notes
+from studio.road import load
+from studio.road.assembly import bend, cross_section, turn
+from studio.road.formats import netconvert, osm
+from studio.road.network.report import Notes
+from studio.road.ways import route
 
 
 def way(**tags):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from studio.road.network import Area, Building, Lane, Network, Road, Scenery
-from studio.road.signals import Signals
+from studio.road.network.signals import Signals
 
 LENGTH = 300.0
 

@@ -11,7 +11,8 @@ import trimesh
 from PIL import Image
 
 from studio.road.network import Post, Wall
-from studio.scene import building, city, obstacle, signal, tree, upright, vehicle
+from studio.scene import city, obstacle, signal, vehicle
+from studio.scene.city import building, tree, upright
 from studio.scene.colour import linear, linear8, rgb8
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN, sky

@@ -5,6 +5,7 @@ import pytest
 from tests.broken import BROKEN
 from tests.server.server import served
 
+
 @pytest.fixture(scope="module")
 def server(tmp_path_factory, sample):
     """Client, database and process of a server with the samples, a broken scenario and a broken application."""

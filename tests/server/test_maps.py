@@ -15,7 +15,8 @@ import yaml
 from studio import job
 from studio.road import load
 from studio.server import maps as server_maps
-from tests.road.test_download import RECORDED, server as answering
+from tests.road.test_download import RECORDED
+from tests.road.test_download import server as answering
 from tests.server.server import served
 
 REFERENCE = Path(__file__).parents[1] / "reference" / "maps"

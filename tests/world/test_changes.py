@@ -13,10 +13,22 @@ from studio.errors import ScenarioError
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.model.driver import FOG_SPEED, REACTION, sight_speed
-from studio.road.path import PATH_SPEED
+from studio.road.ways.path import PATH_SPEED
 from studio.scenario.schema import Scenario, unit_at
 from studio.world.build import build
-from studio.world.state import DETECTED, FRONT, GAP, MU, RANGE, RANGE_RATE, RED_STATION, STATION, TARGET, V_DESIRED, V_X
+from studio.world.state import (
+    DETECTED,
+    FRONT,
+    GAP,
+    MU,
+    RANGE,
+    RANGE_RATE,
+    RED_STATION,
+    STATION,
+    TARGET,
+    V_DESIRED,
+    V_X,
+)
 from studio.world.tick import tick
 from tests.changing import SLOW, drive, run_for, scenario
 

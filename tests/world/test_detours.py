@@ -10,9 +10,9 @@ from studio import job
 from studio.errors import ScenarioError
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
-from studio.road.conflict import zones
-from studio.road.detour import STEEPEST, place_at, stations_on
-from studio.road.path import PATH_CURVATURE, PATH_HEADING, PATH_SPEED, PATH_X, PATH_Y, ease
+from studio.road.ways.conflict import zones
+from studio.road.ways.detour import STEEPEST, place_at, stations_on
+from studio.road.ways.path import PATH_CURVATURE, PATH_HEADING, PATH_SPEED, PATH_X, PATH_Y, ease
 from studio.world.build import build
 from studio.world.setting import pose
 from studio.world.state import ACTIVE, CONE, FRONT, LENGTH, O_KIND, OFFSET, STATION, X, Y

@@ -10,8 +10,33 @@ from studio.server.frame import poses
 from studio.world.build import build
 from studio.world.setting import setting
 from studio.world.state import (
-    C_D, C_ROLL, GEAR, H, HEIGHT, MASS, NEXT_GEAR, NEXT_RATIO, PITCH, PITCH_RATE, PSI, RADIUS, RATIO, RING, SLOPE_X, SLOPE_Y, STATION,
-    TORQUE_DRIVE, U_BRAKE, U_DRIVE, U_GEAR, U_PEDAL, V_UP, V_X, X, Y, Z,
+    C_D,
+    C_ROLL,
+    GEAR,
+    HEIGHT,
+    MASS,
+    NEXT_GEAR,
+    NEXT_RATIO,
+    PITCH,
+    PITCH_RATE,
+    PSI,
+    RADIUS,
+    RATIO,
+    RING,
+    SLOPE_X,
+    SLOPE_Y,
+    STATION,
+    TORQUE_DRIVE,
+    U_BRAKE,
+    U_DRIVE,
+    U_GEAR,
+    U_PEDAL,
+    V_UP,
+    V_X,
+    H,
+    X,
+    Y,
+    Z,
 )  # fmt: skip
 from studio.world.tick import environment, part, tick
 from tests.proving_ground import heavier

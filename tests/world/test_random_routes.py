@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from studio.errors import RouteError
-from studio.road import curve, load
-from studio.road import path as road_path
-from studio.road.curve import LOCK
-from studio.road.network import Network
-from studio.road.path import PATH_CURVATURE, PATH_SPEED
-from studio.road.route import LanePath, connect
-from studio.road.signals import RED, RED_AMBER
+from studio.road import load
+from studio.road.network import Network, curve
+from studio.road.network.curve import LOCK
+from studio.road.network.signals import RED, RED_AMBER
+from studio.road.ways import path as road_path
+from studio.road.ways.path import PATH_CURVATURE, PATH_SPEED
+from studio.road.ways.route import LanePath, connect
 from studio.scenario import catalogue
 from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
 from studio.world.build import build

@@ -9,14 +9,29 @@ from studio import job
 from studio.application.host import observation_rows
 from studio.model import satellite
 from studio.model.random import GPS_NOISE, normal, normal_pair
-from studio.road import shadow
-from studio.road.network import Building
+from studio.road.network import Building, shadow
 from studio.world import perception
 from studio.world.build import build
-from studio.world.channel import CHANNELS, sample as channels
+from studio.world.channel import CHANNELS
+from studio.world.channel import sample as channels
 from studio.world.state import (
-    ACTIVE, CANYON, DRIFT_SIGMA, DRIFT_TIME, GPS_EAST, GPS_NORTH, GPS_SET, GPS_SIGMA, M_TRUE_X, M_TRUE_Y, M_X, M_Y, SENSOR, SENT,
-    VEHICLE, X, Y,
+    ACTIVE,
+    CANYON,
+    DRIFT_SIGMA,
+    DRIFT_TIME,
+    GPS_EAST,
+    GPS_NORTH,
+    GPS_SET,
+    GPS_SIGMA,
+    M_TRUE_X,
+    M_TRUE_Y,
+    M_X,
+    M_Y,
+    SENSOR,
+    SENT,
+    VEHICLE,
+    X,
+    Y,
 )  # fmt: skip
 from studio.world.tick import meet, tick
 

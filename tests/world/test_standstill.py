@@ -6,7 +6,23 @@ import pytest
 from studio.conventions import GRAVITY
 from studio.world import shift
 from studio.world.state import (
-    BRAKE_MAX, C_ROLL, F_Y, MASS, OMEGA, PITCH_RATE, PSI, RADIUS, ROLL_RATE, SLOPE_X, SLOPE_Y, V_X, V_Y, X, Y, YAW_RATE, Z,
+    BRAKE_MAX,
+    C_ROLL,
+    F_Y,
+    MASS,
+    OMEGA,
+    PITCH_RATE,
+    PSI,
+    RADIUS,
+    ROLL_RATE,
+    SLOPE_X,
+    SLOPE_Y,
+    V_X,
+    V_Y,
+    YAW_RATE,
+    X,
+    Y,
+    Z,
 )  # fmt: skip
 from tests.proving_ground import MODELS, Ground, heavier
 

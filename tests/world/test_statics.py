@@ -5,8 +5,30 @@ import pytest
 
 from studio.conventions import GRAVITY
 from studio.world.state import (
-    ARB_F, ARB_R, BRAKE_MAX, F_X, F_Y, F_Z, H, IDLE, K_BRAKE, L_F, L_R, LINK_F, LINK_R, M_UF, MASS, MASS_S, PITCH, PSI, RADIUS,
-    TRAVEL, UNASSISTED, X, Y, Z,
+    ARB_F,
+    ARB_R,
+    BRAKE_MAX,
+    F_X,
+    F_Y,
+    F_Z,
+    IDLE,
+    K_BRAKE,
+    L_F,
+    L_R,
+    LINK_F,
+    LINK_R,
+    M_UF,
+    MASS,
+    MASS_S,
+    PITCH,
+    PSI,
+    RADIUS,
+    TRAVEL,
+    UNASSISTED,
+    H,
+    X,
+    Y,
+    Z,
 )  # fmt: skip
 from tests.proving_ground import MODELS, Ground
 

@@ -8,7 +8,7 @@ import pytest
 
 from studio import job
 from studio.execution.simulation import simulation
-from studio.road.signals import GREEN
+from studio.road.network.signals import GREEN
 from studio.world.build import build
 from studio.world.state import ACTIVE, FRONT, OFFSET, OMEGA, OMEGA_E, RED_STATION, STATION, V_EAST, V_X, X, Y
 from studio.world.tick import tick
@@ -114,7 +114,7 @@ def places_every_second(long_run):
 def test_all_arm_to_arm_routes_are_driven(sample):
     """25 cars, each alone on its route between two arms: all arrive, none leaves its lane, none collides."""
     from studio import road
-    from studio.road.route import all_routes
+    from studio.road.ways.route import all_routes
 
     network = road.load(sample.parent / "maps" / "berlin_siegessaeule_grosser_stern.osm.gz", radius=800)
     ways = all_routes(network)

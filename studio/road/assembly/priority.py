@@ -1,0 +1,232 @@
+"""Right of way: what holds on each way through a junction, and who goes first where two come at once.
+
+    signal              a light decides; while both show green, the rest of the rules
+    yield, stop         a sign, or a smaller road: the others go first
+    all_way_stop        everybody stops; who came first goes first
+    right_before_left   no major road: whoever comes from the right goes first, and from ahead before one who turns across
+    left_before_right   the same the other way round (Japan, Thailand)
+    roundabout          the ring goes first
+    zipper              two lanes become one: in turn
+    priority            nobody goes first
+
+Which of two roads is the major one, netconvert tells by their classes. Signs are read from the map. netconvert knows no
+junctions of equal roads where one drives on the left; they are found here.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from studio.road.assembly.alignment import direction_at, turned
+from studio.road.formats.osm import Box, Way
+from studio.road.network import Connection, Net, Pair, curve
+from studio.road.network.signals import Signals
+
+LEFT_FIRST = {"Japan", "Thailand"}  # road traffic acts: Japan art. 36, Thailand sec. 71
+EQUAL = {"residential", "living_street", "unclassified", "tertiary"}  # classes whose crossings have no major road
+SIGN_REACH = 40.0  # [m] a sign stands that near before its junction
+BESIDE = 10.0  # [m] and its node that near to the road
+ONCOMING = np.radians(135.0)  # [rad]
+SIGNS = {"give_way": "yield", "stop": "stop"}
+
+
+@dataclass(frozen=True)
+class Law:
+    """What a place says about who goes first.
+
+    `yields` are netconvert's answers, `equal` the junctions without major road, `signs` the rules that signs set at the ends of
+    roads, `left_first` whether the left goes before the right at equal roads.
+    """
+
+    yields: dict[Pair, frozenset[Pair]]
+    equal: frozenset[str]
+    signs: dict[str, str]
+    left_hand: bool
+    left_first: bool
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Connections under a law, and for each those that it meets."""
+
+    net: Net
+    law: Law
+    connections: tuple[Connection, ...]
+    foes: list[frozenset[int]]
+
+    def pair(self, i: int) -> Pair:
+        """The roads that a connection leads from and to."""
+        connection = self.connections[i]
+        return self.net.lanes[connection.from_lane].road, self.net.lanes[connection.to_lane].road
+
+    def coming(self, i: int) -> np.ndarray:
+        """The direction in which a connection is entered."""
+        return direction_at(self.net.lanes[self.connections[i].from_lane].centre, -1)
+
+    def is_equal(self, i: int) -> bool:
+        """Whether the connection's junction has no major road."""
+        return self.net.roads[self.pair(i)[0]].to_junction in self.law.equal
+
+
+def ruled(net: Net, law: Law, connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:
+    """The connections with their right of way."""
+    ground = Ground(net, law, connections, foes_of(net, connections, lights))
+    first = [frozenset(j for j in ground.foes[i] if goes_first(ground, j, i)) for i in range(len(connections))]
+    return tuple(
+        replace(c, right_of_way=right_of(ground, i, first[i]), yields=tuple(sorted(first[i]))) for i, c in enumerate(connections)
+    )
+
+
+def foes_of(net: Net, connections: tuple[Connection, ...], lights: Signals) -> list[frozenset[int]]:
+    """For each way through a junction those that cross it or end in the same lane, unless lights keep them apart."""
+    apart = {(i, j) for a, b in lights.conflicts.T.tolist() for i, j in ((a, b), (b, a))}
+    lines = np.array([shapely.LineString(line_of(net, c).T) for c in connections], dtype=object)
+    found = defaultdict(set)
+    for i, j in shapely.STRtree(lines).query(lines, predicate="intersects").T.tolist():
+        if connections[i].from_lane != connections[j].from_lane and (connections[i].link, connections[j].link) not in apart:
+            found[i].add(j)
+    return [frozenset(found[i]) for i in range(len(connections))]
+
+
+def line_of(net: Net, connection: Connection) -> np.ndarray:
+    """The way through a junction, from the end of a lane to the start of the next."""
+    a, b = net.lanes[connection.from_lane].centre[:, -1:], net.lanes[connection.to_lane].centre[:, :1]
+    return np.concatenate([a, *(net.lanes[via].centre for via in connection.via), b], axis=1)
+
+
+# -- who goes first --------------------------------------------------------------------------------
+
+
+def goes_first(ground: Ground, j: int, i: int) -> bool:
+    """Whether connection j goes before i, which it meets."""
+    own, other = ground.pair(i), ground.pair(j)
+    signs, rings = ground.law.signs, ground.net.rings
+    if own[0] == other[0]:
+        return ground.connections[i].to_lane == ground.connections[j].to_lane  # in turn
+    if (own[0] in signs) != (other[0] in signs):
+        return own[0] in signs
+    if (own[0] in rings) != (other[0] in rings):
+        return other[0] in rings
+    return comes_first(ground, j, i) if ground.is_equal(i) else other in ground.law.yields.get(own, ())
+
+
+def comes_first(ground: Ground, j: int, i: int) -> bool:
+    """Whether j goes before i where roads are equal: from the right, or from ahead when i turns across its way."""
+    own, other = ground.coming(i), ground.coming(j)
+    if turned(own, other) > ONCOMING:
+        return turns_across(ground, i) and not turns_across(ground, j)
+    from_right = own[0] * other[1] - own[1] * other[0] > 0.0
+    return bool(from_right != ground.law.left_first)
+
+
+def turns_across(ground: Ground, i: int) -> bool:
+    """Whether a connection turns across the oncoming lanes: to the left where one drives on the right."""
+    own = ground.coming(i)
+    after = direction_at(ground.net.lanes[ground.connections[i].to_lane].centre, 0)
+    left = own[0] * after[1] - own[1] * after[0]
+    return turned(own, after) > np.radians(30.0) and bool(left > 0.0) != ground.law.left_hand
+
+
+# -- what it is called -----------------------------------------------------------------------------
+
+
+def right_of(ground: Ground, i: int, first: frozenset[int]) -> str:
+    """The rule of connection i, before which those of `first` go."""
+    start, end = ground.pair(i)
+    others = {j for j in ground.foes[i] if ground.pair(j)[0] != start}
+    if ground.connections[i].link >= 0:
+        return "signal"
+    if first and not others & first:
+        return "zipper"
+    if start in ground.law.signs and others:
+        return ground.law.signs[start]
+    if ground.is_equal(i) and others:
+        return "left_before_right" if ground.law.left_first else "right_before_left"
+    if not first:
+        return "priority"
+    return "roundabout" if end in ground.net.rings and start not in ground.net.rings else "yield"
+
+
+# -- what the map says -----------------------------------------------------------------------------
+
+
+def mapped_law(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: Box, *, country: str, left_hand: bool) -> Law:
+    """The law of a place on OpenStreetMap; `nodes` are the tags of its nodes."""
+    equal = net.equal | (equal_junctions(net, ways) if left_hand else frozenset())
+    return Law(net.yields, equal, signs_of(net, ways, nodes, box), left_hand, country in LEFT_FIRST)
+
+
+def law_by_limits(net: Net, *, country: str, left_hand: bool) -> Law:
+    """The law of a map that says nothing of it: of two roads that meet, the one with the higher limit is the major one."""
+    at = defaultdict(set)
+    for c in net.connections:
+        start, end = net.lanes[c.from_lane].road, net.lanes[c.to_lane].road
+        at[net.roads[start].to_junction].add((start, end))
+    yields = {
+        own: frozenset(other for other in pairs if net.roads[other[0]].speed > net.roads[own[0]].speed + 0.1)
+        for pairs in at.values()
+        for own in pairs
+    }
+    equal = frozenset(name for name, pairs in at.items() if not any(yields[pair] for pair in pairs))
+    return Law(yields, equal, {}, left_hand, country in LEFT_FIRST)
+
+
+def equal_junctions(net: Net, ways: list[Way]) -> frozenset[str]:
+    """Junctions of three roads and more, all of one lesser class, with the same limit, without signal or ring."""
+    highway = {way.id: way.tags["highway"] for way in ways}
+    entering = defaultdict(list)
+    for road in net.roads.values():
+        if not road.internal:
+            entering[road.to_junction].append(road)
+    found = set()
+    for junction, roads in entering.items():
+        kinds = {(highway.get(net.origins[road.id][-1]) if net.origins.get(road.id) else None, round(road.speed, 1)) for road in roads}
+        free = not any(road.id in net.rings or net.signalled & set(road.lanes) for road in roads)
+        if len(roads) > 2 and len(kinds) == 1 and next(iter(kinds))[0] in EQUAL and free:
+            found.add(junction)
+    return frozenset(found)
+
+
+def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: Box) -> dict[str, str]:
+    """The rule that a sign sets at the end of a road."""
+    by_way = defaultdict(list)
+    for road, names in net.origins.items():
+        for name in names:
+            by_way[name].append(road)
+    found = {}
+    for way, node, (longitude, latitude) in sign_nodes(ways, nodes):
+        x, y = box.local(latitude, longitude)
+        roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node])]
+        for road in roads:
+            found[road] = "all_way_stop" if nodes[node].get("stop") == "all" else SIGNS[nodes[node]["highway"]]
+    return found
+
+
+def sign_nodes(ways: list[Way], nodes: dict[int, dict[str, str]]) -> Iterator[tuple[Way, int, tuple[float, float]]]:
+    """The signs on car ways, each with its way and its longitude and latitude."""
+    for way in ways:
+        for node, place in zip(way.nodes, way.points, strict=True):
+            if nodes.get(node, {}).get("highway") in SIGNS:
+                yield way, node, place
+
+
+def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str]) -> bool:
+    """Whether a sign at a place is meant for a road: it stands by its end, and the tag names its direction or none."""
+    if road not in net.roads or net.roads[road].internal:
+        return False
+    wanted = tags.get("direction", tags.get("traffic_sign:direction", ""))
+    if wanted in ("forward", "backward") and (wanted == "backward") != road.startswith("-"):
+        return False
+    line = net.lanes[net.roads[road].lanes[0]].centre
+    near = curve.distances(at[:, None], line)[0]
+    to_end, to_start = np.hypot(*(at - line[:, -1])), np.hypot(*(at - line[:, 0]))
+    return bool(near < BESIDE and to_end < SIGN_REACH and (to_end < to_start or wanted))
+
+
+def counts(connections: tuple[Connection, ...]) -> dict[str, int]:
+    """How many connections have each rule."""
+    found = Counter(connection.right_of_way for connection in connections)
+    return {right: found[right] for right in sorted(found)}

@@ -1,0 +1,257 @@
+"""What buildings hide: how much of a straight line lies in them, and how much of the sky they cover.
+
+    walls    float64[4, w]   x0, y0, x1, y1 of all outlines and holes, building after building, the inside on the left
+    bodies   float64[2, b]   base and top [m]
+    spans    int64[6, b]     first wall and count; columns and rows of the grid that the building reaches over
+    grid                     which buildings lie in a cell
+    sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within the grid
+
+A line is looked at from its western end, so that both directions give the same bits. Several maps are joined like those of
+an `Index`. Maps without buildings have no cells.
+"""
+
+from collections.abc import Sequence
+from math import cos, inf, pi, sin, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.compiled import compiled
+from studio.road.network import Building, Network, grid
+from studio.road.network.grid import CELLS, COLUMNS, ROWS, SOUTH, WEST, Grid, columns_passed, rows_passed
+from studio.road.network.index import once
+
+BASE, TOP = range(2)
+WALL_FIRST, WALL_COUNT, COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH = range(6)
+
+CELL = 32.0  # [m]
+SKY_CELL = 4.0  # [m]
+FINER = int(CELL / SKY_CELL)
+SKY_REACH = 200.0  # [m] farther buildings hardly rise over nearer ones
+AZIMUTHS = 24
+EYE = 1.5  # [m] antennas of cars above the road
+
+
+class Shadow(NamedTuple):
+    """All buildings of one or several maps."""
+
+    walls: np.ndarray
+    bodies: np.ndarray
+    spans: np.ndarray
+    grid: Grid
+    sky_first: np.ndarray  # per map
+    sky: np.ndarray
+
+
+@once
+def shadow_of(network: Network) -> Shadow:
+    """The buildings of a map."""
+    return shadow(network.scenery.buildings)
+
+
+def shadow(buildings: Sequence[Building]) -> Shadow:
+    """Buildings as arrays; what lies above an antenna hides nothing from it on the ground, but hides the sky."""
+    walls = [walls_of(each) for each in buildings]
+    counts = np.array([own.shape[1] for own in walls], dtype=np.int64)
+    flat = np.concatenate([np.empty((4, 0)), *walls], axis=1)
+    frame = grid.frame_around(flat[0], flat[1], size=CELL, margin=SKY_REACH)
+    spans = np.zeros((6, len(walls)), dtype=np.int64)
+    spans[WALL_FIRST], spans[WALL_COUNT] = np.cumsum(counts) - counts, counts
+    for b, own in enumerate(walls):
+        low = grid.place(frame, 0, own[0].min() - grid.MARGIN, own[1].min() - grid.MARGIN)
+        high = grid.place(frame, 0, own[0].max() + grid.MARGIN, own[1].max() + grid.MARGIN)
+        spans[[COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH], b] = low[0], high[0], low[1], high[1]
+    return Shadow(
+        walls=flat,
+        bodies=np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T.copy(),
+        spans=spans,
+        grid=grid.over_boxes(frame, spans[COLUMN_LOW:]),
+        sky_first=np.zeros(1, dtype=np.int64),
+        sky=np.zeros(int(frame[COLUMNS, 0] * frame[ROWS, 0]) * FINER**2),
+    )
+
+
+def walls_of(building: Building) -> np.ndarray:
+    """The walls of a building, the inside on the left of each."""
+    rings = [turned(building.outline, left=True), *(turned(hole, left=False) for hole in building.holes)]
+    return np.concatenate([np.concatenate([ring, np.roll(ring, -1, axis=1)]) for ring in rings], axis=1)
+
+
+def turned(ring: np.ndarray, *, left: bool) -> np.ndarray:
+    """An open ring, counter-clockwise if its inside is to be on the left."""
+    x, y = ring
+    area = float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
+    return ring if (area > 0.0) == left else ring[:, ::-1]
+
+
+def joined(shadows: Sequence[Shadow]) -> Shadow:
+    """The buildings of several maps; their order is the number of a map."""
+    bodies, walls, skies = (
+        np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64)
+        for sizes in np.array([(each.bodies.shape[1], each.walls.shape[1], each.sky.size) for each in shadows]).T
+    )
+    spans = [each.spans.copy() for each in shadows]
+    for own, first in zip(spans, walls, strict=True):
+        own[WALL_FIRST] += first
+    return Shadow(
+        walls=np.concatenate([each.walls for each in shadows], axis=1),
+        bodies=np.concatenate([each.bodies for each in shadows], axis=1),
+        spans=np.concatenate(spans, axis=1),
+        grid=grid.joined([each.grid for each in shadows], bodies.tolist()),
+        sky_first=skies,
+        sky=np.concatenate([each.sky for each in shadows]),
+    )
+
+
+# -- along a line ----------------------------------------------------------------------------------
+
+
+@compiled
+def walls_between(shadow, m, x0, y0, z0, x1, y1, z1):
+    """Walls that a straight line on map m crosses, and the metres of it that lie inside buildings."""
+    frame = shadow.grid.frame
+    walls, inside = 0, 0.0
+    if frame[COLUMNS, m] == 0.0:
+        return walls, inside
+    if x0 > x1 or (x0 == x1 and y0 > y1):
+        x0, y0, z0, x1, y1, z1 = x1, y1, z1, x0, y0, z0
+    low, high = columns_passed(frame, m, x0, x1)
+    south, north = 0, -1  # rows that the line passes in the column before
+    for column in range(low, high + 1):
+        first, last = rows_passed(frame, m, column, x0, y0, x1, y1)
+        for row in range(first, last + 1):
+            cell = int(frame[CELLS, m]) + row * int(frame[COLUMNS, m]) + column
+            for k in range(shadow.grid.first[cell], shadow.grid.first[cell + 1]):
+                b = shadow.grid.item[k]
+                if not is_passed_before(shadow.spans, b, column, row, first, low, south, north):
+                    crossed, share = through(shadow, b, x0, y0, z0, x1, y1, z1)
+                    walls, inside = walls + crossed, inside + share
+        south, north = first, last
+    length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0) + (z1 - z0) * (z1 - z0))
+    return walls, inside * length
+
+
+@compiled
+def is_passed_before(spans, b, column, row, first, low, south, north):
+    """Whether a line has met building b before this cell, in this column or in the one before, where it passed rows south to north.
+
+    A building lies in a rectangle of cells, and the line leaves that only once.
+    """
+    if row > max(first, spans[ROW_LOW, b]):
+        return True
+    return column > max(low, spans[COLUMN_LOW, b]) and south <= spans[ROW_HIGH, b] and north >= spans[ROW_LOW, b]
+
+
+@compiled
+def through(shadow, b, x0, y0, z0, x1, y1, z1):
+    """Walls of building b that a line crosses, and the share of the line that lies inside it.
+
+    Along the line, t from 0 to 1, the inside adds up to the sum of t where it is left minus that where it is entered, t held
+    within the part of the line that is neither above nor below the building.
+    """
+    begin, end = level(z0, z1, shadow.bodies[BASE, b], shadow.bodies[TOP, b])
+    if begin >= end:
+        return 0, 0.0
+    dx, dy = x1 - x0, y1 - y0
+    crossed, balance, share, starts_inside = 0, 0, 0.0, False
+    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x0, shadow.walls[1, i] - y0, shadow.walls[2, i] - x0, shadow.walls[3, i] - y0
+        if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
+            starts_inside = not starts_inside
+        side_a, side_b = dx * a_y - dy * a_x, dx * b_y - dy * b_x
+        if (side_a > 0.0) == (side_b > 0.0):
+            continue
+        t = (a_x * (b_y - a_y) - a_y * (b_x - a_x)) / (side_b - side_a)
+        if 0.0 <= t < 1.0:
+            leaves = -1 if side_a > 0.0 else 1
+            crossed += 1 if begin <= t <= end else 0
+            balance += leaves
+            share += leaves * min(max(t, begin), end)
+    inside_before = 1 if starts_inside else 0
+    return crossed, max(share + (inside_before - balance) * end - inside_before * begin, 0.0)
+
+
+@compiled
+def level(z0, z1, base, top):
+    """The part of a line from z0 to z1, as two shares of it, that lies between two heights [m]; begin >= end: none."""
+    if z0 == z1:
+        return (0.0, 1.0) if base <= z0 < top else (1.0, 0.0)
+    a, b = (base - z0) / (z1 - z0), (top - z0) / (z1 - z0)
+    return max(min(a, b), 0.0), min(max(a, b), 1.0)
+
+
+# -- the sky ---------------------------------------------------------------------------------------
+
+
+@compiled
+def open_sky(shadow, m, x, y):
+    """Share of the sky that is open above a place on map m, to the size of a cell; worked out when first asked for."""
+    frame = shadow.grid.frame
+    columns, rows = int(frame[COLUMNS, m]) * FINER, int(frame[ROWS, m]) * FINER
+    east, north = (x - frame[WEST, m]) / SKY_CELL, (y - frame[SOUTH, m]) / SKY_CELL
+    if not (0.0 <= east < columns and 0.0 <= north < rows):
+        return 1.0
+    i, j = int(east), int(north)
+    cell = shadow.sky_first[m] + j * columns + i
+    if shadow.sky[cell] == 0.0:
+        middle_x, middle_y = frame[WEST, m] + (i + 0.5) * SKY_CELL, frame[SOUTH, m] + (j + 0.5) * SKY_CELL
+        shadow.sky[cell] = 1.0 + sky_above(shadow, m, middle_x, middle_y)
+    return shadow.sky[cell] - 1.0
+
+
+@compiled
+def sky_above(shadow, m, x, y):
+    """Share of the hemisphere above a place that no building hides: the mean of 1 - sin(horizon) over all azimuths.
+
+    Above the elevation e lies the share 1 - sin(e) of a sector of the hemisphere. Under a building there is no sky, and below
+    one that hangs in the air none is counted.
+    """
+    hidden = 0.0
+    for k in range(AZIMUTHS):
+        angle = 2.0 * pi * (k + 0.5) / AZIMUTHS
+        rise = steepest(shadow, m, x, y, x + SKY_REACH * cos(angle), y + SKY_REACH * sin(angle))
+        hidden += rise / sqrt(1.0 + rise * rise) if rise < inf else 1.0
+    return 1.0 - hidden / AZIMUTHS
+
+
+@compiled
+def steepest(shadow, m, x0, y0, x1, y1):
+    """Greatest rise [1] from the eye at the start of a line to the top of a building on it; infinite inside one."""
+    frame = shadow.grid.frame
+    rise = 0.0
+    low, high = columns_passed(frame, m, min(x0, x1), max(x0, x1))
+    south, north = 0, -1
+    for column in range(low, high + 1):
+        if x0 <= x1:
+            first, last = rows_passed(frame, m, column, x0, y0, x1, y1)
+        else:
+            first, last = rows_passed(frame, m, column, x1, y1, x0, y0)
+        for row in range(first, last + 1):
+            cell = int(frame[CELLS, m]) + row * int(frame[COLUMNS, m]) + column
+            for k in range(shadow.grid.first[cell], shadow.grid.first[cell + 1]):
+                b = shadow.grid.item[k]
+                if not is_passed_before(shadow.spans, b, column, row, first, low, south, north):
+                    rise = max(rise, rise_of(shadow, b, x0, y0, x1, y1))
+        south, north = first, last
+    return rise
+
+
+@compiled
+def rise_of(shadow, b, x0, y0, x1, y1):
+    """Rise [1] from the eye to the top of building b over its nearest wall on a line; infinite from inside."""
+    height = shadow.bodies[TOP, b] - EYE
+    if height <= 0.0:
+        return 0.0
+    dx, dy, nearest, starts_inside = x1 - x0, y1 - y0, inf, False
+    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x0, shadow.walls[1, i] - y0, shadow.walls[2, i] - x0, shadow.walls[3, i] - y0
+        if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
+            starts_inside = not starts_inside
+        side_a, side_b = dx * a_y - dy * a_x, dx * b_y - dy * b_x
+        if (side_a > 0.0) != (side_b > 0.0):
+            t = (a_x * (b_y - a_y) - a_y * (b_x - a_x)) / (side_b - side_a)
+            if 0.0 <= t < nearest:
+                nearest = t
+    if starts_inside:
+        return inf
+    return height / max(nearest * SKY_REACH, 1e-9) if nearest < 1.0 else 0.0

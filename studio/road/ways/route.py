@@ -1,0 +1,135 @@
+"""Ways through the network: from road to road over its lanes, in the least time."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from studio.errors import Problem, RouteError, nearest
+from studio.road.network import Network
+from studio.road.network.graph import graph_of, search
+
+
+@dataclass(frozen=True)
+class LanePath:
+    """Lane ids in the order they are driven, with the ways through junctions.
+
+    Two neighbours of the same road in sequence are a lane change within that road.
+    """
+
+    lanes: tuple[int, ...]
+
+    def roads(self, network: Network) -> tuple[str, ...]:
+        """The roads that are passed, without junctions."""
+        passed = [network.lanes[lane] for lane in self.lanes]
+        names = [lane.road for lane in passed if not lane.internal]
+        return tuple(name for i, name in enumerate(names) if i == 0 or names[i - 1] != name)
+
+
+class Arms(NamedTuple):
+    """Roads that lead into the map and out of it, counter-clockwise from east."""
+
+    entries: tuple[str, ...]
+    exits: tuple[str, ...]
+
+
+def arms(network: Network) -> Arms:
+    """The roads at the map's border: entries that nothing leads to, exits that lead to nothing."""
+    ahead = [c for c in network.connections if c.direction != "turn"]
+    fed = {network.lanes[c.to_lane].road for c in ahead}
+    feeding = {network.lanes[c.from_lane].road for c in ahead}
+    roads = [road for road in network.roads.values() if not road.internal]
+    entries = [road.id for road in roads if road.id not in fed]
+    exits = [road.id for road in roads if road.id not in feeding]
+    return Arms(
+        tuple(sorted(entries, key=lambda road: bearing(network, road, 0))),
+        tuple(sorted(exits, key=lambda road: bearing(network, road, -1))),
+    )
+
+
+def bearing(network: Network, road: str, end: int) -> float:
+    """Direction from the map's centre to the start (0) or end (-1) of a road [rad]."""
+    x, y = network.lanes_of(road)[0].centre[:, end]
+    return math.atan2(y, x) % (2.0 * math.pi)
+
+
+def all_routes(network: Network) -> tuple[LanePath, ...]:
+    """The quickest way from every entry to every exit, where there is one; of a road without others every lane is a way."""
+    entries, exits = arms(network)
+    found = []
+    for entry in entries:
+        for end in exits:
+            if entry == end:
+                found += [LanePath((lane.id,)) for lane in network.lanes_of(entry) if lane.open]
+                continue
+            try:
+                found.append(connect(network, [entry, end]))
+            except RouteError:
+                continue
+    return tuple(found)
+
+
+def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = None, turn_back: bool = False) -> LanePath:
+    """The quickest lanes through `roads` in this order; between two of them any road may be used.
+
+    Args:
+        network: the map.
+        roads: road ids, at least one.
+        start_lane: lane of the first road to start in, 0 at the kerb; left out, the quickest.
+        turn_back: whether one may turn back at the end of a dead end; such a turn is narrower than a car can drive.
+
+    Raises:
+        RouteError: a road is not on the map, or there is no way from one to the next.
+    """
+    check(network, roads, start_lane)
+    lanes = network.roads[roads[0]].lanes
+    starts = lanes if start_lane is None else (lanes[start_lane],)
+    if start_lane is None and any(network.lanes[lane].open for lane in lanes):
+        starts = tuple(lane for lane in lanes if network.lanes[lane].open)
+    way, reached = search(graph_of(network), tuple(roads), starts, turn_back=turn_back)
+    if not way:
+        raise no_way(network, tuple(roads), reached)
+    return LanePath(way)
+
+
+def check(network: Network, roads: Sequence[str], start_lane: int | None) -> None:
+    """Refuses roads and lanes that are not on the map."""
+    if not roads:
+        raise RouteError("a route needs at least one road")
+    unknown = [(i, road) for i, road in enumerate(roads) if road not in network.roads or network.roads[road].internal]
+    if unknown:
+        known = [road.id for road in network.roads.values() if not road.internal]
+        raise RouteError(
+            f"{network.name}: the route names a road that is not on the map",
+            [
+                Problem(f"roads[{i}]", "no such road", repr(road), remedy=nearest(road, known))
+                for i, road in unknown
+            ],
+        )
+    count = len(network.roads[roads[0]].lanes)
+    if start_lane is not None and start_lane not in range(count):
+        raise RouteError(
+            f"{network.name}: the route cannot start there",
+            [
+                Problem(
+                    "start_lane", f"no such lane of road {roads[0]!r}", repr(start_lane), f"0 to {count - 1}"
+                )
+            ],
+        )
+
+
+def no_way(network: Network, roads: tuple[str, ...], reached: int) -> RouteError:
+    """The error that names the pair of roads without a way, and where one can go instead."""
+    start, end = roads[reached - 1], roads[reached]
+    lanes = set(network.roads[start].lanes)
+    ahead = [c for c in network.connections if c.from_lane in lanes and c.direction != "turn"]
+    following = {network.lanes[c.to_lane].road for c in ahead}
+    remedy = (
+        f"after {start!r} come: {', '.join(sorted(following))}"
+        if following
+        else f"{start!r} leads out of the map"
+    )
+    return RouteError(
+        f"{network.name}: there is no way from road {start!r} to road {end!r}",
+        [Problem(f"roads[{reached}]", "cannot be reached from the road before it", repr(end), remedy=remedy)],
+    )
