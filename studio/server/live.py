@@ -86,6 +86,7 @@ class LiveRun:
     frame: Frame | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
+    obeyed: bool = False
     given_up: bool = False
 
     def listen(self) -> None:
@@ -136,7 +137,7 @@ class LiveRun:
     def on_state_news(self, status: str, when: float, pace: float, real_time_factor: float) -> None:
         """Where the run is."""
         with self.lock:
-            over = status not in ("running", "paused")
+            over = self.obeyed = status not in ("running", "paused")
             self.status = self.status if over else status  # it is over when it has been saved
             self.time, self.pace, self.real_time_factor = when, pace, real_time_factor
             self.tell(self.state())
@@ -180,8 +181,8 @@ class LiveRun:
         patience.start()
 
     def give_up(self) -> None:
-        """Ends a process that still has not stopped."""
-        if not self.is_over:
+        """Ends a process that still has not stopped; one that has may take its time to save."""
+        if not (self.is_over or self.obeyed):
             self.given_up = True
             self.process.process.kill()
 
