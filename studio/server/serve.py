@@ -17,6 +17,7 @@ from studio.store.tables import open_database
 
 SAMPLES = Path(__file__).parent.parent.parent / "scenarios"
 FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent in one piece
+PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
 
 
 def serve(*, host: str, port: int, db: Path, scenarios: Path | None, applications: Path | None, browser: bool) -> None:
@@ -34,8 +35,9 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, application
     if browser and has_display():
         threading.Timer(0.5, webbrowser.open, [address]).start()
     config = uvicorn.Config(
-        app, log_level="warning", ws_max_size=FRAME_LIMIT, ws_per_message_deflate=False, timeout_graceful_shutdown=2
-    )
+        app, log_level="warning", ws_max_size=FRAME_LIMIT, ws_per_message_deflate=False, ws_ping_timeout=PONG_PATIENCE,
+        timeout_graceful_shutdown=2,
+    )  # fmt: skip
     uvicorn.Server(config).run(sockets=[listening])
 
 
