@@ -1,8 +1,11 @@
-"""Benchmark: how many vehicle steps and ticks a second this machine does.
+"""Benchmark: how many vehicle steps and ticks a second this machine does, and how long a place and its picture take.
 
     dynamics    one vehicle step is one integration step (5 ms) of one car with the whole model, nothing else
     tick        one vehicle tick is one tick (20 ms, four steps) of one car in the whole world: lights, drivers, sensors,
                 radio, applications, integration, collisions
+    place       the sample's map imported from its file, with nothing kept from before; where the ways of its vehicles run
+                close to each other
+    scene       one update of the sample's vehicles in the 3D picture, which at 60 Hz has 16.7 ms for everything
 
 Medians of several repeats; machine and versions stand beside the figures.
 """
@@ -22,10 +25,18 @@ import numpy as np
 from studio import job
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.errors import Problem, ServerError
+from studio.road.assembly.plan import Wish
+from studio.road.library.place import imported
+from studio.road.library.reader import reader_of
+from studio.road.ways.conflict import zones
 from studio.scenario import catalogue
+from studio.scene import pose
+from studio.scene.fleet import Look
+from studio.scene.projection import Scene
 from studio.world import fleet
 from studio.world.build import build
 from studio.world.fleet import Fleet, Start
+from studio.world.setting import Setting
 from studio.world.state import RING, U_DRIVE, U_STEER
 from studio.world.tick import tick
 
@@ -65,10 +76,48 @@ def dynamics(count: int) -> float:
     return rate(lambda: fleet.integrate(f, 0, DEFAULT_TICK, DEFAULT_STEP), count * STEPS)
 
 
-def whole_tick(sample: Path) -> float:
+def seconds(action: Callable[[], Any]) -> float:
+    """What an action takes [s]: the median of its repeats."""
+    return 1.0 / rate(action, 1)
+
+
+def whole_tick(sample: Setting) -> float:
     """Vehicle ticks a second on one core in a scenario."""
-    world = build([job.prepare(job.load(sample))])
+    world = build([sample])
     return rate(lambda: tick(world), world.size)
+
+
+def whole_import(path: Path) -> float:
+    """Seconds from a map file to its roads, signals and scenery."""
+    reader = reader_of(path)
+    part, data = reader.part(path, Wish(None, None, False, ())), reader.read(path)
+    return seconds(lambda: imported(path, reader, data, part, "", lambda text: None))
+
+
+def conflicts(sample: Setting) -> float:
+    """Seconds to find where the ways of all vehicles run close to each other, each pair in both orders."""
+    ways = [car.path.points for car in sample.cars]
+    points, count = np.concatenate(ways, axis=1), np.array([way.shape[1] for way in ways])
+    first = np.cumsum(count) - count
+    pairs = [(i, j) for i in range(count.size) for j in range(count.size) if i != j]
+    return seconds(lambda: [zones(points, first[i], count[i], first[j], count[j]) for i, j in pairs])
+
+
+def picture(sample: Setting) -> float:
+    """Seconds to move all vehicles once in the 3D picture, without anybody who looks at it."""
+    scene = Scene()
+    try:
+        scene.show_vehicles([Look(car.name, car.colour) for car in sample.cars])
+        poses = pose.standing(len(sample.cars))
+        return seconds(lambda: scene.update(moved(poses)))
+    finally:
+        scene.stop()
+
+
+def moved(poses: np.ndarray) -> np.ndarray:
+    """The poses, 0.1 m further."""
+    poses[pose.X] += 0.1
+    return poses
 
 
 def all_cores(count: int = 1000) -> float:
@@ -80,18 +129,26 @@ def all_cores(count: int = 1000) -> float:
 
 def run(sample: Path, progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
     """All figures, with the machine and the versions."""
+    stages = len(FLEETS) + 3
     one_core = {}
     for i, count in enumerate(FLEETS):
         one_core[str(count)] = dynamics(count)
-        progress((i + 1) / (len(FLEETS) + 2))
-    tick_rate = whole_tick(sample)
-    progress(1 - 1 / (len(FLEETS) + 2))
+        progress((i + 1) / stages)
+    loaded = job.load(sample)
+    setting = job.prepare(loaded)
+    tick_rate = whole_tick(setting)
+    progress(1 - 2 / stages)
+    place = {"import": whole_import(sample.parent / loaded.scenario.map.file), "conflicts": conflicts(setting)}
+    scene = {"update": picture(setting)}
+    progress(1 - 1 / stages)
     return {
         "machine": machine(),
         "versions": versions(),
-        "unit": {"dynamics": "vehicle steps/s", "tick": "vehicle ticks/s"},
+        "unit": {"dynamics": "vehicle steps/s", "tick": "vehicle ticks/s", "place": "s", "scene": "s"},
         "dynamics": {"one_core": one_core, "all_cores": all_cores()},
         "tick": {"one_core": tick_rate},
+        "place": place,
+        "scene": scene,
     }
 
 

@@ -314,7 +314,7 @@ def bench(
     device: Annotated[str, typer.Option(help="cpu, or cuda for a GPU.")] = "cpu",
     as_json: AsJson = False,
 ) -> None:
-    """Measures vehicle steps and ticks a second on this machine; takes about half a minute."""
+    """Measures vehicle steps and ticks a second on this machine, an import and the picture; takes about half a minute."""
     if device not in ("cpu", "cuda"):
         raise UnknownError(f"There is no device {device!r}.", [Problem("--device", "is not known", device, "cpu, cuda")])
     with progress("measuring") as report:
@@ -338,6 +338,11 @@ def bench_rows(figures: dict[str, Any]) -> list[list[str]]:
         rows.append(["dynamics, 1000 vehicles a core, all cores", f"{dynamics['all_cores']:,.0f}", "vehicle steps/s"])
     if "tick" in figures:
         rows.append(["whole tick of the sample, one core", f"{figures['tick']['one_core']:,.0f}", "vehicle ticks/s"])
+    if "place" in figures:
+        rows.append(["import of the sample's map", f"{figures['place']['import']:.2f}", "s"])
+        rows.append(["conflicts of the sample's ways", f"{figures['place']['conflicts']:.3f}", "s"])
+    if "scene" in figures:
+        rows.append(["update of the sample's vehicles in the picture", f"{figures['scene']['update']:.5f}", "s"])
     if "difference" in figures:
         rows.append(["distance to the CPU's result after 10 s", f"{figures['difference']:.1e}", "m"])
     return rows

@@ -22,11 +22,14 @@ def test_a_fleet_drives():
 def test_the_report_has_all_figures(monkeypatch, sample):
     monkeypatch.setattr(bench, "SPAN", 0.001)
     monkeypatch.setattr(bench, "FLEETS", (1, 8))
+    monkeypatch.setattr(bench, "REPEATS", 1)
     monkeypatch.setattr(bench, "all_cores", lambda: bench.dynamics(8))
     seen = []
     figures = bench.run(sample, seen.append)
     assert set(figures["dynamics"]["one_core"]) == {"1", "8"}
     assert figures["tick"]["one_core"] > 0 and figures["dynamics"]["all_cores"] > 0
+    assert set(figures["place"]) == {"import", "conflicts"} and set(figures["scene"]) == {"update"}
+    assert min(*figures["place"].values(), *figures["scene"].values()) > 0 and set(figures["unit"]) <= set(figures)
     assert figures["machine"] and figures["versions"]["numba"]
     assert seen == sorted(seen) and seen[-1] < 1
 

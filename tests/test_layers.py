@@ -18,8 +18,8 @@ FLOORS = [
     {"store"},
     {"job"},
     {"rig"},
-    {"bench"},
     {"scene"},
+    {"bench"},
     {"server"},
     {"cli"},
 ]
