@@ -5,9 +5,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "scenarios" / "grosser_stern_platoon.yaml"
+
+settings.register_profile("patient", deadline=None)  # the first call compiles, and a machine may be busy
+settings.load_profile("patient")
 
 
 @pytest.fixture(scope="session")

@@ -3,12 +3,11 @@
 from math import exp
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import engine
 
-patient = settings(deadline=None)  # the first call compiles
 T_DRAG, T_CURVE, LIMIT, IDLE, J_E = -25.0, 150.0, 600.0, 80.0, 0.15
 
 
@@ -39,7 +38,6 @@ def test_the_pedal_goes_from_drag_to_full_load_and_most_at_first():
     assert engine.by_pedal(-0.5, T_DRAG, T_CURVE) == T_DRAG and engine.by_pedal(1.5, T_DRAG, T_CURVE) == T_CURVE
 
 
-@patient
 @given(st.floats(0, 1), st.floats(-50, -1), st.floats(20, 800))
 def test_pedal_and_torque_are_each_others_inverse(u, T_drag, T_curve):
     assert engine.pedal_for(engine.by_pedal(u, T_drag, T_curve), T_drag, T_curve) == pytest.approx(u, abs=1e-6)

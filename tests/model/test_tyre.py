@@ -6,7 +6,7 @@ from math import atan, cos, pi, radians, sin, tan
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import tyre
@@ -24,7 +24,6 @@ PAIRS = {
 }
 SCALING = [name for name in Tyre._fields if name.startswith("L")]
 
-patient = settings(deadline=None)  # the first call compiles
 
 slips = st.floats(-1, 1)
 angles = st.floats(-0.6, 0.6)
@@ -95,7 +94,6 @@ def test_pure_slip_of_another_program(reference):
 
 
 @pytest.mark.parametrize("t", TYRES, ids=list(PAIRS))
-@patient
 @given(gamma=cambers, F_z=loads)
 def test_slopes_at_the_origin(t, gamma, F_z):
     """BCD is the slope: the stiffness functions are the derivatives of the forces where the shifted slip is 0."""
@@ -172,7 +170,6 @@ def test_every_scaling_factor_scales(name):
     )
 
 
-@patient
 @given(factor=st.floats(0.5, 2.0), kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_nominal_load(factor, kappa, alpha, gamma, F_z):
     """LFZO FNOMIN is the nominal load: a tyre with LFZO behaves as one with another FNOMIN (4.E1)."""
@@ -183,7 +180,6 @@ def test_nominal_load(factor, kappa, alpha, gamma, F_z):
     assert tyre.forces(scaled, kappa, alpha, gamma, F_z, 1.0) == pytest.approx(expected, rel=1e-9, abs=1e-6)
 
 
-@patient
 @given(mu=st.floats(0.1, 1.2), kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_road_friction_is_a_scaling_factor(mu, kappa, alpha, gamma, F_z):
     """A slippery road is a tyre with smaller LMUX and LMUY."""
@@ -255,7 +251,6 @@ def without(t, *prefixes):
     return t._replace(**{name: 0.0 for name in Tyre._fields if name.startswith(prefixes)})
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_zeros_switch_groups_off(kappa, alpha, gamma, F_z):
     bare = without(MEASURED, "R", "Q", "SSZ")
@@ -268,7 +263,6 @@ def test_zeros_switch_groups_off(kappa, alpha, gamma, F_z):
 # --- invariants --------------------------------------------------------------------------------------------------------
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=st.floats(0, 9000), mu=st.floats(0.1, 1.2))
 def test_a_mirrored_tyre(kappa, alpha, gamma, F_z, mu):
     """What does not tell left from right gives mirrored forces for mirrored slip and camber."""
@@ -279,7 +273,6 @@ def test_a_mirrored_tyre(kappa, alpha, gamma, F_z, mu):
     assert -mirrored_z == pytest.approx(M_z, rel=1e-9, abs=1e-6)
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers)
 def test_no_load_no_force(kappa, alpha, gamma):
     """Exactly none at no load; near it in proportion to the load."""
@@ -289,13 +282,11 @@ def test_no_load_no_force(kappa, alpha, gamma):
     assert light == pytest.approx(1e3 * lighter, rel=1e-3, abs=1e-14)
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_no_friction_no_force(kappa, alpha, gamma, F_z):
     assert tyre.forces(MEASURED, kappa, alpha, gamma, F_z, 0.0) == (0.0, 0.0, 0.0)
 
 
-@patient
 @given(kappa=slips, degrees=st.floats(-40, 40), F_z=loads)
 def test_combined_slip_never_exceeds_pure_slip(kappa, degrees, F_z):
     """The weights take away, they do not add."""
@@ -333,13 +324,11 @@ def test_trail_at_its_peak():
     assert tyre.trail(t, alpha, 0.0, df_z, 1.0, 0.0) == pytest.approx(expected, rel=1e-12)
 
 
-@patient
 @given(x=st.floats(-0.3, 0.3))
 def test_tangent_squared(x):
     assert tyre.tangent_squared(x) == pytest.approx(tan(x) ** 2, rel=3e-4, abs=1e-300)
 
 
-@patient
 @given(shifted=st.floats(-0.3, 0.3), slip=st.floats(-5, 5))
 def test_equivalent_slip(shifted, slip):
     """The formula of MF-Tyre 5.2; with one kind of slip alone it is that slip's own angle."""
@@ -352,7 +341,6 @@ def test_equivalent_slip(shifted, slip):
 SCALED = MEASURED._replace(LKY=1.2, LMUY=0.7, LGAZ=0.8, LTR=0.9, LRES=1.1, QBZ10=0.6, QEZ3=0.4)
 
 
-@patient
 @given(
     alpha=st.floats(-0.25, 0.25),
     gamma=cambers,
@@ -386,7 +374,6 @@ def test_trail(alpha, gamma, df_z, mu, slip):
     )
 
 
-@patient
 @given(
     alpha=st.floats(-0.25, 0.25),
     gamma=cambers,
@@ -411,7 +398,6 @@ def test_residual_moment(alpha, gamma, df_z, mu, slip):
     assert found == pytest.approx(expected, rel=1e-8, abs=1e-12)
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=loads, mu=st.floats(0.3, 1.2))
 def test_aligning_moment(kappa, alpha, gamma, F_z, mu):
     """M_z = (M_zr - t F'_y) cos(alpha) + s F_x (4.E71, 4.E72), put together from its parts."""
