@@ -9,11 +9,12 @@ import sys
 import pytest
 
 from tests.broken import BROKEN
+from tests.patience import PATIENCE
 
 
 def studio(*arguments, cwd):
     """Runs the command; returns exit code, output, errors."""
-    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=300)
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=PATIENCE)
     return done.returncode, done.stdout, done.stderr
 
 

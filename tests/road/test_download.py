@@ -21,10 +21,11 @@ from studio.road.formats import osm
 from studio.road.formats.kind import GREEN
 from studio.road.library import download, folder, intake
 from studio.road.library.download import Patience
+from tests.patience import PATIENCE
 
 SEATTLE = Path(__file__).parents[1] / "reference" / "maps" / "seattle_triangle_small.osm.gz"
 BOX = osm.bounding_box("-122.3400,47.6155,-122.3365,47.6185")
-HASTE = Patience(connect=5.0, silence=5.0, first_wait=0.0)
+HASTE = Patience(connect=PATIENCE, silence=PATIENCE, first_wait=0.0)
 
 
 def overpass_json(path):
@@ -176,7 +177,7 @@ def test_who_shall_wait_for_an_hour_is_told_so_at_once(tmp_path):
 
 def test_a_silent_server_is_given_up(tmp_path):
     gone = threading.Event()
-    with server((200, {}, lambda out: gone.wait(30))) as (address, _):
+    with server((200, {}, lambda out: gone.wait(PATIENCE))) as (address, _):
         try:
             with pytest.raises(MapError, match="did not answer in time"):
                 fetched(address, tmp_path, replace(HASTE, silence=0.2))

@@ -21,6 +21,7 @@ from studio.road.formats.xodr import Header, read_header
 from studio.road.library import place
 from studio.road.ways.path import PATH_CURVATURE, path
 from studio.road.ways.route import all_routes, connect
+from tests.patience import PATIENCE
 
 FILES = sorted((Path(__file__).parents[1] / "reference" / "opendrive").glob("*.xodr"))
 FOLDER = FILES[0].parent
@@ -465,7 +466,7 @@ def test_attribution_is_the_headers():
 
 
 def studio(*arguments):
-    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE)
     return done.returncode, done.stdout, done.stderr
 
 

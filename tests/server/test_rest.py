@@ -1,27 +1,25 @@
 """REST: the same functions as the command line, the same runs, refusals that say what is wrong."""
 
 import json
-import time
 
 import pytest
 
 from studio import job
 from studio.store.runs import open_runs
-from tests.server.server import START_PATIENCE
+from tests.patience import until
 
 SCENARIO = "grosser_stern_platoon"
 SHORT = {"clock.duration": 3}
 
 
-def finished(client, run, patience=START_PATIENCE):
+def finished(client, run):
     """The run when it is over."""
-    until = time.monotonic() + patience
-    while time.monotonic() < until:
+
+    def over():
         row = client.get(f"/api/runs/{run}").json()
-        if row["status"] != "running":
-            return row
-        time.sleep(0.1)
-    raise AssertionError(f"run {run} did not end")
+        return row if row["status"] != "running" else None
+
+    return until(over, f"the end of run {run}")
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,6 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from studio.errors import StoreError, UnknownError
 from studio.store import trace
 from studio.store.comparison import compare
 from studio.store.runs import open_runs
+from tests.patience import until
 
 
 @pytest.fixture(scope="module")
@@ -148,11 +148,8 @@ def test_a_killed_run_says_so(sample, tmp_path):
         f"job.run(job.load({str(sample)!r}, {{'clock.duration': 3600}}), runs=open_runs({str(db)!r}))"
     )
     process = subprocess.Popen([sys.executable, "-c", code])
-    runs = None
-    for _ in range(600):
-        time.sleep(0.1)
-        if db.exists() and (runs := open_runs(db)).select():
-            break
+    until(lambda: db.exists() and open_runs(db).select(), "the run's row")
+    runs = open_runs(db)
     assert runs.find(1).status == "running"
     process.send_signal(signal.SIGKILL)
     process.wait()

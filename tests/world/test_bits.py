@@ -12,6 +12,7 @@ from studio.world import motion, shift
 from studio.world.state import PSI, RING, U_BRAKE, U_PEDAL, U_STEER, VEHICLE
 from studio.world.tile import LANES, new_tile
 from tests.conftest import ROOT
+from tests.patience import PATIENCE
 from tests.proving_ground import MODELS, Ground
 
 FIRST = (0.03, 0.4, 17.0)  # steering [rad], pedal [1], speed [m/s] of the car that is compared
@@ -151,7 +152,7 @@ def digest() -> str:
 
 def test_a_fresh_process_gives_the_same_bits():
     program = "import sys; sys.path.insert(0, 'tests/world'); import test_bits; print(test_bits.digest())"
-    other = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    other = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
     assert other.stdout.strip() == digest(), other.stderr
 
 
