@@ -1,4 +1,4 @@
-"""Build hook: makes the page (web/) part of the package, as studio/_web."""
+"""Build hook: makes the page (web/) and the samples (scenarios/) part of the package, as studio/_web and studio/_scenarios."""
 
 import importlib.util
 import os
@@ -13,13 +13,14 @@ def load_bundle(root: str):
     if not path.is_file():
         return None
     spec = importlib.util.spec_from_file_location("studio_web_bundle", path)
+    assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-class WebHook(BuildHookInterface):
-    """Builds the page when its sources changed; STUDIO_SKIP_WEB=1 leaves it out."""
+class StudioHook(BuildHookInterface):
+    """Builds the page when its sources changed; STUDIO_SKIP_WEB=1 leaves it out. Puts the samples into a wheel."""
 
     PLUGIN_NAME = "custom"
 
@@ -36,7 +37,9 @@ class WebHook(BuildHookInterface):
         return [bundle.NODE_WHEEL] if bundle and bundle.system_node() is None else []
 
     def initialize(self, version, build_data):
-        """Called before the package is put together."""
+        """Called before the package is put together. What is installed in place finds the samples in its checkout."""
+        if self.target_name == "wheel" and version == "standard":
+            build_data["force_include"][str(Path(self.root) / "scenarios")] = "studio/_scenarios"
         bundle = self.wanted()
         if bundle is None:
             self.app.display_info("studio/_web is up to date, or left out on request")

@@ -3,6 +3,11 @@
     dynamics    one vehicle step is one integration step (5 ms) of one car with the whole model, nothing else
     tick        one vehicle tick is one tick (20 ms, four steps) of one car in the whole world: lights, drivers, sensors,
                 radio, applications, integration, collisions
+    advance     the same with recording and events, for platoons on a motorway that is as long as their number asks, so
+                that the density is always the same; `ratio` is what all of it costs over the integration of its vehicles alone
+    place       the sample's map imported from its file, with nothing kept from before; where the ways of its vehicles run
+                close to each other
+    scene       one update of the sample's vehicles in the 3D picture, which at 60 Hz has 16.7 ms for everything
 
 Medians of several repeats; machine and versions stand beside the figures.
 """
@@ -11,8 +16,12 @@ import multiprocessing
 import os
 import platform
 import statistics
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -20,16 +29,47 @@ from typing import Any
 import numpy as np
 
 from studio import job
+from studio.application import setup
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.errors import Problem, ServerError
+from studio.execution.simulation import Simulation, simulation
+from studio.road.assembly.plan import Wish
+from studio.road.drawn.motorway import motorway
+from studio.road.library.place import imported
+from studio.road.library.reader import reader_of
+from studio.road.ways.conflict import zones
 from studio.scenario import catalogue
-from studio.world import fleet
+from studio.scene import pose
+from studio.scene.fleet import Look
+from studio.scene.projection import Scene
+from studio.vehicle import fleet
+from studio.vehicle.command import RING, U_DRIVE, U_STEER
+from studio.vehicle.fleet import Fleet, Start
+from studio.world import notice
 from studio.world.build import build
-from studio.world.fleet import Fleet, Start
-from studio.world.state import RING, U_DRIVE, U_STEER
-from studio.world.tick import tick
+from studio.world.channel import CHANNELS
+from studio.world.setting import Setting, setting
+from studio.world.tick import (
+    act,
+    applications,
+    collide,
+    communicate,
+    environment,
+    gather,
+    look,
+    move,
+    recirculate,
+    sense,
+    think,
+    tick,
+)  # fmt: skip
 
 FLEETS = (1, 8, 100, 1000, 10_000)
+CROWDS = (25, 100, 300, 1000)
+PLATOON, GAP, EVERY = 5, 25.0, 200.0  # cars of a platoon, [m] from one to the next, [m] from platoon to platoon
+LANES, MARGIN = 3, 1000.0  # of each direction; [m] of road before the last car and ahead of the first
+ROADS = {"eastbound": "motorway", "westbound": "-motorway"}
+MEASURED, LEAST_TICKS, MOST_TICKS = 20_000, 10, 60  # vehicle ticks that one repeat takes; ticks at least and at most
 DEVICE_FLEETS = (1000, 10_000, 100_000)
 REPEATS = 5
 SPAN = 0.2  # [s] of real time that one repeat takes at least
@@ -65,10 +105,169 @@ def dynamics(count: int) -> float:
     return rate(lambda: fleet.integrate(f, 0, DEFAULT_TICK, DEFAULT_STEP), count * STEPS)
 
 
-def whole_tick(sample: Path) -> float:
+def whole_tick(sample: Setting) -> float:
     """Vehicle ticks a second on one core in a scenario."""
-    world = build([job.prepare(job.load(sample))])
+    world = build([sample])
     return rate(lambda: tick(world), world.size)
+
+
+# -- the whole advance -----------------------------------------------------------------------------
+
+
+def crowd(count: int) -> Setting:
+    """`count` cars in platoons on all lanes of both directions of a motorway, everything on in each of them."""
+    rows = -(-count // (PLATOON * 2 * LANES))
+    with tempfile.TemporaryDirectory() as folder:
+        road = motorway(length=2.0 * MARGIN + rows * EVERY, lanes=LANES)
+        (Path(folder) / "motorway.xodr").write_text(road, encoding="utf-8")
+        return setting(setup.complete(crowd_document(count), "the crowd"), Path(folder), "the crowd")
+
+
+def crowd_document(count: int) -> dict[str, Any]:
+    """Its scenario: the first car of every platoon leads, the others follow it with CACC; one brakes at times."""
+    names = [f"car_{i}" for i in range(count)]
+    platoons = [names[i : i + PLATOON] for i in range(0, count, PLATOON)]
+    return {
+        "title": f"{count} cars in platoons",
+        "map": {"file": "motorway.xodr"},
+        "clock": {"duration": 60},
+        "routes": {name: {"roads": [road], "speeds": [{"at": 0, "speed": 30}]} for name, road in ROADS.items()},
+        "vehicles": {name: crowd_vehicle(i) for i, name in enumerate(names)},
+        "applications": {
+            f"platoon_{k}": {"application": "cacc", "vehicles": members[1:], "listens_to": members[:-1]}
+            for k, members in enumerate(platoons)
+            if len(members) > 1
+        },
+        "triggers": {"brake": {"time": 1, "vehicle": names[0], "do": {"maneuver": "brake", "deceleration": 2}}},
+    }
+
+
+def crowd_vehicle(i: int) -> dict[str, Any]:
+    """Car i: its platoon's place on the motorway, and its own within the platoon."""
+    platoon, place = divmod(i, PLATOON)
+    row, lane = divmod(platoon, 2 * LANES)
+    route, road = list(ROADS.items())[lane // LANES]
+    offset = MARGIN + EVERY * (row + lane / (2 * LANES)) - place * GAP
+    return {"route": route, "position": {"road": road, "lane": lane % LANES, "offset": offset}, "speed": 30}
+
+
+def advance(count: int) -> dict[str, Any]:
+    """Vehicle ticks a second of the whole advance, its cost over that of the integration alone, and what each part costs.
+
+    `parts` are shares of the integration's cost. Both are measured in turn, so that a machine that is busy is so for both.
+    """
+    running = simulation(crowd(count))
+    ticks = min(max(MEASURED // count, LEAST_TICKS), MOST_TICKS)
+    touch_memory(running, (REPEATS + 2) * ticks)
+    running.advance(LEAST_TICKS)
+    whole, alone = [], []
+    for _ in range(REPEATS):
+        whole.append(seconds(lambda: running.advance(ticks)))
+        alone.append(seconds(integration(running, ticks)))
+    one = statistics.median(alone) / ticks
+    return {
+        "rate": count * ticks / statistics.median(whole),
+        "ratio": statistics.median(a / b for a, b in zip(whole, alone, strict=True)),
+        "parts": {name: spent / one for name, spent in parts(running, ticks).items()},
+    }
+
+
+def touch_memory(running: Simulation, ticks: int) -> None:
+    """Uses as much memory as will be recorded, and gives it back: what a machine hands out for the first time it hands out slowly."""
+    np.ones((ticks, len(CHANNELS), running.recorder.columns.size))
+
+
+@contextmanager
+def one_core_only() -> Generator[None]:
+    """Keeps this process on one core, where the system can."""
+    allowed = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
+    if allowed:
+        os.sched_setaffinity(0, {max(allowed)})
+    yield
+    if allowed:
+        os.sched_setaffinity(0, allowed)
+
+
+def repeated(action: Callable[[], Any], times: int) -> None:
+    """Some action several times."""
+    for _ in range(times):
+        action()
+
+
+def integration(running: Simulation, ticks: int) -> Callable[[], None]:
+    """The motion of a run's vehicles for some ticks with the commands of now, on a copy of them."""
+    world, clock = running.world, running.world.clock
+    alone = replace(world.vehicles, state=world.vehicles.state.copy(), wheels=world.vehicles.wheels.copy())
+    return lambda: repeated(lambda: fleet.integrate(alone, clock.k, clock.tick, clock.step), ticks)
+
+
+def parts(running: Simulation, ticks: int) -> dict[str, float]:
+    """Seconds that each part of a tick takes: medians over some ticks."""
+    spent: dict[str, list[float]] = {}
+    for _ in range(ticks):
+        for name, action in parts_of_tick(running):
+            spent.setdefault(name, []).append(seconds(action))
+    return {name: statistics.median(each) for name, each in spent.items()}
+
+
+def parts_of_tick(running: Simulation) -> Iterator[tuple[str, Callable[[], Any]]]:
+    """One tick of a run, part by part."""
+    world, clock = running.world, running.world.clock
+    meeting = (environment, gather, look, sense, communicate, think, applications, act)
+    yield from ((part.__name__, partial(part, world)) for part in meeting)
+    yield "record", lambda: running.recorder.take(world, clock.k)
+    yield from ((part.__name__, partial(part, world)) for part in (move, collide, recirculate))
+    clock.k += 1
+    yield "check", running.check
+    yield "report", lambda: notice.notice(world, running.watch)
+
+
+def seconds(action: Callable[[], Any]) -> float:
+    """Processor time that something takes; what else runs on the machine does not count."""
+    began = time.thread_time()
+    action()
+    return time.thread_time() - began
+
+
+# -- a place and its picture -----------------------------------------------------------------------
+
+
+def whole_import(path: Path) -> float:
+    """Seconds from a map file to its roads, signals and scenery."""
+    reader = reader_of(path)
+    part, data = reader.part(path, Wish(None, None, False, ())), reader.read(path)
+    return median_seconds(lambda: imported(path, reader, data, part, "", lambda text: None))
+
+
+def conflicts(sample: Setting) -> float:
+    """Seconds to find where the ways of all vehicles run close to each other, each pair in both orders."""
+    ways = [car.path.points for car in sample.cars]
+    points, count = np.concatenate(ways, axis=1), np.array([way.shape[1] for way in ways])
+    first = np.cumsum(count) - count
+    pairs = [(i, j) for i in range(count.size) for j in range(count.size) if i != j]
+    return median_seconds(lambda: [zones(points, first[i], count[i], first[j], count[j]) for i, j in pairs])
+
+
+def picture(sample: Setting) -> float:
+    """Seconds to move all vehicles once in the 3D picture, without anybody who looks at it."""
+    scene = Scene()
+    try:
+        scene.show_vehicles([Look(car.name, car.colour) for car in sample.cars])
+        poses = pose.standing(len(sample.cars))
+        return median_seconds(lambda: scene.update(moved(poses)))
+    finally:
+        scene.stop()
+
+
+def moved(poses: np.ndarray) -> np.ndarray:
+    """The poses, 0.1 m further."""
+    poses[pose.X] += 0.1
+    return poses
+
+
+def median_seconds(action: Callable[[], Any]) -> float:
+    """What an action takes [s]: the median of its repeats."""
+    return 1.0 / rate(action, 1)
 
 
 def all_cores(count: int = 1000) -> float:
@@ -83,22 +282,39 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
     one_core = {}
     for i, count in enumerate(FLEETS):
         one_core[str(count)] = dynamics(count)
-        progress((i + 1) / (len(FLEETS) + 2))
-    tick_rate = whole_tick(sample)
-    progress(1 - 1 / (len(FLEETS) + 2))
+        progress((i + 1) / (len(FLEETS) + 3))
+    loaded = job.load(sample)
+    prepared = job.prepare(loaded)
+    tick_rate = whole_tick(prepared)
+    progress(1 - 2 / (len(FLEETS) + 3))
+    place = {"import": whole_import(loaded.path.parent / loaded.scenario.map.file), "conflicts": conflicts(prepared)}
+    scene = {"update": picture(prepared)}
+    progress(1 - 1 / (len(FLEETS) + 3))
+    with one_core_only():
+        crowds = {str(count): advance(count) for count in CROWDS}
     return {
         "machine": machine(),
         "versions": versions(),
-        "unit": {"dynamics": "vehicle steps/s", "tick": "vehicle ticks/s"},
+        "unit": {
+            "dynamics": "vehicle steps/s",
+            "tick": "vehicle ticks/s",
+            "rate": "vehicle ticks/s",
+            "ratio": "1",
+            "place": "s",
+            "scene": "s",
+        },
         "dynamics": {"one_core": one_core, "all_cores": all_cores()},
         "tick": {"one_core": tick_rate},
+        "advance": {"one_core": crowds},
+        "place": place,
+        "scene": scene,
     }
 
 
 def run_device(progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
     """Vehicle steps a second on a GPU, and how far its result is from the CPU's; raises ServerError when there is none."""
     try:
-        from studio.world import cuda
+        from studio.vehicle import cuda
     except ImportError as error:
         raise no_device("the extra `cuda` is not installed", f"uv pip install 'cooperative-adas-studio[cuda]' ({error})") from None
     if not cuda.is_available():
@@ -123,7 +339,7 @@ def no_device(what: str, remedy: str) -> ServerError:
 
 def device_rate(count: int, ticks: int = 50) -> float:
     """Vehicle steps a second of a fleet on the GPU, `ticks` ticks in a launch."""
-    from studio.world import cuda
+    from studio.vehicle import cuda
 
     device = cuda.Device(cars(count))
 
@@ -136,7 +352,7 @@ def device_rate(count: int, ticks: int = 50) -> float:
 
 def device_difference(count: int = 1000, seconds: float = 10.0) -> float:
     """Largest distance [m] between the places of a car on GPU and CPU after a drive."""
-    from studio.world import cuda
+    from studio.vehicle import cuda
 
     here, there = cars(count), cars(count)
     device = cuda.Device(there)

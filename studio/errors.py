@@ -2,10 +2,14 @@
 
     StudioError
     ├── ScenarioError       a scenario file or a change of it is wrong
+    │   ├── ConflictError   a document is not as the change expects it
+    │   │   └── StaleError  a document has changed since it was read
+    │   └── SealedError     a document that may be read only
     ├── MapError            a map file is missing, unreadable or holds no roads
     ├── RouteError          roads do not connect, or are not on the map
     ├── ApplicationError    a plug-in does not load, or raised during a run
     ├── RunError            a state is not finite any more
+    ├── SnapshotError       a snapshot does not belong to this world
     ├── StoreError          runs.db cannot be opened or written
     ├── UnknownError        a run, scenario or channel that does not exist
     ├── SizeError           more was sent than is taken
@@ -62,6 +66,18 @@ class ScenarioError(StudioError):
     """A scenario file, or a change of it, is wrong."""
 
 
+class ConflictError(ScenarioError):
+    """A document is not as the change expects it."""
+
+
+class StaleError(ConflictError):
+    """A document has changed since it was read."""
+
+
+class SealedError(ScenarioError):
+    """A document that may be read only."""
+
+
 class MapError(StudioError):
     """A map file is missing, unreadable, or holds no roads."""
 
@@ -76,6 +92,10 @@ class ApplicationError(StudioError):
 
 class RunError(StudioError):
     """A state is not finite any more."""
+
+
+class SnapshotError(StudioError):
+    """A snapshot is of another world, scenario or version."""
 
 
 class StoreError(StudioError):

@@ -12,8 +12,6 @@ import hashlib
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -22,15 +20,17 @@ import numpy as np
 from studio.application import setup
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured, registered
-from studio.compiled import source_digest
 from studio.errors import Problem, ScenarioError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
+from studio.scenario.migration import migrated
 from studio.scenario.schema import Scenario
+from studio.scenario.source import Source
+from studio.source import code_version
 from studio.store.runs import Row, Runs
-from studio.world.fleet import rows_of
+from studio.vehicle.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
 
 LARGEST_SEED = 2**63 - 1
@@ -38,11 +38,13 @@ LARGEST_SEED = 2**63 - 1
 
 @dataclass(frozen=True)
 class Loaded:
-    """A scenario that was read: the file, what was changed by path, and the valid result."""
+    """A scenario that was read: the file, what was changed by path, the valid result, what stands in the file, and what of it is old."""
 
     path: Path
     changes: dict[str, Any]
     scenario: Scenario
+    source: Source
+    migrated: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -86,15 +88,21 @@ class Run:
 
 def load(path: str | Path, changes: dict[str, Any] | None = None) -> Loaded:
     """Reads a scenario file and applies changes {path: value}. Raises ScenarioError with all problems."""
-    path = Path(path)
-    document = file.read(path)
+    return loaded(file.opened(Path(path)), Path(path), changes)
+
+
+def loaded(source: Source, path: Path, changes: dict[str, Any] | None = None) -> Loaded:
+    """The same from what stands, or would stand, in the file."""
     changes = dict(changes or {})
-    if changes:
-        setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
-        document = setup.change(document, changes, path.name)
-    loaded = Loaded(path, changes, setup.complete(document, path.name))
-    check_goals(loaded)
-    return loaded
+    now, told = migrated(source)
+    with file.placed(source, path.name, changes=changes, told=told):
+        document = now.value
+        if changes:
+            setup.complete(document, path.name)  # what is wrong in the file is told before what is wrong in the changes
+            document = setup.change(document, changes, path.name)
+        found = Loaded(path, changes, setup.complete(document, path.name), source, tuple(told))
+        check_goals(found)
+    return found
 
 
 def check_goals(loaded: Loaded) -> None:
@@ -111,7 +119,8 @@ def check_goals(loaded: Loaded) -> None:
 
 def check(loaded: Loaded) -> None:
     """All that can be checked without the map; raises ScenarioError."""
-    check_names(loaded.scenario, loaded.path.name)
+    with file.placed(loaded.source, loaded.path.name, changes=loaded.changes, told=loaded.migrated):
+        check_names(loaded.scenario, loaded.path.name)
 
 
 def seeded(loaded: Loaded, seed: int | None) -> Loaded:
@@ -120,18 +129,13 @@ def seeded(loaded: Loaded, seed: int | None) -> Loaded:
         return loaded
     if not 0 <= seed <= LARGEST_SEED:
         raise ScenarioError("The seed is out of range.", [Problem("seed", "is out of range", str(seed), f"0 to {LARGEST_SEED}")])
-    return Loaded(loaded.path, loaded.changes, loaded.scenario.model_copy(update={"seed": seed}))
+    return replace(loaded, scenario=loaded.scenario.model_copy(update={"seed": seed}))
 
 
 def prepare(loaded: Loaded) -> Setting:
     """Map, routes and cars. Raises ScenarioError, MapError or RouteError."""
-    return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
-
-
-@cache
-def code_version() -> str:
-    """Version of the package and digest of the sources that compute."""
-    return f"{version('cooperative-adas-studio')}+{source_digest()}"
+    with file.placed(loaded.source, loaded.path.name, changes=loaded.changes, told=loaded.migrated):
+        return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
 
 
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
@@ -165,20 +169,20 @@ def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> 
     )
 
 
-def outcome(loaded: Loaded, finished: Simulation) -> Run:
-    """What a finished simulation brought."""
+def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
+    """What a finished simulation brought for one of its worlds."""
     wall = time.perf_counter() - finished.started
-    record = finished.record()
+    case, record = finished.cases[number], finished.record(number)
     metrics = measure_all(record)
     return Run(
         record=record,
         metrics=metrics,
         unmet=unmet(loaded.scenario.goals, metrics),
         channels=tuple(loaded.scenario.recording.channels),
-        status=finished.status,
-        error=finished.error,
-        state_hash=finished.world.digest(),
-        sim_time_s=round(finished.time, 9),
+        status=case.status,
+        error=case.error,
+        state_hash=case.state_hash,
+        sim_time_s=round(case.time, 9),
         wall_time_s=round(wall, 3),
     )
 
@@ -219,9 +223,9 @@ def run(
         current = simulation(prepared)
         as_fast_as_possible(current, progress)
         result = outcome(loaded, current)
-        row = save(number, result, runs) if runs else None
+        row = save(number, result, runs) if runs and number else None
     except BaseException as error:
-        if runs:
+        if runs and number:
             runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
         raise
     return replace(result, row=row)

@@ -6,23 +6,24 @@ run that differs. So maps and ways are made with the C library's functions, numb
 """
 
 import math
+from typing import Any
 
 import numpy as np
 
 ATAN2, TAN = np.frompyfunc(math.atan2, 2, 1), np.frompyfunc(math.tan, 1, 1)
 
 
-def arctan2(y, x):
+def arctan2(y, x) -> Any:
     """Direction of (x, y) [rad]; numbers or arrays."""
     return np.float64(ATAN2(y, x))
 
 
-def tan(x):
+def tan(x) -> Any:
     """Tangent of an angle [rad]; a number or an array."""
     return np.float64(TAN(x))
 
 
-def wrapped(angle):
+def wrapped(angle) -> Any:
     """The same angle between -pi and pi [rad]; a number or an array."""
     return arctan2(np.sin(angle), np.cos(angle))
 

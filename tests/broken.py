@@ -1,4 +1,4 @@
-"""An application that raises half a second into the run."""
+"""Applications that raise, or hang, half a second into the run."""
 
 BROKEN = '''
 """Raises after half a second."""
@@ -19,3 +19,12 @@ def decide(parameters, memory, observation):
         raise RuntimeError("the idea was not so good")
     return memory, Command(LEAVE, LEAVE)
 '''
+
+# Leaves a sign beside itself before it hangs.
+HANGING = BROKEN.replace("Raises", "Hangs").replace(
+    'raise RuntimeError("the idea was not so good")',
+    """from pathlib import Path
+        Path(__file__).with_suffix(".sign").touch()
+        while True:
+            pass""",
+)

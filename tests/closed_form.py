@@ -11,8 +11,8 @@ from studio.conventions import GRAVITY
 from studio.model import tyre
 from studio.model.tyre import Tyre
 from studio.model.wheel import SIGMA
-from studio.world import fleet
-from studio.world.state import (
+from studio.vehicle import fleet
+from studio.vehicle.parameter import (
     ARB_F,
     ARB_R,
     CAMBER_F,
@@ -117,7 +117,7 @@ def change(axle: Axle, *, alpha=0.0, camber=0.0, load=0.0) -> np.ndarray:
 
 def slope(axle: Axle, **which) -> np.ndarray:
     """Derivative of both by one of alpha [1], camber [1], load [N]."""
-    (name, _), = which.items()
+    ((name, _),) = which.items()
     difference = (change(axle, **{name: SMALL}) - change(axle, **{name: -SMALL})) / (2.0 * SMALL)
     return difference / axle.static if name == "load" else difference
 

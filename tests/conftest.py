@@ -5,9 +5,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = ROOT / "scenarios" / "grosser_stern_platoon.yaml"
+
+settings.register_profile("patient", deadline=None)  # the first call compiles, and a machine may be busy
+settings.load_profile("patient")
 
 
 @pytest.fixture(scope="session")
@@ -31,7 +35,15 @@ def sample_setting():
 
 
 # What takes longest comes first, so that no process is left alone with it at the end.
-LONGEST_FIRST = ("tests/world/test_random_routes.py", "tests/test_readme.py", "tests/test_cli.py", "tests/world", "tests/browser", "tests/server")
+LONGEST_FIRST = (
+    "tests/world/test_random_routes.py",
+    "tests/test_readme.py",
+    "tests/test_cli.py",
+    "tests/world",
+    "tests/vehicle",
+    "tests/browser",
+    "tests/server",
+)
 
 
 def pytest_collection_modifyitems(items):

@@ -23,7 +23,8 @@ import numpy as np
 from scipy.signal import StateSpace, lsim
 
 from studio.model.wheel import SIGMA
-from studio.world.state import A_X, A_Y, DELTA, F_Z, MASS, RADIUS, ROLL, V_X, YAW_RATE, X, Y
+from studio.vehicle.parameter import MASS, RADIUS
+from studio.vehicle.state import A_X, A_Y, DELTA, F_Z, ROLL, V_X, YAW_RATE, X, Y
 from tests.closed_form import single_track
 from tests.conftest import ROOT
 from tests.proving_ground import Ground

@@ -3,25 +3,9 @@
 import numpy as np
 
 from studio.scenario import catalogue
-from studio.world import fleet
-from studio.world.fleet import Start
-from studio.world.state import (
-    C_D,
-    C_ROLL,
-    GEAR,
-    IDLE,
-    J_GEAR,
-    J_WF,
-    J_WR,
-    MASS,
-    MU,
-    NEXT_GEAR,
-    NEXT_RATIO,
-    OMEGA_E,
-    RADIUS,
-    RATIO,
+from studio.vehicle import fleet
+from studio.vehicle.command import (
     RING,
-    SLOPE_X,
     U_APPLIED,
     U_APPLIED_BRAKE,
     U_BRAKE,
@@ -31,8 +15,11 @@ from studio.world.state import (
     U_PEDAL,
     U_STEER,
     U_STEER_TORQUE,
-    V_X,
 )  # fmt: skip
+from studio.vehicle.contact import MU, SLOPE_X
+from studio.vehicle.fleet import Start
+from studio.vehicle.parameter import C_D, C_ROLL, IDLE, J_WF, J_WR, MASS, RADIUS
+from studio.vehicle.state import GEAR, J_GEAR, NEXT_GEAR, NEXT_RATIO, OMEGA_E, RATIO, V_X
 
 TICK = 0.02
 MODELS = catalogue.vehicle_names()

@@ -5,7 +5,8 @@ import pytest
 
 from studio import bench
 from studio.errors import ServerError
-from studio.world import cuda, fleet
+from studio.execution.simulation import simulation
+from studio.vehicle import cuda, fleet
 
 
 def test_a_fleet_drives():
@@ -22,13 +23,33 @@ def test_a_fleet_drives():
 def test_the_report_has_all_figures(monkeypatch, sample):
     monkeypatch.setattr(bench, "SPAN", 0.001)
     monkeypatch.setattr(bench, "FLEETS", (1, 8))
+    monkeypatch.setattr(bench, "CROWDS", (7,))
+    monkeypatch.setattr(bench, "MEASURED", 1)
+    monkeypatch.setattr(bench, "REPEATS", 1)
     monkeypatch.setattr(bench, "all_cores", lambda: bench.dynamics(8))
     seen = []
     figures = bench.run(sample, seen.append)
     assert set(figures["dynamics"]["one_core"]) == {"1", "8"}
+    crowd = figures["advance"]["one_core"]["7"]
+    assert crowd["rate"] > 0 and crowd["ratio"] > 1 and {"look", "sense", "move", "collide", "record", "report"} <= set(crowd["parts"])
     assert figures["tick"]["one_core"] > 0 and figures["dynamics"]["all_cores"] > 0
+    assert set(figures["place"]) == {"import", "conflicts"} and set(figures["scene"]) == {"update"}
+    assert min(*figures["place"].values(), *figures["scene"].values()) > 0
     assert figures["machine"] and figures["versions"]["numba"]
     assert seen == sorted(seen) and seen[-1] < 1
+
+
+@pytest.mark.parametrize("count", [25, 62])
+def test_a_crowd_is_as_dense_as_another(count):
+    """Everybody but the first of a platoon follows at the distance of the file; nobody collides while the first one brakes."""
+    run = simulation(bench.crowd(count))
+    run.advance(150)
+    (case,) = run.cases
+    followers = [v for v in range(count) if v % bench.PLATOON]
+    gap = run.record().channel("gap")[followers]
+    assert case.status == "running" and run.world.events.hits_found == 0
+    assert (gap[:, 0] == pytest.approx(bench.GAP - 4.5, abs=0.1)) and np.isfinite(gap).all() and gap.min() > 10.0
+    assert [event.text for event in case.happenings] == ["brake: brake with 2 m/s²"]
 
 
 @pytest.mark.parametrize("count", [1, 7])

@@ -9,11 +9,14 @@ import sys
 import pytest
 
 from tests.broken import BROKEN
+from tests.patience import PATIENCE
 
 
 def studio(*arguments, cwd):
     """Runs the command; returns exit code, output, errors."""
-    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=300)
+    done = subprocess.run(
+        [sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=PATIENCE
+    )
     return done.returncode, done.stdout, done.stderr
 
 
@@ -32,7 +35,19 @@ def folder(tmp_path_factory, sample):
 
 def test_run_prints_one_object(folder):
     _, run, _ = folder
-    wanted = {"run", "scenario", "scenario_hash", "seed", "status", "state_hash", "code_version", "sim_time_s", "wall_time_s", "parameters", "metrics"}
+    wanted = {
+        "run",
+        "scenario",
+        "scenario_hash",
+        "seed",
+        "status",
+        "state_hash",
+        "code_version",
+        "sim_time_s",
+        "wall_time_s",
+        "parameters",
+        "metrics",
+    }
     assert wanted <= set(run)
     assert run["status"] == "done" and run["sim_time_s"] == 3.0 and run["parameters"] == {"clock.duration": 3}
     assert run["metrics"]["min_gap"]["unit"] == "m" and run["metrics"]["min_gap"]["goal"] == "higher"
@@ -93,9 +108,49 @@ def test_check_and_schema(folder, sample):
     assert schema["$defs"]["Clock"]["properties"]["duration"]["unit"] == "s"
 
 
+OLD = """\
+# Mine
+title: Old
+map: {file: maps/motorway.xodr}
+routes: {along: {roads: [motorway]}}  # eastbound
+vehicles: {a: {route: along, position: {along: 50}, speed: 20}}
+road: {friction: 0.5}
+"""
+
+
+def test_an_old_scenario_is_read_told_and_rewritten(tmp_path, sample):
+    (tmp_path / "maps").symlink_to(sample.parent / "maps")
+    path = tmp_path / "old.yaml"
+    path.write_text(OLD)
+    code, out, told = studio("check", path, cwd=tmp_path)
+    assert code == 0 and "1 vehicles" in out
+    assert "version 1 to 2: `road.friction` is `weather.friction`" in told and f"`studio migrate {path}` rewrites it" in told
+    assert path.read_text() == OLD
+    code, out, _ = studio("migrate", path, cwd=tmp_path)
+    assert code == 0 and "is of version 2 now" in out
+    assert path.read_text() == OLD.replace("title", "version: 2\ntitle").replace("road: {", "weather: {")
+    assert studio("migrate", path, cwd=tmp_path)[1] == f"{path} is of version 2 already\n"
+    code, out, told = studio("check", path, cwd=tmp_path)
+    assert code == 0 and told == ""
+
+
+def test_what_is_wrong_in_a_file_has_its_line_and_in_an_old_one_its_migration(tmp_path):
+    path = tmp_path / "old.yaml"
+    path.write_text(OLD.replace("0.5", "5").replace("route: along", "rute: along"))
+    code, _, told = studio("check", path, cwd=tmp_path)
+    assert code == 2 and "old.yaml, line 5, column 16: vehicles.a.rute: is not a field that exists here; did you mean 'route'" in told
+    assert "old.yaml: weather.friction" in told and "old.yaml: version 1 to 2: `road.friction` is `weather.friction`" in told
+    code, _, told = studio("check", path, "--set", "a=1", cwd=tmp_path)
+    assert code == 2 and "line 5" in told
+    path.write_text("version: 9\n")
+    code, _, told = studio("migrate", path, cwd=tmp_path)
+    assert code == 2 and "newer than this studio" in told and path.read_text() == "version: 9\n"
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
+        (("run", "{sample}", "--set", "clock.duration=on"), ["--set clock.duration", "YAML 1.1 and 1.2", "write true"]),
         (("run", "{sample}", "--set", "clock.duraton=3"), ["clock.duraton", "did you mean 'clock.duration'"]),
         (("run", "{sample}", "--set", "clock.duration=-3"), ["clock.duration", "-3", "> 0"]),
         (("run", "{sample}", "--set", "nonsense"), ["--set", "PATH=VALUE"]),
@@ -186,7 +241,7 @@ def test_drive(tmp_path):
 def test_tyre(tmp_path, root):
     (tmp_path / "rows.csv").write_text("kappa,alpha_rad,gamma_rad,Fz_N\n0.1,0,0,3000\n0,0.05,0,3000\n")
     file = root / "studio" / "scenario" / "tyres" / "smart_175_55r15.tir"
-    code, out, err = studio("tyre", file, "--rows", "rows.csv", "--out", "out.csv", "--plot", "plot.png", cwd=tmp_path)
+    code, _, err = studio("tyre", file, "--rows", "rows.csv", "--out", "out.csv", "--plot", "plot.png", cwd=tmp_path)
     assert code == 0, err
     rows = (tmp_path / "out.csv").read_text().splitlines()
     assert rows[0] == "kappa,alpha_rad,gamma_rad,Fz_N,Fx_N,Fy_N,Mz_Nm" and len(rows) == 3

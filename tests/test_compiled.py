@@ -2,15 +2,16 @@
 
 import importlib
 import os
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from studio import compiled
-from studio.compiled import PACKAGE, Locator, closure, digest_of, folder_of, imports
+from studio.compiled import Locator, folder_of
+from studio.source import PACKAGE, closure, compiled_functions, digest_of, imports
 
-MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("world", "motion.py"), ("model", "tyre.py"), ("assess", "safety.py")))
+MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("vehicle", "motion.py"), ("model", "tyre.py"), ("assess", "safety.py")))
 
 
 @pytest.fixture
@@ -71,27 +72,29 @@ def test_a_changed_helper_is_compiled_anew(program):
     assert again(1.0) == 10.0 and sum(again.stats.cache_hits.values()) == 1
 
 
+def test_a_function_is_compiled_once_however_many_want_it(program, tmp_path, monkeypatch):
+    """Four processes want it at the same moment: one compiles, the others take what it has made."""
+    program("helper_of_mine", HELPER.format(3))
+    program("own_of_mine", USER)
+    script = "from own_of_mine import twice; twice(1.0); print(sum(twice.stats.cache_misses.values()))"
+    environment = os.environ | {"PYTHONPATH": str(tmp_path), "STUDIO_CACHE": str(tmp_path / "cache")}
+    command = [sys.executable, "-c", script]
+    waiting = [subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) for _ in range(4)]
+    misses = sorted(int(each.communicate()[0]) for each in waiting)
+    assert misses == [0, 0, 0, 1]
+    assert len(list((tmp_path / "cache").rglob("*.nbc"))) == 2  # `twice` and `gain`
+
+
 def test_two_processes_that_compile_at_once_do_not_mix_their_code(program):
     """Both find an empty index; each writes code for another type."""
     program("helper_of_mine", HELPER.format(3))
     one, other = program("own_of_mine", USER).twice, program("own_of_mine", USER).twice
     read = other._cache._cache_file._load_index
-    other._cache._cache_file._load_index = lambda: {}  # what it read before the first had written
+    other._cache._cache_file._load_index = dict  # what it read before the first had written
     assert one(1.5) == 9.0 and other(2) == 12
     other._cache._cache_file._load_index = read
     later = program("own_of_mine", USER).twice
     assert later(1.5) == 9.0 and later(2) == 12
-
-
-def test_what_is_long_unused_is_forgotten(tmp_path):
-    for name in ("old", "used"):
-        (tmp_path / name).mkdir()
-        (tmp_path / name / "code.nbc").touch()
-        (tmp_path / f"{name}.py").touch()
-    for name in ("old", "old.py"):
-        os.utime(tmp_path / name, (0, 0))
-    compiled.forget_old(tmp_path)
-    assert {path.name for path in tmp_path.iterdir()} == {"used", "used.py"}
 
 
 def test_a_function_lies_where_its_digest_says():
@@ -99,3 +102,9 @@ def test_a_function_lies_where_its_digest_says():
 
     assert isinstance(forces._cache._impl.locator, Locator)
     assert forces._cache.cache_path == str(folder_of(TYRE))
+
+
+def test_compiled_functions_of_a_file_are_known():
+    assert "forces" in compiled_functions(TYRE) and "formula_angle" in compiled_functions(TYRE)
+    assert compiled_functions(PACKAGE / "application" / "host.py") == ["put"]  # the loop that it writes stands in another file
+    assert compiled_functions(PACKAGE / "compiled.py") == []

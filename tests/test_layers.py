@@ -7,19 +7,21 @@ from pathlib import Path
 import pytest
 
 FLOORS = [
-    {"errors", "conventions", "compiled", "portable"},
+    {"errors", "conventions", "rows", "cache", "source", "sample", "compiled", "portable"},
     {"model"},
     {"road"},
     {"scenario"},
     {"application"},
+    {"vehicle"},
     {"world"},
     {"execution"},
     {"assess"},
     {"store"},
     {"job"},
     {"rig"},
-    {"bench"},
+    {"warmup"},
     {"scene"},
+    {"bench"},
     {"server"},
     {"cli"},
 ]
@@ -78,7 +80,18 @@ def test_models_are_pure():
         assert not any(word in text for word in ("np.zeros", "np.array(", "open(", "print(")), path
 
 
-def test_only_the_world_indexes_rows():
-    """Names of rows are used in `world/`, where a frame for the eye or a record is made of them, and by rig and benchmark."""
-    users = {path.relative_to(PACKAGE).parts[0] for path in FILES if "studio.world.state" in path.read_text(encoding="utf-8")}
-    assert users <= {"world", "execution", "server", "rig", "bench.py"}
+ROWS = ("vehicle.state", "vehicle.contact", "vehicle.command", "vehicle.parameter", "world.mind", "world.street", "world.unit")
+
+
+def test_only_vehicle_and_world_index_rows():
+    """Numbers of rows are used there, where a frame for the eye or a record is made of them, and by rig and benchmark."""
+    named = tuple(f"from studio.{module} import" for module in ROWS)
+    users = {path.relative_to(PACKAGE).parts[0] for path in FILES if any(line in path.read_text(encoding="utf-8") for line in named)}
+    assert users == {"vehicle", "world", "execution", "server", "rig", "bench.py"}
+
+
+def test_nothing_is_imported_by_a_star():
+    """What a file uses stands at its head, where tools can check it."""
+    for path in FILES:
+        nodes = ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        assert not any(alias.name == "*" for node in nodes if isinstance(node, ast.ImportFrom) for alias in node.names), path

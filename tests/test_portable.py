@@ -28,7 +28,7 @@ for path in sys.argv[2:]:
         digest.update(array.tobytes())
 world = build([job.prepare(job.load(sys.argv[1]))])
 digest.update(world.roads.points.tobytes())
-digest.update(world.roads.zone_span.tobytes())
+digest.update(world.roads.conflicts.zone_span.tobytes())
 for _ in range(100):
     tick(world)
 print(digest.hexdigest(), world.digest())

@@ -24,7 +24,22 @@ def test_commands(text, root, tmp_path_factory):
         (folder / name).symlink_to(root / name)
     lines = [line for block in blocks(text, "sh") for line in block.splitlines() if line.startswith("uv run studio ")]
     commands = [shlex.split(line)[3:] for line in lines if "--applications" not in line]
-    assert [each[0] for each in commands] == ["check", "run", "run", "runs", "compare", "vehicles", "vehicles", "drive", "drive", "tyre", "import", "correct", "correct", *3 * ["generate"]]
+    assert [each[0] for each in commands] == [
+        "check",
+        "run",
+        "run",
+        "runs",
+        "compare",
+        "vehicles",
+        "vehicles",
+        "drive",
+        "drive",
+        "tyre",
+        "import",
+        "correct",
+        "correct",
+        *3 * ["generate"],
+    ]
     for command in commands:
         done = subprocess.run([sys.executable, "-m", "studio.cli", *command], cwd=folder, capture_output=True, text=True)
         assert done.returncode == 0, (command, done.stderr)

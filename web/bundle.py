@@ -9,7 +9,7 @@ import importlib.util
 import os
 import shutil
 import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
@@ -153,13 +153,11 @@ def run(command: Sequence[str], **variables: str) -> subprocess.CompletedProcess
     environment = {key: value for key, value in os.environ.items() if key != "NODE_ENV"}
     environment["PATH"] = node().folder + os.pathsep + environment.get("PATH", "")
     environment |= variables
-    return subprocess.run(
-        list(command), cwd=WEB, env=environment, capture_output=True, text=True, encoding="utf-8", errors="replace"
-    )
+    return subprocess.run(list(command), cwd=WEB, env=environment, capture_output=True, text=True, encoding="utf-8", errors="replace")
 
 
 @contextmanager
-def lock() -> Iterator[None]:
+def lock() -> Generator[None]:
     """Only one build at a time in one tree; where files cannot be locked, hope for the best."""
     try:
         import fcntl

@@ -19,5 +19,12 @@ export default defineConfig({
     cssTarget: BROWSERS,
   },
   server: { proxy: { "/api": relay, "/scene": relay } },
-  test: { environment: "happy-dom", include: ["src/**/*.test.{ts,tsx}"], setupFiles: ["src/test/setup.ts"] },
+  test: {
+    environment: "happy-dom",
+    include: ["src/**/*.test.{ts,tsx}"],
+    setupFiles: ["src/test/setup.ts"],
+    // Nothing is proven by it: a machine may be slow, and busy.
+    testTimeout: 300_000,
+    hookTimeout: 300_000,
+  },
 });

@@ -23,21 +23,13 @@ class Parameters(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     headway: float = Field(1.2, ge=0.2, le=5.0, title="Time headway", description="h", json_schema_extra={"unit": "s"})
-    standstill: float = Field(
-        2.0, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"}
-    )
-    gap_gain: float = Field(
-        0.1, gt=0.0, le=2.0, title="Gap gain", description="lambda", json_schema_extra={"unit": "1/s"}
-    )
+    standstill: float = Field(2.0, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"})
+    gap_gain: float = Field(0.1, gt=0.0, le=2.0, title="Gap gain", description="lambda", json_schema_extra={"unit": "1/s"})
     cruise_gain: float = Field(
         0.5, gt=0.0, le=3.0, title="Cruise gain", description="on the set speed, road free", json_schema_extra={"unit": "1/s"}
     )
-    acceleration_max: float = Field(
-        2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"}
-    )
-    deceleration_max: float = Field(
-        8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"}
-    )
+    acceleration_max: float = Field(2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"})
+    deceleration_max: float = Field(8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"})
 
 
 class Memory(NamedTuple):

@@ -27,15 +27,9 @@ class Parameters(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     headway: float = Field(0.6, ge=0.1, le=5.0, title="Time headway", description="h", json_schema_extra={"unit": "s"})
-    standstill: float = Field(
-        2.5, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"}
-    )
-    k_p: float = Field(
-        0.2, ge=0.0, le=5.0, title="Gain on the gap", description="k_p", json_schema_extra={"unit": "1/s²"}
-    )
-    k_d: float = Field(
-        0.7, ge=0.0, le=5.0, title="Gain on its change", description="k_d", json_schema_extra={"unit": "1/s"}
-    )
+    standstill: float = Field(2.5, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"})
+    k_p: float = Field(0.2, ge=0.0, le=5.0, title="Gain on the gap", description="k_p", json_schema_extra={"unit": "1/s²"})
+    k_d: float = Field(0.7, ge=0.0, le=5.0, title="Gain on its change", description="k_d", json_schema_extra={"unit": "1/s"})
     timeout: float = Field(
         0.5,
         gt=0.0,
@@ -44,18 +38,12 @@ class Parameters(BaseModel):
         description="age of a message after which it is not trusted",
         json_schema_extra={"unit": "s"},
     )
-    fallback_headway: float = Field(
-        1.6, ge=0.1, le=5.0, title="Headway without link", json_schema_extra={"unit": "s"}
-    )
+    fallback_headway: float = Field(1.6, ge=0.1, le=5.0, title="Headway without link", json_schema_extra={"unit": "s"})
     cruise_gain: float = Field(
         0.5, gt=0.0, le=3.0, title="Cruise gain", description="on the set speed, road free", json_schema_extra={"unit": "1/s"}
     )
-    acceleration_max: float = Field(
-        2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"}
-    )
-    deceleration_max: float = Field(
-        8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"}
-    )
+    acceleration_max: float = Field(2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"})
+    deceleration_max: float = Field(8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"})
 
 
 class Memory(NamedTuple):

@@ -15,14 +15,17 @@ from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from math import nan
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import literal_unroll
 
 from studio.application.contract import Actuators, Clock, Command, Front, Message, Observation, Own
 from studio.application.registry import Application
+from studio.cache import touch
 from studio.compiled import CACHE, compiled
 from studio.errors import ApplicationError
+from studio.rows import Moving
 
 TEMPLATE = '''"""Calls {name} for all its cars."""
 
@@ -49,17 +52,29 @@ def run(columns, parameters, memory, observed, commands):
 FLAGS = ("detected", "received")
 
 
+class Group(NamedTuple):
+    """An application group of a world: its place among all groups, its name, and which of the hosted cars are its."""
+
+    world: int
+    place: int
+    name: str
+    cars: slice
+
+
 @dataclass
 class Hosted:
-    """One application on its cars: columns [car], parameters, memory and observed, [row, car]."""
+    """One application on its cars: columns [car], parameters, memory and observed, [row, car].
+
+    A compiled application is hosted once for all its groups, an ordinary one group by group.
+    """
 
     application: Application
-    group: str
+    groups: list[Group]
     columns: np.ndarray
     links: np.ndarray  # link that each car listens to, -1 when none
     parameters: np.ndarray
-    memory: np.ndarray
-    observed: np.ndarray
+    memory: Moving
+    observed: Moving
     run: Callable
 
     def decide(self, commands: np.ndarray) -> None:
@@ -67,8 +82,9 @@ class Hosted:
         try:
             self.run(self.columns, self.parameters, self.memory, self.observed, commands)
         except (Exception, SystemExit) as error:
+            names = ", ".join(dict.fromkeys(repr(group.name) for group in self.groups))
             raise ApplicationError(
-                f"The application {self.application.name!r} of group {self.group!r} raised:\n{traceback.format_exc()}"
+                f"The application {self.application.name!r} of group {names} raised:\n{traceback.format_exc()}"
             ) from error
 
 
@@ -106,7 +122,7 @@ def put(command, v, commands):
     i = 0
     for value in literal_unroll(command):
         commands[i, v] = value
-        i += 1
+        i += 1  # noqa: SIM113 - numba unrolls no enumeration
 
 
 def memory_of(remembered, kind: type) -> tuple[float, ...]:
@@ -126,7 +142,8 @@ def command_of(command) -> Command | Actuators:
 def observation_of(values: list[float]) -> Observation:
     """An observation from its row of numbers."""
     parts, start = [], 0
-    for part in (Clock, Own, Front, Message):
+    kinds: tuple[Any, ...] = (Clock, Own, Front, Message)
+    for part in kinds:
         fields = dict(zip(part._fields, values[start : start + len(part._fields)], strict=True))
         parts.append(part(**{key: bool(value) if key in FLAGS else value for key, value in fields.items()}))
         start += len(part._fields)
@@ -136,18 +153,20 @@ def observation_of(values: list[float]) -> Observation:
 def compiled_loop(application: Application) -> Callable:
     """The loop written for this application, loaded from its file."""
     source = loop_source(application)
-    key = hashlib.sha256((source + Path(application.module.__file__).read_text("utf-8")).encode()).hexdigest()[:16]
+    key = hashlib.sha256((source + Path(str(application.module.__file__)).read_text("utf-8")).encode()).hexdigest()[:16]
     path = CACHE / f"host_{application.name}_{key}.py"
     if not path.exists():
         draft = path.with_suffix(f".{os.getpid()}")
         draft.write_text(source, encoding="utf-8")
         draft.replace(path)
+    touch(path)
     return load(path).run
 
 
 def load(path: Path):
     """A module from a file."""
     spec = spec_from_file_location(path.stem, path)
+    assert spec and spec.loader, "a file whose name ends in .py has a loader"
     module = module_from_spec(spec)
     sys.modules[path.stem] = module
     spec.loader.exec_module(module)

@@ -16,6 +16,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 
+from studio.compiled import closure, digest_of
 from studio.errors import ApplicationError, Problem, UnknownError, nearest
 
 GROUP = "cooperative_adas_studio.applications"
@@ -38,6 +39,12 @@ class Application:
     def compiled(self) -> bool:
         """Whether `decide` is compiled; else it is called as Python."""
         return getattr(self.module, "COMPILED", False)
+
+    @property
+    def digest(self) -> str:
+        """Digest of its file, and of the files of ours that it imports; the name of a module that stands in no file."""
+        file = getattr(self.module, "__file__", None)
+        return digest_of(*closure(Path(file))) if file else self.name
 
     def parameters(self, given: dict) -> dict:
         """The full set of parameters, checked; raises pydantic's ValidationError."""
@@ -73,7 +80,7 @@ def register(name: str, module: ModuleType) -> Application:
     broken = [problem for check in (check_values, check_compiled) if (problem := check(module))]
     if broken:
         raise ApplicationError(f"The application {name!r} does not keep the contract.", broken)
-    module.ParameterTuple = parameter_tuple(module)
+    vars(module)["ParameterTuple"] = parameter_tuple(module)
     _registered[name] = Application(name, module)
     return _registered[name]
 
@@ -100,7 +107,8 @@ def check_compiled(module: ModuleType) -> Problem | None:
 
 def parameter_tuple(module: ModuleType) -> type:
     """The parameters as a NamedTuple, for `decide`. It belongs to the module: cached machine code finds it there by name."""
-    return namedtuple("ParameterTuple", list(module.Parameters.model_fields), module=module.__name__)
+    fields = list(module.Parameters.model_fields)  # known at run time only, which the type checker does not expect
+    return namedtuple("ParameterTuple", fields, module=module.__name__)  # pyrefly: ignore[bad-class-definition, invalid-argument]
 
 
 @cache
@@ -122,6 +130,7 @@ def load_file(path: Path) -> Application:
     if present and getattr(present.module, "__file__", None) == str(path):
         return present
     spec = spec_from_file_location(f"studio_application_{path.stem}", path)
+    assert spec and spec.loader, "a file whose name ends in .py has a loader"
     module = module_from_spec(spec)
     sys.modules[module.__name__] = module
     try:
@@ -154,4 +163,3 @@ def find(name: str) -> Application:
     if name not in applications:
         raise UnknownError(f"There is no application {name!r}; {nearest(name, applications)}")
     return applications[name]
-

@@ -1,17 +1,17 @@
 """From a document to a complete scenario: applications found, their parameters checked and filled in, changes applied.
 
-    complete(document)  →  Scenario        every default filled in, every name known
-    change(document, {path: value})        an exchange of an application keeps the parameters that both have
+complete(document)  →  Scenario        every default filled in, every name known
+change(document, {path: value})        an exchange of an application keeps the parameters that both have
 """
 
-import copy
 from typing import Any
 
 from pydantic import ValidationError
 
 from studio.application import registry
 from studio.errors import Problem, ScenarioError, UnknownError
-from studio.scenario import edit, file
+from studio.scenario import edit, file, finding
+from studio.scenario.patch import Operation, operation, patched
 from studio.scenario.schema import Application, Scenario
 
 
@@ -30,11 +30,12 @@ def filled(where: str, path: str, group: Application) -> tuple[Application, list
     """A group with all parameters of its application, or the problems."""
     try:
         application = registry.find(group.application)
-        return group.model_copy(update={"parameters": application.parameters(group.parameters)}), []
     except UnknownError as error:
         return group, [Problem(f"{where}: {path}.application", error.message)]
+    try:
+        return group.model_copy(update={"parameters": application.parameters(group.parameters)}), []
     except ValidationError as error:
-        return group, file.problems(error, where, application.module.Parameters, under=f"{path}.parameters.")
+        return group, finding.problems(error, where, application.module.Parameters, under=f"{path}.parameters.")
 
 
 def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dict[str, Any]:
@@ -44,11 +45,11 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
     """
     exchanges = {path: value for path, value in changes.items() if is_exchange(document, path)}
     for path, name in exchanges.items():
-        document = exchange(document, path.split(".")[1], name)
+        document = patched(document, exchange(document, path.split(".")[1], name))
     full = complete(document, where).model_dump(mode="json")
     for path, value in changes.items():
         if path not in exchanges:
-            document = edit.put(document, full, path, value)
+            document = patched(document, edit.assignment(document, full, path, value))
     return document
 
 
@@ -58,12 +59,12 @@ def is_exchange(document: dict[str, Any], path: str) -> bool:
     return len(parts) == 3 and parts[0] == "applications" and parts[2] == "application" and edit.has(document, path)
 
 
-def exchange(document: dict[str, Any], group: str, name: Any) -> dict[str, Any]:
-    """The document with another application in a group; parameters that it does not have are dropped."""
-    changed = copy.deepcopy(document)
-    setup = changed["applications"][group]
-    setup["application"] = name
+def exchange(document: dict[str, Any], group: str, name: Any) -> list[Operation]:
+    """The patch that puts another application into a group; parameters that it does not have are dropped."""
+    patch = [operation("replace", ["applications", group, "application"], value=name)]
     if isinstance(name, str) and name in registry.known():
         fields = registry.find(name).module.Parameters.model_fields
-        setup["parameters"] = {key: value for key, value in (setup.get("parameters") or {}).items() if key in fields}
-    return changed
+        given = document["applications"][group].get("parameters") or {}
+        kept = {key: value for key, value in given.items() if key in fields}
+        patch.append(operation("add", ["applications", group, "parameters"], value=kept))
+    return patch

@@ -37,9 +37,7 @@ def parameters(a: dict[str, Any], b: dict[str, Any]) -> list[ParameterDifference
     """Leaves of two documents that differ; one that stands on one side only is shown, not dropped."""
     left, right = flatten(a), flatten(b)
     paths = [*left, *(path for path in right if path not in left)]
-    return [
-        ParameterDifference(path, left.get(path), right.get(path)) for path in paths if left.get(path) != right.get(path)
-    ]
+    return [ParameterDifference(path, left.get(path), right.get(path)) for path in paths if left.get(path) != right.get(path)]
 
 
 def metrics(a: dict[str, Measured], b: dict[str, Measured]) -> list[MetricDifference]:
@@ -51,6 +49,7 @@ def metrics(a: dict[str, Measured], b: dict[str, Measured]) -> list[MetricDiffer
 def metric(name: str, a: Measured | None, b: Measured | None) -> MetricDifference:
     """One metric."""
     known = a or b
+    assert known, f"no run has {name}"
     left, right = (each.value if each else None for each in (a, b))
     if left is None or right is None:
         return MetricDifference(name, known.unit, known.goal, left, right, None, None, None)

@@ -6,10 +6,12 @@ measure it on (no platoon, nobody ahead); it is stored as empty, and no goal is 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from studio.errors import StudioError
-from studio.execution.record import Record
+
+if TYPE_CHECKING:  # values of metrics are read where nothing is simulated
+    from studio.execution.record import Record
 
 Direction = Literal["higher", "lower"] | None
 
@@ -22,7 +24,7 @@ class Metric:
     unit: str
     goal: Direction
     title: str
-    measure: Callable[[Record], float]
+    measure: Callable[["Record"], float]
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ _registered: dict[str, Metric] = {}
 def metric(name: str, *, unit: str, goal: Direction, title: str):
     """Decorator that registers a metric; a name can be given once."""
 
-    def register(measure: Callable[[Record], float]) -> Callable[[Record], float]:
+    def register(measure: Callable[["Record"], float]) -> Callable[["Record"], float]:
         if name in _registered:
             raise StudioError(f"The metric name {name!r} is taken.")
         _registered[name] = Metric(name, unit, goal, title, measure)

@@ -4,6 +4,8 @@ Per-hop gain in the L2 sense, ||a_i|| / ||a_{i-1}|| of the accelerations (J. Plo
 Technology 22 (2014) 786): above 1 the next car works harder than the one ahead of it.
 """
 
+import itertools
+
 import numpy as np
 
 from studio.assess.metric import metric
@@ -20,7 +22,7 @@ def strength(record: Record, vehicle: str) -> float:
 def gains(record: Record, chain: Chain) -> list[float]:
     """Gain of every hop of a chain that had something to pass on."""
     levels = [strength(record, vehicle) for vehicle in chain.vehicles if vehicle in record.vehicles]
-    return [level / ahead for ahead, level in zip(levels, levels[1:], strict=False) if ahead > QUIET]
+    return [level / ahead for ahead, level in itertools.pairwise(levels) if ahead > QUIET]
 
 
 @metric("worst_hop_gain", unit="1", goal="lower", title="Greatest gain from car to car")

@@ -15,9 +15,8 @@ SLOWEST, FASTEST = 0.1, 8.0
 def as_fast_as_possible(simulation: Simulation, progress: Callable[[float], None] = lambda share: None) -> None:
     """Runs to the end; `progress` gets the share done, 0 to 1."""
     while not simulation.is_over:
-        simulation.advance()
-        if simulation.world.clock.k % REPORT_EVERY == 0:
-            progress(min(simulation.world.clock.k / simulation.ticks, 1.0))
+        simulation.advance(REPORT_EVERY)
+        progress(min(simulation.world.clock.k / simulation.ticks, 1.0))
     progress(1.0)
 
 
@@ -26,19 +25,23 @@ class Pace:
     """Real time against simulated time. `factor` is simulated over real seconds, infinite for as fast as possible."""
 
     factor: float = 1.0
-    real: float = field(default_factory=time.perf_counter)
     simulated: float = 0.0
+    clock: Callable[[], float] = time.perf_counter  # real time [s]
+    real: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.restart(self.simulated)
 
     def restart(self, simulated: float) -> None:
         """Counts from now: after a pause, or when the factor has changed."""
-        self.real, self.simulated = time.perf_counter(), simulated
+        self.real, self.simulated = self.clock(), simulated
 
     def wait(self, simulated: float) -> float:
         """Seconds of real time until the simulated time is due; zero when it is."""
         if self.factor == inf:
             return 0.0
         due = self.real + (simulated - self.simulated) / self.factor
-        early = due - time.perf_counter()
+        early = due - self.clock()
         if early < -LONGEST_DEBT:
             self.restart(simulated)
         return max(early, 0.0)

@@ -1,6 +1,6 @@
 """Brakes: hydraulics of one axle, first order with a dead time.
 
-    tau_b dP/dt = b u(t - t_d) - P,    T_front = K_b xi P,    T_rear = K_b (1 - xi) P        (Massow & Radusch 2018, Eqs. 2, 3)
+tau_b dP/dt = b u(t - t_d) - P,    T_front = K_b xi P,    T_rear = K_b (1 - xi) P        (Massow & Radusch 2018, Eqs. 2, 3)
 """
 
 from studio.compiled import inlined

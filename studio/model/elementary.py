@@ -9,15 +9,17 @@ Source of the reductions: W. J. Cody, W. Waite, Software Manual for the Elementa
 """
 
 from math import floor, pi, sqrt
+from typing import Any
 
-from numba import types
-from numba.extending import intrinsic
+from numba import extending, types
 
 from studio.compiled import compiled
 
 TAN_EIGHTH, TAN_THREE_EIGHTHS = 0.41421356237309503, 2.414213562373095  # tan(pi/8), tan(3 pi/8)
 PI_HIGH, PI_LOW = 3.141592653589793, 1.2246467991473532e-16  # pi in two parts
 EXP_LIMIT = 20.0  # arguments of `exp` are bounded by ± this
+
+intrinsic: Any = extending.intrinsic  # its own types are about what makes the code, not about the call
 
 
 @intrinsic

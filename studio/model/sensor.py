@@ -15,8 +15,13 @@ V_CURVE = 2.0  # [m/s] below this the yaw rate says nothing about the path
 @compiled
 def seen_from(x, y, psi, x_other, y_other):
     """Position [m] of a point in the axes of an observer at x, y, psi: forward and left."""
-    dx, dy = x_other - x, y_other - y
-    return dx * cos(psi) + dy * sin(psi), dy * cos(psi) - dx * sin(psi)
+    return turned(x_other - x, y_other - y, cos(psi), sin(psi))
+
+
+@compiled
+def turned(dx, dy, c, s):
+    """A direction of the world in the axes of an observer whose heading has the cosine c and the sine s: forward and left."""
+    return dx * c + dy * s, dy * c - dx * s
 
 
 @compiled

@@ -336,9 +336,7 @@ def equivalent_slip(shifted, slip):
 @compiled(forceinline=True)
 def trail_curvature(t, gamma_z, df_z, slope):
     """E_t [1] (4.E44); `slope` = B_t C_t alpha_t, with alpha_t as in pure slip also when slip is combined."""
-    E = (t.QEZ1 + t.QEZ2 * df_z + t.QEZ3 * df_z * df_z) * (
-        1.0 + (t.QEZ4 + t.QEZ5 * gamma_z) * (2.0 / pi) * atan(slope)
-    )
+    E = (t.QEZ1 + t.QEZ2 * df_z + t.QEZ3 * df_z * df_z) * (1.0 + (t.QEZ4 + t.QEZ5 * gamma_z) * (2.0 / pi) * atan(slope))
     return min(E, 1.0)
 
 

@@ -27,9 +27,49 @@ from studio.errors import Problem, RunError, ScenarioError, UnknownError, neares
 from studio.rig import table
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.world import broken, fleet
-from studio.world.fleet import Fleet, Start
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle import broken, fleet
+from studio.vehicle.command import RING, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER
+from studio.vehicle.contact import SLOPE_X
+from studio.vehicle.fleet import Fleet, Start
+from studio.vehicle.parameter import BRAKE_MAX, DELAY_BRAKE, DELAY_DRIVE, G_RATIO, GEARS, IDLE, LIMIT, STEER_RATIO
+from studio.vehicle.state import (
+    A_X,
+    A_Y,
+    A_Z,
+    ACCELERATOR,
+    ALPHA,
+    CLUTCH,
+    DELTA,
+    F_X,
+    F_Y,
+    F_Z,
+    GEAR,
+    J_GEAR,
+    KAPPA,
+    M_Z,
+    NEXT_GEAR,
+    NEXT_RATIO,
+    OMEGA,
+    OMEGA_E,
+    PITCH,
+    PITCH_RATE,
+    PRESSURE_F,
+    PRESSURE_R,
+    PSI,
+    RATIO,
+    ROLL,
+    ROLL_RATE,
+    T_ENGINE,
+    TORQUE_BRAKE,
+    TORQUE_DRIVE,
+    TRAVEL,
+    V_X,
+    V_Y,
+    YAW_RATE,
+    X,
+    Y,
+    Z,
+)  # fmt: skip
 
 PERIOD = 0.01  # [s] between two rows of the result
 LONGEST = 3600.0  # [s] of inputs
@@ -103,8 +143,8 @@ def drive(
     """Drives a vehicle by a table of inputs: a CSV file, or columns by name.
 
     vehicle is a name of the catalogue, a path of a vehicle file, or a model; speed [m/s] at the start; tyre a .tir file, or a
-    name of the catalogue, for all wheels; changes by path (`body.mass`, `road.friction`, `road.slope`); step [s] of the integration; period [s] of the
-    result. Raises ScenarioError, UnknownError; RunError when a state is not finite any more.
+    name of the catalogue, for all wheels; changes by path (`body.mass`, `road.friction`, `road.slope`); step [s] of the
+    integration; period [s] of the result. Raises ScenarioError, UnknownError; RunError when a state is not finite any more.
     """
     model, road = prepared(vehicle, tyre, dict(changes or {}))
     given = given_inputs(inputs)
@@ -124,7 +164,7 @@ def prepared(vehicle: str | VehicleModel, tyre: Path | str | None, changes: dict
         changes |= {"tyres.front": path, "tyres.rear": path}
     if isinstance(vehicle, VehicleModel):
         return (catalogue.changed(vehicle, changes) if changes else vehicle), road
-    return catalogue.find_vehicle(str(vehicle), changes), road
+    return catalogue.find_vehicle(vehicle, changes), road
 
 
 def road_value(path: str, value: Any) -> float:
@@ -169,9 +209,7 @@ def put_in_gear(rig: Fleet, gear: int) -> None:
     ratios = rig.gears[G_RATIO * GEARS : (G_RATIO + 1) * GEARS, 0]
     gears = [g - 1 for g in range(GEARS) if ratios[g] != 0.0 or g == 1]
     if gear not in gears:
-        raise ScenarioError(
-            "The vehicle has no such gear.", [Problem("gear", "does not exist", str(gear), f"{gears[0]} to {gears[-1]}")]
-        )
+        raise ScenarioError("The vehicle has no such gear.", [Problem("gear", "does not exist", str(gear), f"{gears[0]} to {gears[-1]}")])
     fleet.engage(rig, 0, gear)
     if abs(rig.state[OMEGA_E, 0]) > rig.parameter[LIMIT, 0] * OVERSPEED:
         what = f"over-revs at this speed: {rig.state[OMEGA_E, 0]:.0f} rad/s"
@@ -212,12 +250,13 @@ def sequence_problems(rows: table.Table, values: Mapping[str, np.ndarray]) -> li
         problems.append(Problem(rows.where(0, "time_s"), "does not begin with 0", f"{time[0]:g}", "0 [s]"))
     if time.size < 2:
         problems.append(Problem(rows.name, "has one row only", allowed="two rows or more"))
-    for i in np.flatnonzero(np.diff(time) <= 0.0):
+    for i in np.flatnonzero(np.diff(time) <= 0.0).tolist():
         what = f"is not later than the row before ({time[i]:g} s)"
         problems.append(Problem(rows.where(i + 1, "time_s"), what, f"{time[i + 1]:g}", remedy="sort the rows by time"))
-    for i in np.flatnonzero(values.get("gear", np.zeros(1)) % 1.0):
-        problems.append(Problem(rows.where(i, "gear"), "is not a whole number", f"{values['gear'][i]:g}", "-1, 0, 1, 2 ..."))
-    return problems
+    return problems + [
+        Problem(rows.where(i, "gear"), "is not a whole number", f"{values['gear'][i]:g}", "-1, 0, 1, 2 ...")
+        for i in np.flatnonzero(values.get("gear", np.zeros(1)) % 1.0).tolist()
+    ]
 
 
 def pairs_problems(rows: table.Table) -> list[Problem]:
@@ -271,14 +310,12 @@ def recorded(name: str, rig: Fleet, given: Mapping[str, np.ndarray], step: float
     """Drives from the first to the last time of the inputs."""
     every, steps = round(period / step), ceil(given["time_s"][-1] / step - 1e-6)
     delays, rows = take_delays(rig), [sample(rig, 0.0)]
-    before = rig.state.copy(), rig.wheels.copy()
     for k in range(steps):
         command(rig, given, delays, k, k * step)
         fleet.advance(rig, k, step, step)
         if broken.columns(rig).size:
-            found = broken.first(rig, *before, 0, k=k, tick=step, step=step)
+            found = broken.first(rig, 0, k=k, tick=step, step=step)
             raise RunError(f"{found.quantity} of {name} is not finite any more at {k * step + found.after:.3f} s.")
-        before[0][:], before[1][:] = rig.state, rig.wheels
         if (k + 1) % every == 0:
             rows.append(sample(rig, (k + 1) * step))
             progress((k + 1) / steps)

@@ -58,16 +58,17 @@ def text(path: Path) -> str:
         opened = gzip.open if path.suffix == ".gz" else open
         with opened(path, "rb") as file:
             data = file.read(SIZE_LIMIT + 1)
-    except OSError as error:
-        refuse(path.name, [Problem(str(path), f"cannot be opened: {error.strerror or error}")])
-    except (EOFError, zlib.error) as error:
-        refuse(path.name, [Problem(str(path), f"is damaged: {error}", remedy="pack it again with gzip")])
-    if len(data) > SIZE_LIMIT:
-        refuse(path.name, [Problem(str(path), "is too large", allowed=f"{SIZE_LIMIT} bytes", remedy="cut it into parts")])
-    try:
-        return data.decode("utf-8-sig")
+        if len(data) > SIZE_LIMIT:
+            problem = Problem(str(path), "is too large", allowed=f"{SIZE_LIMIT} bytes", remedy="cut it into parts")
+        else:
+            return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return refuse(path.name, [Problem(str(path), "is not a text file", allowed="CSV in UTF-8")])
+        problem = Problem(str(path), "is not a text file", allowed="CSV in UTF-8")
+    except OSError as error:
+        problem = Problem(str(path), f"cannot be opened: {error.strerror or error}")
+    except (EOFError, zlib.error) as error:
+        problem = Problem(str(path), f"is damaged: {error}", remedy="pack it again with gzip")
+    raise refusal(path.name, [problem])
 
 
 def head_problems(table: Table, needed: list[str], known: Iterable[str] | None) -> list[Problem]:
@@ -81,7 +82,7 @@ def head_problems(table: Table, needed: list[str], known: Iterable[str] | None) 
     return [
         *(Problem(where, f"has no column {name}", remedy=nearest(name, table.head)) for name in missing),
         *(Problem(where, "has a column twice", name, "every name once") for name in twice),
-        *(Problem(where, "has a column that is not known", name or "no name", remedy=nearest(name, known)) for name in strange),
+        *(Problem(where, "has a column that is not known", name or "no name", remedy=nearest(name, known or ())) for name in strange),
     ]
 
 
@@ -151,7 +152,12 @@ def check_output(out: Path, *inputs: Path) -> None:
 
 
 def refuse(name: str, problems: list[Problem], what: str = "cannot be used as a table") -> None:
-    """Raises ScenarioError when there are problems; shows the first of many."""
+    """Raises ScenarioError when there are problems."""
     if problems:
-        more = f" The first {MOST} of {len(problems)} problems:" if len(problems) > MOST else ""
-        raise ScenarioError(f"{name} {what}.{more}", problems[:MOST])
+        raise refusal(name, problems, what)
+
+
+def refusal(name: str, problems: list[Problem], what: str = "cannot be used as a table") -> ScenarioError:
+    """What is told of problems: the first of many."""
+    more = f" The first {MOST} of {len(problems)} problems:" if len(problems) > MOST else ""
+    return ScenarioError(f"{name} {what}.{more}", problems[:MOST])

@@ -59,8 +59,9 @@ def bench(file: Path, rows: Path, out: Path) -> int:
 def sweep(t: Tyre, kappa, alpha, gamma, F_z) -> np.ndarray:
     """F_x, F_y [N], M_z [Nm], shaped [3, row], for slips kappa [1], angles alpha, gamma [rad] and loads F_z [N]."""
     given = np.broadcast_arrays(kappa, np.tan(alpha), np.sin(gamma), F_z)
-    result = np.empty((len(OUTPUTS), given[0].size))
-    sweep_rows(t, *[np.ascontiguousarray(column, dtype=float) for column in given], result)
+    kappa, tangent, sine, F_z = (np.ascontiguousarray(column, dtype=float) for column in given)
+    result = np.empty((len(OUTPUTS), kappa.size))
+    sweep_rows(t, kappa, tangent, sine, F_z, result)
     return result
 
 
@@ -82,10 +83,7 @@ def with_results(slips: Table, results: np.ndarray) -> list[list[str]]:
     replaced = [name for name in OUTPUTS if name + GIVEN in slips.head]
     kept = [i for i, name in enumerate(slips.head) if name not in replaced]
     head = [slips.head[i] + GIVEN * (slips.head[i] in OUTPUTS) for i in kept]
-    rows = [
-        [row[i] for i in kept] + [f"{value:.{DIGITS}g}" for value in forces]
-        for row, forces in zip(slips.rows, results.T, strict=True)
-    ]
+    rows = [[row[i] for i in kept] + [f"{value:.{DIGITS}g}" for value in forces] for row, forces in zip(slips.rows, results.T, strict=True)]
     return [[*head, *OUTPUTS], *rows]
 
 

@@ -1,7 +1,7 @@
 """What is made from a map, kept on disk: the second time it is only read back.
 
-A file is named by the digest of everything that it is made of. Anything unreadable counts as nothing and is made again;
-a full disk only costs the next making.
+A file is named by the digest of everything that it is made of, so those of several versions lie side by side; what nobody reads
+for long is removed. Anything unreadable counts as nothing and is made again; a full disk only costs the next making.
 """
 
 import hashlib
@@ -10,7 +10,8 @@ import pickle
 import tempfile
 from pathlib import Path
 
-from studio.compiled import cache_root, closure
+from studio.cache import cache_root, forget_old, touch
+from studio.source import closure
 
 
 def digest_of(*parts: object, maker: str) -> str:
@@ -29,9 +30,11 @@ def kept_at(kind: str, digest: str) -> Path:
 
 def recall(kind: str, digest: str) -> object | None:
     """What was kept, or None."""
+    path = kept_at(kind, digest)
     try:
-        with kept_at(kind, digest).open("rb") as file:
+        with path.open("rb") as file:
             checksum, body = file.read(32), file.read()
+        touch(path)
         return pickle.loads(body) if hashlib.sha256(body).digest() == checksum else None
     except Exception:  # a damaged pickle can raise anything
         return None
@@ -43,6 +46,7 @@ def keep(kind: str, digest: str, thing: object) -> None:
     target = kept_at(kind, digest)
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
+        forget_old(target.parent)
         handle, beside = tempfile.mkstemp(dir=target.parent)
     except OSError:
         return

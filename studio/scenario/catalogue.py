@@ -18,7 +18,8 @@ from typing import Any, Literal
 from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
-from studio.scenario import datasheet, edit, file, tir
+from studio.scenario import datasheet, edit, finding, tir
+from studio.scenario.patch import patched
 from studio.scenario.tir import PropertyFile
 from studio.scenario.vehicle import Origin, Vehicle
 
@@ -66,9 +67,7 @@ def is_path(name: str, *suffixes: str) -> bool:
 def with_tyres_from(folder: Path, changes: Mapping[str, Any]) -> dict[str, Any]:
     """Changes in which paths of tyres do not depend on a folder any more."""
     return {
-        path: str((folder / value).resolve())
-        if path.startswith("tyres.") and isinstance(value, str) and is_path(value, ".tir")
-        else value
+        path: str((folder / value).resolve()) if path.startswith("tyres.") and isinstance(value, str) and is_path(value, ".tir") else value
         for path, value in changes.items()
     }
 
@@ -109,7 +108,7 @@ def changed(model: VehicleModel, changes: Mapping[str, Any]) -> VehicleModel:
         raise ScenarioError(f"{model.name} has no such values to set.", problems)
     document = full
     for path, value in changes.items():
-        document = edit.put(document, full, path, value)
+        document = patched(document, edit.assignment(document, full, path, value))
     other = replace(model, values=validated(document, model.name), origins=changed_origins(model, full, changes))
     has_tyres(other)
     return other
@@ -143,9 +142,7 @@ def validated(document: dict[str, Any], name: str) -> Vehicle:
 def told(error: ValidationError, name: str) -> list[Problem]:
     """The schema's findings about a changed vehicle."""
     found = [(datasheet.path_of(each), each) for each in error.errors(include_url=False)]
-    return [
-        Problem(f"{name}: {path}" if path else name, *datasheet.explained(each, path, {})) for path, each in found
-    ]
+    return [Problem(f"{name}: {path}" if path else name, *datasheet.explained(each, path, {})) for path, each in found]
 
 
 def changed_origins(model: VehicleModel, full: dict[str, Any], changes: Iterable[str]) -> dict[str, Origin]:
@@ -154,7 +151,7 @@ def changed_origins(model: VehicleModel, full: dict[str, Any], changes: Iterable
     for path in changes:
         quantity = ".".join(path.split(".")[:2])
         if quantity in origins:
-            given = file.short(edit.get(full, quantity))
+            given = finding.short(edit.get(full, quantity))
             was = model.origins[quantity]
             origins[quantity] = replace(was, origin="set", source=f"in place of {given} ({was.origin}: {was.source})")
     return origins
@@ -179,9 +176,7 @@ def tyre_file(name: str, *, folder: Path = Path()) -> Path:
     path = folder / name if own else TYRES / f"{name}.tir"
     if not path.is_file():
         beside = [each.name for each in path.parent.glob("*.tir")] if own and path.parent.is_dir() else tyre_names()
-        problem = Problem(
-            str(path) if own else "tyre", "does not exist", name, "a name of the catalogue or the path of a .tir file"
-        )
+        problem = Problem(str(path) if own else "tyre", "does not exist", name, "a name of the catalogue or the path of a .tir file")
         raise ScenarioError(f"There is no tyre {name!r}.", [replace(problem, remedy=nearest(name, beside))])
     return path
 

@@ -1,6 +1,6 @@
 """Reading a vehicle file (YAML): its values, where each comes from, and everything that is wrong, with its line.
 
-    text → document (plain values) and lines of its keys → leaves: value in the schema's unit, and origin → Vehicle
+    text → source (plain values and their places) → leaves: value in the schema's unit, and origin → Vehicle
 
 A quantity of the schema stands in a file as a leaf, complete with its provenance, or as a plain number:
 
@@ -16,21 +16,21 @@ import reprlib
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
-import yaml
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
 
 from studio.errors import Problem, ScenarioError, nearest
-from studio.scenario import file
+from studio.scenario import file, finding
+from studio.scenario.source import Source
 from studio.scenario.vehicle import ORIGINS, RPM, Origin, Part, Vehicle
 
 SIZE_LIMIT = 1_000_000  # [B] of a vehicle file; those of the catalogue have some 15 kB
 READ_AS_WELL = {"rad/s": {"1/min": RPM, "rpm": RPM}, "rad": {"deg": math.pi / 180}}  # factors to the schema's unit
 LEAF = ("value", "unit", "origin", "source", "range")
 NEEDED = LEAF[:4]
-DEPTH = 4  # levels of a vehicle file: section, quantity, value, entry
 ASSUMED = "not given"  # source of a plain number
 SHORT = reprlib.Repr()
 SHORT.maxlevel = 2  # aliases can nest a few bytes into gigabytes
@@ -53,39 +53,40 @@ def quantities() -> dict[str, Quantity]:
         f"{section}.{name}": quantity(field)
         for section, part in sections().items()
         for name, field in part.model_fields.items()
-        if field.json_schema_extra
+        if unit_of(field)
     }
 
 
 def sections() -> dict[str, type[Part]]:
     """Parts of a vehicle by name."""
     fields = Vehicle.model_fields.items()
-    return {name: field.annotation for name, field in fields if issubclass(field.annotation, Part)}
+    return {name: part for name, field in fields if isinstance(part := field.annotation, type) and issubclass(part, Part)}
 
 
 def quantity(field: FieldInfo) -> Quantity:
     """A field of the schema as a quantity."""
     is_list = field.annotation is not float
-    limits = field.annotation.__args__[0].__metadata__[0].metadata if is_list else field.metadata
-    unit = field.json_schema_extra["unit"]
+    limits = get_args(field.annotation)[0].__metadata__[0].metadata if is_list else field.metadata
+    unit = unit_of(field)
     allowed = " and ".join(bound(each) for each in limits) + with_unit(unit)
-    return Quantity(unit, field.title, allowed, "" if not is_list else counted(field))
+    return Quantity(unit, field.title or "", allowed, "" if not is_list else counted(field))
+
+
+def unit_of(field: FieldInfo) -> str:
+    """The unit that stands beside a field in the schema."""
+    extra = field.json_schema_extra
+    return str(extra["unit"]) if isinstance(extra, dict) else ""
 
 
 def bound(constraint: Any) -> str:
     """A bound of the schema as text."""
-    name, sign = next(
-        pair for pair in (("ge", "≥"), ("gt", ">"), ("le", "≤"), ("lt", "<")) if hasattr(constraint, pair[0])
-    )
+    name, sign = next(pair for pair in (("ge", "≥"), ("gt", ">"), ("le", "≤"), ("lt", "<")) if hasattr(constraint, pair[0]))
     return f"{sign} {getattr(constraint, name):g}"
 
 
 def counted(field: FieldInfo) -> str:
     """How many numbers a list may hold, as text."""
-    least, most = (
-        next(getattr(each, name) for each in field.metadata if hasattr(each, name))
-        for name in ("min_length", "max_length")
-    )
+    least, most = (next(getattr(each, name) for each in field.metadata if hasattr(each, name)) for name in ("min_length", "max_length"))
     return f"{least} numbers" if least == most else f"{least} to {most} numbers"
 
 
@@ -104,74 +105,18 @@ class Datasheet:
 
 def read(path: Path) -> Datasheet:
     """The vehicle in a file; raises ScenarioError with everything that is wrong."""
-    return parse(content(path), str(path))
-
-
-def content(path: Path) -> bytes:
-    """Bytes of a vehicle file."""
-    if not path.is_file():
-        others = [each.name for each in path.parent.glob("*.y*ml")] if path.parent.is_dir() else []
-        raise ScenarioError(
-            f"There is no vehicle file {path}.",
-            [Problem(str(path), "does not exist", remedy=nearest(path.name, others))],
-        )
-    try:
-        with path.open("rb") as opened:
-            data = opened.read(SIZE_LIMIT + 1)
-    except OSError as error:
-        raise ScenarioError(
-            f"{path} cannot be read.", [Problem(str(path), f"cannot be opened: {error.strerror}")]
-        ) from None
-    if len(data) > SIZE_LIMIT:
-        raise ScenarioError(
-            f"{path} cannot be read.",
-            [Problem(str(path), "is too large for a vehicle", allowed=f"{SIZE_LIMIT} bytes")],
-        )
-    return data
+    return parse(file.content(path, "vehicle", SIZE_LIMIT), str(path))
 
 
 def parse(data: bytes, where: str) -> Datasheet:
     """The vehicle in a YAML text; raises ScenarioError with everything that is wrong."""
-    document = mapping(data, where)
-    sheet = Leaves(where, lines(data))
-    plain = sheet.taken(document)
-    values, problems = validated(plain, sheet)
-    if problems := sorted(sheet.problems + problems, key=lambda each: each[0]):
-        raise ScenarioError(f"{where} is not a valid vehicle.", [problem for _, problem in problems])
+    sheet = Leaves(file.mapping(data, where, "vehicle"))
+    plain = sheet.taken(sheet.source.value)
+    values = validated(plain, sheet)
+    if values is None or sheet.problems:
+        found = sorted(sheet.problems, key=lambda each: each[0])
+        raise ScenarioError(f"{where} is not a valid vehicle.", [problem for _, problem in found])
     return Datasheet(values, sheet.origins)
-
-
-def mapping(data: bytes, where: str) -> dict[str, Any]:
-    """The document; raises ScenarioError for what is no YAML, or no mapping."""
-    try:
-        return file.parse(data, where)
-    except ScenarioError as error:
-        if error.message.endswith("is not a scenario."):
-            error.message = f"{where} is not a vehicle."
-        raise
-
-
-def lines(data: bytes) -> dict[str, int]:
-    """Line of each key and list entry by path, of valid YAML."""
-    found = {"": 1}
-    mark(yaml.compose(data.decode("utf-8"), Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader)), "", found)
-    return found
-
-
-def mark(node: yaml.Node, path: str, found: dict[str, int], level: int = 0) -> None:
-    """Enters the lines of a node's keys and entries, as deep as a vehicle file goes."""
-    if level == DEPTH:
-        return
-    if isinstance(node, yaml.MappingNode):
-        children = [(key, key.value, value) for key, value in node.value if isinstance(key, yaml.ScalarNode)]
-    else:
-        children = (
-            [(each, str(i), each) for i, each in enumerate(node.value)] if isinstance(node, yaml.SequenceNode) else []
-        )
-    for place, name, value in children:
-        inner = f"{path}.{name}" if path else name
-        found[inner] = place.start_mark.line + 1
-        mark(value, inner, found, level + 1)
 
 
 @dataclass
@@ -182,12 +127,11 @@ class Leaves:
     spoilt   paths whose value could not be taken; they are told already
     """
 
-    where: str
-    lines: dict[str, int]
+    source: Source
     origins: dict[str, Origin] = field(default_factory=dict)
     units: dict[str, tuple[str, float]] = field(default_factory=dict)
     spoilt: set[str] = field(default_factory=set)
-    problems: list[tuple[int, Problem]] = field(default_factory=list)
+    problems: list[tuple[tuple[int, int], Problem]] = field(default_factory=list)
 
     def taken(self, document: dict[str, Any]) -> dict[str, Any]:
         """The document with plain values in place of leaves."""
@@ -215,9 +159,7 @@ class Leaves:
             return given
         for key in given:
             if key not in LEAF:
-                self.refuse(
-                    f"{path}.{key}", "is no part of a value", allowed=", ".join(LEAF), remedy=nearest(str(key), LEAF)
-                )
+                self.refuse(f"{path}.{key}", "is no part of a value", allowed=", ".join(LEAF), remedy=nearest(str(key), LEAF))
         for key in NEEDED:
             if key not in given:
                 self.refuse(path, f"has no {key}", remedy=f"add {key}" + (f": {known.unit}" if key == "unit" else ""))
@@ -276,17 +218,18 @@ class Leaves:
 
     def refuse(self, path: str, what: str, value: str = "", allowed: str = "", remedy: str = "") -> None:
         """Notes a problem."""
-        self.problems.append((self.line(path), Problem(self.place(path), what, value, allowed, remedy)))
+        self.note(path, path, what, value, allowed, remedy)
 
-    def line(self, path: str) -> int:
-        """Line of a path, or of the nearest thing around it that has one."""
-        while path not in self.lines:
-            path = path.rpartition(".")[0]
-        return self.lines[path]
+    def note(self, place: str, path: str, *told: str) -> None:
+        """Notes a problem of a path, with the line and column of a place."""
+        line, column = self.source.place(place.split("."))
+        self.problems.append(((line, column), Problem(f"{self.source.where}, line {line}, column {column}: {path}", *told)))
 
-    def place(self, path: str) -> str:
-        """A path with its file and line, for a message."""
-        return f"{self.where}, line {self.line(path)}: {path}"
+    def in_leaf(self, path: str) -> str:
+        """Where the value of a path stands: within its leaf when it is one."""
+        parts = path.split(".")
+        inner = [*parts[:2], "value", *parts[2:]]
+        return ".".join(inner) if self.source.find(inner) else path
 
 
 def is_number(value: Any) -> bool:
@@ -303,46 +246,31 @@ def scaled(value: Any, factor: float) -> Any:
 
 def short(value: Any) -> str:
     """A value that fits into a message, however nested it is."""
-    return file.short(value) if isinstance(value, (str, int, float)) else SHORT.repr(value)
+    return finding.short(value) if isinstance(value, (str, int, float)) else SHORT.repr(value)
 
 
 # --- the schema's findings as ours ---------------------------------------------------------------------------------------
 
 
-def validated(plain: dict[str, Any], sheet: Leaves) -> tuple[Vehicle | None, list[tuple[int, Problem]]]:
-    """The vehicle, or what the schema finds wrong with it, each with its line."""
+def validated(plain: dict[str, Any], sheet: Leaves) -> Vehicle | None:
+    """The vehicle; None after the sheet has noted what the schema finds wrong with it."""
     try:
-        return Vehicle.model_validate(plain), []
+        return Vehicle.model_validate(plain)
     except ValidationError as error:
-        findings = error.errors(include_url=False)
-        return None, [told(each, sheet) for each in findings if path_of(each) not in sheet.spoilt]
+        for each in error.errors(include_url=False):
+            if (path := path_of(each)) not in sheet.spoilt:
+                sheet.note(sheet.in_leaf(path), path or "the vehicle", *explained(each, path, sheet.units))
+        return None
 
 
-def path_of(finding: dict) -> str:
+def path_of(finding: ErrorDetails) -> str:
     """Path of the field that a finding is about."""
     return ".".join(str(part) for part in finding["loc"] if part != "[key]")
 
 
-def told(finding: dict, sheet: Leaves) -> tuple[int, Problem]:
-    """A finding as a problem, with the line of the value."""
-    path = path_of(finding)
-    place = in_leaf(path, sheet.lines)
-    what, value, allowed, remedy = explained(finding, path, sheet.units)
-    return sheet.line(place), Problem(
-        f"{sheet.where}, line {sheet.line(place)}: {path or 'the vehicle'}", what, value, allowed, remedy
-    )
-
-
-def in_leaf(path: str, known: dict[str, int]) -> str:
-    """Where the value of a path stands: within its leaf when it is one."""
-    parts = path.split(".")
-    inner = ".".join([*parts[:2], "value", *parts[2:]])
-    return inner if inner in known else path
-
-
-def explained(finding: dict, path: str, units: dict[str, tuple[str, float]]) -> tuple[str, str, str, str]:
+def explained(found: ErrorDetails, path: str, units: dict[str, tuple[str, float]]) -> tuple[str, str, str, str]:
     """What is wrong, the value, what is allowed, the remedy."""
-    kind, given, loc = finding["type"], finding["input"], finding["loc"]
+    kind, given, loc = found["type"], found["input"], found["loc"]
     quantity_path = ".".join(path.split(".")[:2])
     known = quantities().get(quantity_path)
     if kind == "extra_forbidden":
@@ -356,28 +284,24 @@ def explained(finding: dict, path: str, units: dict[str, tuple[str, float]]) -> 
         )
     if kind == "model_type":
         return "must hold fields, one a line", short(given), ", ".join(names_at(loc)), ""
-    what = file.lower(finding["msg"].removeprefix("Value error, "))
+    what = finding.lower(found["msg"].removeprefix("Value error, "))
     if kind == "value_error":
         return what, "", "", ""
     if kind in ("too_short", "too_long"):
-        return f"holds {len(given)} numbers", short(given), known.count, ""
+        return f"holds {len(given)} numbers", short(given), known.count if known else "", ""
     if kind == "list_type":
         return what, short(given), "a list of numbers", f"write [{given:g}]" if is_number(given) else ""
     return (
         what,
         shown(given, units.get(quantity_path)),
-        known.allowed if known else file.allowed(finding),
+        known.allowed if known else finding.allowed(found),
         rewritten(kind, given),
     )
 
 
 def shown(given: Any, unit: tuple[str, float] | None) -> str:
     """A value as it stands in the file."""
-    return (
-        f"{given / unit[1]:g} {unit[0]}, {given:g} in the schema's unit"
-        if unit and is_number(given)
-        else short(given)
-    )
+    return f"{given / unit[1]:g} {unit[0]}, {given:g} in the schema's unit" if unit and is_number(given) else short(given)
 
 
 def rewritten(kind: str, given: Any) -> str:

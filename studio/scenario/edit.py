@@ -1,12 +1,10 @@
-"""Changes of a document by path, as `--set`, the page and sweeps make them."""
+"""Changes of a document by dotted path, as `--set`, the page and sweeps make them: short for a JSON patch (scenario/patch.py)."""
 
-import copy
 from typing import Any
 
-import yaml
-
 from studio.errors import Problem, ScenarioError, nearest
-from studio.scenario.file import YAML_TROUBLE
+from studio.scenario import source
+from studio.scenario.patch import Operation, operation
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:
@@ -18,11 +16,9 @@ def parse_assignment(text: str) -> tuple[str, Any]:
             [Problem("--set", "is not an assignment", text, "PATH=VALUE, for instance clock.duration=30")],
         )
     try:
-        return path.strip(), yaml.safe_load(value)
-    except YAML_TROUBLE:
-        raise ScenarioError(
-            f"--set {text} cannot be read.", [Problem(f"--set {path}", "has a value that is not YAML", value)]
-        ) from None
+        return path.strip(), source.read(value, f"--set {path.strip()}").value
+    except ScenarioError as error:
+        raise ScenarioError(f"--set {text} cannot be read.", error.problems) from None
 
 
 def known_paths(document: Any, prefix: str = "") -> list[str]:
@@ -55,34 +51,30 @@ def has(document: Any, path: str) -> bool:
     return True
 
 
-def put(document: dict, full: dict, path: str, value: Any) -> dict:
-    """A copy of `document` with `value` at `path`, which must exist in `full`, the document with defaults filled in."""
+def assignment(document: Any, full: dict, path: str, value: Any) -> list[Operation]:
+    """The patch that sets a path; it must exist in `full`, the document with defaults filled in, and is laid out from there."""
     if not has(full, path):
         raise ScenarioError(
             f"There is no parameter {path!r} to set.",
             [Problem(path, "is not a path in this scenario", remedy=nearest_path(full, path))],
         )
-    changed = copy.deepcopy(document)
     parts = path.split(".")
-    node, shadow = changed, full
-    for part in parts[:-1]:
-        node, shadow = step(node, shadow, part)
-    node[int(parts[-1]) if isinstance(node, list) else parts[-1]] = value
-    return changed
+    for depth in range(1, len(parts)):
+        part = ".".join(parts[:depth])
+        if is_left_out(document, full, part):
+            return [operation("add", parts[:depth], value=get(full, part)), operation("replace", parts, value=value)]
+    return [operation("replace" if has(document, path) else "add", parts, value=value)]
 
 
-def step(node: Any, shadow: Any, part: str) -> tuple[Any, Any]:
-    """One level down in both; what only has defaults so far is laid out."""
-    if isinstance(node, list):
-        return node[int(part)], shadow[int(part)]
-    if node.get(part) is None or (isinstance(shadow[part], list) and not node[part]):
-        node[part] = copy.deepcopy(shadow[part])
-    return node[part], shadow[part]
+def is_left_out(document: Any, full: dict, path: str) -> bool:
+    """Whether only the defaults hold something at a path."""
+    found = get(document, path) if has(document, path) else None
+    return found is None or (found == [] and bool(get(full, path)))
 
 
 def nearest_path(full: dict, path: str) -> str:
     """The nearest path, or what stands at the deepest level that does exist."""
-    parts = path.split(".")
+    parts, wrong = path.split("."), path
     while parts and not has(full, ".".join(parts)):
         wrong = parts.pop()
     level = get(full, ".".join(parts)) if parts else full

@@ -1,11 +1,35 @@
 """Figures that follow from a vehicle's values, by which an engineer sees whether it is plausible."""
 
+from collections.abc import Iterator
 from math import pi, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
 from studio.conventions import GRAVITY
 from studio.scenario.vehicle import Engine, Vehicle
+
+
+class Figure(NamedTuple):
+    """One figure: its name, what it is, value and unit."""
+
+    name: str
+    title: str
+    value: float
+    unit: str
+
+
+def figures(values: Vehicle) -> Iterator[Figure]:
+    """All figures of a vehicle; the stall speed only of one with a converter."""
+    power, speed = peak_power(values.engine)
+    yield Figure("power", "Greatest power", power, "W")
+    yield Figure("power_speed", "Engine speed at the greatest power", speed, "rad/s")
+    if values.coupling.kind == "converter":
+        yield Figure("stall_speed", "Engine speed at full load, the car held", stall_speed(values), "rad/s")
+    for axle, (frequency, damping) in ride(values).items():
+        yield Figure(f"body_frequency_{axle}", f"Natural frequency of the body on its springs, {axle}", frequency, "Hz")
+        yield Figure(f"body_damping_{axle}", f"Damping ratio of the body on its springs, {axle}", damping, "1")
+    yield Figure("roll_gradient", "Roll over lateral acceleration", roll_gradient(values), "rad s²/m")
 
 
 def drive(values: Vehicle) -> str:

@@ -1,69 +1,86 @@
-"""Reading and writing scenario files (YAML), and telling what is wrong in them."""
+"""Scenario files: reading, checking against the schema, writing; each problem with its line and column."""
 
 import hashlib
 import json
+import os
+import tempfile
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 
-from studio.errors import Problem, ScenarioError, nearest
-from studio.scenario.schema import Scenario, located
+from studio.errors import Problem, ScenarioError, StudioError, nearest
+from studio.scenario import source
+from studio.scenario.finding import problems
+from studio.scenario.migration import migrated
+from studio.scenario.pointer import kind
+from studio.scenario.schema import Scenario
+from studio.scenario.source import Source
 
-MOVED = {"road": "its friction is `weather.friction` now, its patches are `changes` of the kind friction"}
 SIZE_LIMIT = 4_000_000  # [B] of a scenario file
 
 
-# What PyYAML raises for text that is no YAML, or for tags whose value is none of theirs.
-YAML_TROUBLE = (yaml.YAMLError, ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError)
-
-
 def read(path: Path) -> dict[str, Any]:
-    """The document in a file; raises ScenarioError when it is missing, too large or not a YAML mapping."""
+    """The document in a file, as the present version of the format has it; raises ScenarioError."""
+    return migrated(opened(path))[0].value
+
+
+def opened(path: Path) -> Source:
+    """What stands in a scenario file; raises ScenarioError when it is missing, too large or not a YAML mapping."""
+    return mapping(content(path, "scenario", SIZE_LIMIT), str(path), "scenario")
+
+
+def content(path: Path, what: str, limit: int) -> bytes:
+    """Bytes of a file, not more than `limit`; raises ScenarioError, which names the files beside a missing one."""
     if not path.is_file():
         others = [other.name for other in path.parent.glob("*.y*ml")] if path.parent.is_dir() else []
-        raise ScenarioError(
-            f"There is no scenario file {path}.", [Problem(str(path), "does not exist", remedy=nearest(path.name, others))]
-        )
-    if path.stat().st_size > SIZE_LIMIT:
-        raise ScenarioError(
-            f"{path} cannot be read.", [Problem(str(path), "is too large for a scenario", allowed=f"{SIZE_LIMIT} bytes")]
-        )
-    return parse(path.read_bytes(), str(path))
-
-
-def parse(content: bytes, where: str) -> dict[str, Any]:
-    """The mapping in a YAML text; raises ScenarioError with the line."""
+        problem = Problem(str(path), "does not exist", remedy=nearest(path.name, others))
+        raise ScenarioError(f"There is no {what} file {path}.", [problem])
     try:
-        document = yaml.load(content.decode("utf-8"), Loader=UniqueKeys)
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{where} is not a text file.", [Problem(where, str(error), allowed="UTF-8")]) from None
-    except YAML_TROUBLE as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f"{where}, line {mark.line + 1}" if mark else where
-        what = getattr(error, "problem", None) or str(error) or "is nested too deep"
-        raise ScenarioError(f"{where} is not YAML.", [Problem(line, what, remedy="mend the syntax there")]) from None
-    if not isinstance(document, dict):
-        kind = "empty" if document is None else f"a {type(document).__name__}"
-        raise ScenarioError(f"{where} is not a scenario.", [Problem(where, f"is {kind}", allowed="a YAML mapping")])
-    return document
+        with path.open("rb") as file:
+            data = file.read(limit + 1)
+    except OSError as error:
+        raise ScenarioError(f"{path} cannot be read.", [Problem(str(path), f"cannot be opened: {error.strerror}")]) from None
+    if len(data) > limit:
+        raise ScenarioError(f"{path} cannot be read.", [Problem(str(path), f"is too large for a {what}", allowed=f"{limit} bytes")])
+    return data
 
 
-class UniqueKeys(yaml.SafeLoader):
-    """YAML that refuses a key that stands twice: the second would silently win."""
+def mapping(data: bytes, where: str, what: str) -> Source:
+    """The mapping in a YAML text; raises ScenarioError with the line."""
+    return checked(source.read(source.decoded(data, where), where), what)
 
-    def construct_mapping(self, node, deep=False):
-        """As its parent, after a look at the keys."""
-        seen = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if isinstance(key, (str, int, float)) and key in seen:
-                raise yaml.constructor.ConstructorError(
-                    problem=f"the key {key!r} stands twice", problem_mark=key_node.start_mark
-                )
-            seen.add(str(key))
-        return super().construct_mapping(node, deep)
+
+def checked(found: Source, what: str) -> Source:
+    """A source that is a mapping; raises ScenarioError."""
+    if not isinstance(found.root.children, dict):
+        given = "empty" if found.root.scalar is None and found.root.children is None else kind(found.value)
+        raise ScenarioError(f"{found.where} is not a {what}.", [Problem(found.where, f"is {given}", allowed="a YAML mapping")])
+    return found
+
+
+def write(path: Path, text: str) -> None:
+    """Puts a text in the place of a file at once: whoever reads it meanwhile has the old one or the new one, and never a half.
+
+    The file keeps its permissions. Raises ScenarioError when the disk does not take it.
+    """
+    try:
+        handle, beside = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
+        try:
+            with open(handle, "w", encoding="utf-8", newline="") as file:
+                file.write(text)
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(beside, path.stat().st_mode)
+            os.replace(beside, path)
+        except BaseException:
+            os.unlink(beside)
+            raise
+    except OSError as error:
+        raise ScenarioError(f"{path} cannot be written.", [Problem(str(path), error.strerror or str(error))]) from None
 
 
 def validate(document: dict[str, Any], where: str) -> Scenario:
@@ -74,49 +91,34 @@ def validate(document: dict[str, Any], where: str) -> Scenario:
         raise ScenarioError(f"{where} is not a valid scenario.", problems(error, where, Scenario)) from None
 
 
-def problems(error: ValidationError, where: str, model: type, *, under: str = "") -> list[Problem]:
-    """Pydantic's findings as ours; `under` is the path of the model within its document, with a dot."""
-    return [problem(finding, where, model, under) for finding in error.errors(include_url=False)]
+@contextmanager
+def placed(found: Source, name: str, *, changes: Iterable[str] = (), told: Iterable[str] = ()) -> Generator[None]:
+    """Problems of fields, `name: path`, get the line and column that the field has in a file, unless a change has set it.
+
+    What a migration has told is added: it says why a path may not stand in the file.
+    """
+    try:
+        yield
+    except StudioError as error:
+        error.problems = [with_place(each, found, name, changes) for each in error.problems] + [Problem(name, each) for each in told]
+        raise
 
 
-def problem(finding: dict, where: str, model: type, under: str) -> Problem:
-    """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
-    path = under + located(model.model_json_schema(), finding["loc"])[0] or "the scenario"
-    what = finding["msg"].removeprefix("Value error, ")
-    value, remedy = short(finding["input"]), ""
-    if finding["type"] == "extra_forbidden":
-        what, value = "is not a field that exists here", ""
-        remedy = MOVED.get(path) or nearest(str(finding["loc"][-1]), fields_at(model, finding["loc"][:-1]))
-    elif finding["type"] == "missing":
-        what, value, remedy = "is missing", "", "add it"
-    return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
-
-
-def lower(text: str) -> str:
-    """Pydantic's sentence as a clause."""
-    return text[:1].lower() + text[1:]
-
-
-def short(value: Any, limit: int = 60) -> str:
-    """A value that fits into a message."""
-    text = repr(value)
-    return text if len(text) <= limit else text[: limit - 1] + "…"
-
-
-def allowed(finding: dict) -> str:
-    """Bounds that a finding names."""
-    signs = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "pattern": "pattern", "expected": ""}
-    context = finding.get("ctx", {})
-    return " ".join(f"{sign} {context[key]}".strip() for key, sign in signs.items() if key in context)
-
-
-def fields_at(model: type, path: tuple) -> list[str]:
-    """Names of the fields that the schema has at a path."""
-    return sorted(located(model.model_json_schema(), path)[1].get("properties", {}))
+def with_place(problem: Problem, found: Source, name: str, changes: Iterable[str]) -> Problem:
+    """A problem with its place, if its field, or a part around it, stands in the file."""
+    path = problem.where.removeprefix(f"{name}: ")
+    is_set = any(f"{path}.".startswith(f"{each}.") for each in changes)
+    if path == problem.where or is_set or found.find(path.split(".")[:1]) is None:
+        return problem
+    line, column = found.place(path.split("."))
+    return replace(problem, where=f"{name}, line {line}, column {column}: {path}")
 
 
 def digest(document: dict[str, Any], map_digest: str) -> str:
-    """Content hash of a scenario: its document without the seed, and the map file's content."""
-    content = {key: value for key, value in document.items() if key != "seed"}
+    """Content hash of a scenario: its document without the seed, and the map file's content.
+
+    Which version of the format it was written in says nothing about what is run; it counts as the first.
+    """
+    content = {key: value for key, value in document.items() if key != "seed"} | {"version": 1}
     text = json.dumps(content, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
     return hashlib.sha256(f"{map_digest}\n{text}".encode()).hexdigest()

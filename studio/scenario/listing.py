@@ -9,8 +9,8 @@ from typing import Any
 
 from studio.scenario import catalogue, edit
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.datasheet import quantities
-from studio.scenario.figures import drive, peak_power
+from studio.scenario.datasheet import quantities, sections
+from studio.scenario.figures import drive, figures, peak_power
 from studio.scenario.vehicle import Vehicle
 
 LIST_HEAD = ("name", "title", "mass", "wheelbase", "drive", "power", "gears", "tyres")
@@ -63,10 +63,14 @@ def value_rows(model: VehicleModel) -> list[list[str]]:
 
 
 def value_json(model: VehicleModel) -> list[dict[str, Any]]:
-    """Every value of a vehicle with its provenance; the range is None where none is given. Texts have no unit and no origin."""
+    """Every value of a vehicle with its provenance; the range is None where none is given. Texts have no unit and no origin.
+
+    At the end stand figures that follow from the values.
+    """
     document = model.values.model_dump()
     texts = [row(path, text_title(path), edit.get(document, path)) for path in TEXTS]
-    return texts + [quantity_row(model, path, edit.get(document, path)) for path in quantities()]
+    given = [quantity_row(model, path, edit.get(document, path)) for path in quantities()]
+    return texts + given + [row(f"figures.{each.name}", each.title, each.value, each.unit, "computed") for each in figures(model.values)]
 
 
 def quantity_row(model: VehicleModel, path: str, value: float | list[float]) -> dict[str, Any]:
@@ -76,9 +80,7 @@ def quantity_row(model: VehicleModel, path: str, value: float | list[float]) -> 
     return row(path, quantities()[path].title, value, origin.unit, origin.origin, origin.source, limits)
 
 
-def row(
-    path: str, title: str, value: Any, unit="", origin="", source="", limits: list[float] | None = None
-) -> dict[str, Any]:
+def row(path: str, title: str, value: Any, unit="", origin="", source="", limits: list[float] | None = None) -> dict[str, Any]:
     """A value under VALUE_HEAD."""
     return dict(zip(VALUE_HEAD, (path, title, value, unit, origin, source, limits), strict=True))
 
@@ -86,7 +88,7 @@ def row(
 def text_title(path: str) -> str:
     """Title of a text of the schema."""
     part, _, name = path.rpartition(".")
-    return (Vehicle.model_fields[part].annotation if part else Vehicle).model_fields[name].title or name.capitalize()
+    return (sections()[part] if part else Vehicle).model_fields[name].title or name.capitalize()
 
 
 def shown(value: Any) -> str:

@@ -16,6 +16,7 @@ from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
 MOST_OBJECTS = 500  # of one change
+VERSION = 2  # of the format; scenario/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
 
@@ -33,13 +34,22 @@ class Part(BaseModel):
 class Map(Part):
     """The place."""
 
-    file: str = Field(..., max_length=300, title="Map file", description="relative to the scenario file: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json), OpenDRIVE (.xodr), or the folder of an import")
+    file: str = Field(
+        ...,
+        max_length=300,
+        title="Map file",
+        description="relative to the scenario: OpenStreetMap (.osm, .osm.gz, .osm.pbf, .json), OpenDRIVE (.xodr), or an import's folder",
+    )
     radius: float | None = number(
         None, unit="m", title="Radius", ge=100, le=5000,
-        description="what lies farther from the centre is cut off; left out: 800 m for a file, and an import keeps its own part; OpenDRIVE is taken whole",
+        description="what lies farther from the centre is cut off; left out: 800 m for a file, all of an import; OpenDRIVE is taken whole",
     )  # fmt: skip
-    parking_aisles: bool = Field(False, title="Parking aisles", description="build the aisles of parking places and the driveways that lead to them")
-    signal_start: float = number(0.0, unit="s", title="Signals at the start", description="how far into their programmes the lights are", ge=0, le=600)
+    parking_aisles: bool = Field(
+        False, title="Parking aisles", description="build the aisles of parking places and the driveways that lead to them"
+    )
+    signal_start: float = number(
+        0.0, unit="s", title="Signals at the start", description="how far into their programmes the lights are", ge=0, le=600
+    )
 
 
 class Clock(Part):
@@ -117,13 +127,26 @@ class Gps(Part):
     drift: float = number(1.5, unit="m", title="Slow error", description="standard deviation under an open sky", ge=0, le=100)
     correlation_time: float = number(60.0, unit="s", title="Correlation time", description="of the slow error", ge=0.1, le=100_000)
     noise: float = number(0.3, unit="m", title="White noise", description="standard deviation", ge=0, le=100)
-    canyon_factor: float = number(5.0, unit="1", title="Factor without sky", description="by how much the slow error is larger where buildings hide the whole sky", ge=1, le=100)
+    canyon_factor: float = number(
+        5.0,
+        unit="1",
+        title="Factor without sky",
+        description="by how much the slow error is larger where buildings hide the whole sky",
+        ge=1,
+        le=100,
+    )
 
 
 class Vehicle(Part):
     """One named car."""
 
-    model: str = Field("bmw_320i", max_length=300, title="Model", examples=MODELS, description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
+    model: str = Field(
+        "bmw_320i",
+        max_length=300,
+        title="Model",
+        examples=MODELS,
+        description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario",
+    )
     route: Name = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
@@ -154,7 +177,9 @@ class Brake(Part):
     maneuver: Literal["brake"] = "brake"
     deceleration: float = number(6.0, unit="m/s²", title="Deceleration", gt=0, le=10)
     duration: float = number(3.0, unit="s", title="Duration", gt=0, le=600)
-    to_speed: float = number(0.0, unit="m/s", title="Down to", description="ends earlier at this speed; the brakes still need their time to release", ge=0, le=70)
+    to_speed: float = number(
+        0.0, unit="m/s", title="Down to", description="ends earlier at this speed; the brakes still need their time to release", ge=0, le=70
+    )
 
 
 class Trigger(Part):
@@ -169,7 +194,13 @@ class Traffic(Part):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
     count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
-    model: str = Field("ford_escort", max_length=300, title="Model", examples=MODELS, description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
+    model: str = Field(
+        "ford_escort",
+        max_length=300,
+        title="Model",
+        examples=MODELS,
+        description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario",
+    )
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
     driver: Driver = Field(default_factory=Driver, title="Drivers")
@@ -289,8 +320,17 @@ class Change(Part):
 class Weather(Part):
     """What is the same everywhere: how slippery the roads are, how far one sees."""
 
-    friction: float = number(1.0, unit="1", title="Friction", description="over that of a dry test track: 1 dry, 0.7 wet, 0.3 snow, 0.1 ice", ge=0.02, le=1.5)
-    visibility: float = number(10_000.0, unit="m", title="Visibility", description="drivers see nothing beyond, and drive so that they can stop within it; from 10 km on the air is clear, below 1 km it is fog", ge=10, le=100_000)
+    friction: float = number(
+        1.0, unit="1", title="Friction", description="over that of a dry test track: 1 dry, 0.7 wet, 0.3 snow, 0.1 ice", ge=0.02, le=1.5
+    )
+    visibility: float = number(
+        10_000.0,
+        unit="m",
+        title="Visibility",
+        description="drivers see nothing beyond, and drive so that they can stop within it; clear from 10 km on, fog below 1 km",
+        ge=10,
+        le=100_000,
+    )
 
 
 class Radio(Part):
@@ -302,8 +342,19 @@ class Radio(Part):
     loss: float = number(0.01, unit="1", title="Loss rate", ge=0, le=1)
     loss_per_metre: float = number(0.0, unit="1/m", title="Loss per distance", ge=0, le=0.1)
     range: float = number(300.0, unit="m", title="Range", gt=0, le=5000)
-    buildings: bool = Field(True, title="Shadowed by buildings", description="9 dB a wall and 0.4 dB a metre inside (Sommer et al., WONS 2011) count as distance")
-    path_loss_exponent: float = number(2.0, unit="1", title="Path loss exponent", description="how fast power falls with distance, which makes the shadow a distance: 2 in free space, 2.7 to 3 in cities", ge=1.5, le=6)
+    buildings: bool = Field(
+        True,
+        title="Shadowed by buildings",
+        description="9 dB a wall and 0.4 dB a metre inside (Sommer et al., WONS 2011) count as distance",
+    )
+    path_loss_exponent: float = number(
+        2.0,
+        unit="1",
+        title="Path loss exponent",
+        description="how fast power falls with distance, which makes the shadow a distance: 2 in free space, 2.7 to 3 in cities",
+        ge=1.5,
+        le=6,
+    )
 
 
 class Recording(Part):
@@ -324,7 +375,7 @@ class Goal(Part):
 class Scenario(Part):
     """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
 
-    version: Literal[1] = Field(1, title="Version of this format")
+    version: Literal[2] = Field(VERSION, title="Version of this format")
     title: str = Field(..., min_length=1, max_length=120, title="Title")
     description: str = Field("", max_length=2000, title="Description")
     map: Map = Field(..., title="Map")

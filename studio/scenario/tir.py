@@ -38,9 +38,7 @@ FORMATS_WITH_FITTYP = ("MF-TYRE", "USER")  # need FITTYP for that
 TERMS_OF_6 = re.compile(r"PEY5|PKY[4-7]|RBX3|RBY4|QBZ6|QDZ1[01]")
 TERMS_OF_PRESSURE = re.compile(r"PP[XYZ]\d|QPZ\d")
 PRESSURES = (("IP", "IP_NOM"), ("INFLPRES", "NOMPRES"))
-ACCEPTED = (
-    f"{', '.join(FORMATS_OF_52)}, or {', '.join(FORMATS_WITH_FITTYP)} with FITTYP {', '.join(map(str, FITS))}"
-)
+ACCEPTED = f"{', '.join(FORMATS_OF_52)}, or {', '.join(FORMATS_WITH_FITTYP)} with FITTYP {', '.join(map(str, FITS))}"
 CONVERT = "fit or convert the set as MF 5.2 (PAC2002) with the tool it comes from"
 
 INCH = 0.0254  # [m]
@@ -64,9 +62,9 @@ UNITS = {
 DEGREES = ("degree", "degrees", "deg")
 # Keys that carry a unit. Angles must be radians; the coefficients of the formula relate to FNOMIN, UNLOADED_RADIUS.
 EXPONENTS = {
-    **dict.fromkeys(("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH"), {"LENGTH": 1}),
-    **dict.fromkeys(("FNOMIN", "FZMIN", "FZMAX"), {"FORCE": 1}),
-    **dict.fromkeys(("LONGVL", "VXLOW"), {"LENGTH": 1, "TIME": -1}),
+    **{key: {"LENGTH": 1} for key in ("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH")},
+    **{key: {"FORCE": 1} for key in ("FNOMIN", "FZMIN", "FZMAX")},
+    **{key: {"LENGTH": 1, "TIME": -1} for key in ("LONGVL", "VXLOW")},
     "VERTICAL_STIFFNESS": {"FORCE": 1, "LENGTH": -1},
     "VERTICAL_DAMPING": {"FORCE": 1, "LENGTH": -1, "TIME": 1},
     "MBELT": {"MASS": 1},
@@ -417,8 +415,8 @@ def sheet_notes(sheet: Sheet) -> list[str]:
 
 def scales(sheet: Sheet, key: str) -> bool:
     """Whether a key is a scaling factor that is not 1."""
-    section = sheet.find(key).section
-    return key.startswith("L") and section == HOME["LFZO"] and sheet.number(key, 1.0) != 1.0
+    found = sheet.find(key)
+    return key.startswith("L") and found is not None and found.section == HOME["LFZO"] and sheet.number(key, 1.0) != 1.0
 
 
 # --- into SI, and complete ---------------------------------------------------------------------------------------------
@@ -434,7 +432,7 @@ def in_si(sheet: Sheet) -> dict[str, float]:
             problems.append(unit_problem(sheet, quantity, name))
     refuse(sheet.name, problems)
     numbers = {key: sheet.find(key) for key in sheet.by_key if key not in UNITS}
-    given = {key: each.value for key, each in numbers.items() if each.value is not None}
+    given = {key: each.value for key, each in numbers.items() if each and each.value is not None}
     return {key: value * si_factor(key, factors) for key, value in given.items()}
 
 
@@ -444,9 +442,7 @@ def unit_problem(sheet: Sheet, quantity: str, name: str) -> Problem:
     if quantity == "ANGLE" and name in DEGREES:
         what = "leaves open whether coefficients such as PKY1, PHY1 and QBZ1 were fitted per degree or per radian"
         return sheet.problem(quantity, what, allowed, "give the file in radians")
-    return sheet.problem(
-        quantity, "is a unit that is not known here", allowed, nearest(name, UNITS[quantity])
-    )
+    return sheet.problem(quantity, "is a unit that is not known here", allowed, nearest(name, UNITS[quantity]))
 
 
 def si_factor(key: str, factors: dict[str, float]) -> float:
@@ -513,9 +509,7 @@ def check_values(sheet: Sheet, values: dict[str, float]) -> None:
         if key in values and not holds(values[key])
     ]
     problems += [
-        sheet.problem(
-            low, f"is not below {high}", f"< {sheet.text(high) or f'{values[high]:g}'}", "correct one of them"
-        )
+        sheet.problem(low, f"is not below {high}", f"< {sheet.text(high) or f'{values[high]:g}'}", "correct one of them")
         for low, high in RANGES
         if low in values and high in values and not values[low] < values[high]
     ]

@@ -76,8 +76,7 @@ class Body(Part):
             self,
             (self.front_distance >= self.wheelbase)
             and f"front_distance {self.front_distance:g} m must be less than the wheelbase {self.wheelbase:g} m",
-            (unsprung > 0.5 * self.mass)
-            and f"the unsprung masses, {unsprung:g} kg, are more than half of the mass, {self.mass:g} kg",
+            (unsprung > 0.5 * self.mass) and f"the unsprung masses, {unsprung:g} kg, are more than half of the mass, {self.mass:g} kg",
             (reach >= self.length) and f"front_overhang + wheelbase, {reach:g} m, exceed the length {self.length:g} m",
             (track >= self.width) and f"a track of {track:g} m does not fit under a width of {self.width:g} m",
         )

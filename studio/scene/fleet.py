@@ -38,9 +38,7 @@ class Fleet:
         self._offsets = np.array([_wheel_places(size) for size in sizes], np.float32).reshape(-1, 4, 3)
         self._middle = np.array([size.centre for size in sizes], np.float32)
         # half the way that the shadow of the roof has been thrown
-        self._throw = np.array([-SUN[:2] / SUN[2] * size.height * 0.5 for size in sizes], np.float32).reshape(
-            -1, 2
-        )
+        self._throw = np.array([-SUN[:2] / SUN[2] * size.height * 0.5 for size in sizes], np.float32).reshape(-1, 2)
         self._wheels = self._add("wheels", glb(vehicle.wheel(_first(sizes)), RUBBER), 4 * len(sizes))
         self._shadows = self._add("shadows", glb(vehicle.shadow(_first(sizes)), SOFT_SHADOW), 2 * len(sizes))
 
@@ -51,8 +49,8 @@ class Fleet:
 
     def _add(self, name: str, data: bytes, count: int) -> viser.BatchedGlbHandle:
         # lod="off": the simplified levels of detail show facets on the round body
-        places = np.tile(np.float32([0.0, 0.0, BELOW_GROUND]), (count, 1))
-        turns = np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (count, 1))
+        places = np.tile(np.array([0.0, 0.0, BELOW_GROUND], np.float32), (count, 1))
+        turns = np.tile(np.array([1.0, 0.0, 0.0, 0.0], np.float32), (count, 1))
         return self._server.scene.add_batched_glb(
             f"/vehicles/{name}", data, turns, places, lod="off", cast_shadow=False, receive_shadow=False
         )
@@ -73,12 +71,12 @@ class Fleet:
         c, s = np.cos(poses[pose.YAW])[:, None], np.sin(poses[pose.YAW])[:, None]
         x, y, z = np.moveaxis(self._offsets, -1, 0)
         wheels = places[:, None, :] + np.stack([c * x - s * y, s * x + c * y, z], axis=-1)
-        yaw = poses[pose.YAW][:, None] + poses[pose.STEER][:, None] * np.float32([1, 1, 0, 0])
+        yaw = poses[pose.YAW][:, None] + poses[pose.STEER][:, None] * np.array([1, 1, 0, 0], np.float32)
         spin = np.repeat(poses[pose.WHEEL_ANGLE], 4)
         _put(self._wheels, wheels.reshape(-1, 3), _turns(yaw.ravel(), spin, np.zeros_like(spin)))
 
     def _move_shadows(self, poses: np.ndarray, places: np.ndarray) -> None:
-        lifted = places + np.float32([0.0, 0.0, SHADOW_HEIGHT])
+        lifted = places + np.array([0.0, 0.0, SHADOW_HEIGHT], np.float32)
         thrown = lifted + np.column_stack([self._throw, np.full(len(places), 0.01, np.float32)])
         yaw = np.tile(poses[pose.YAW], 2)
         level = np.zeros_like(yaw)

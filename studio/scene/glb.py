@@ -3,6 +3,7 @@
 import json
 import struct
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -51,16 +52,14 @@ class _Buffer:
 
     def add_array(self, array: np.ndarray, *, component: int, target: int, kind: str, **limits) -> int:
         view = self.add(np.ascontiguousarray(array).tobytes(), target=target)
-        self.accessors.append(
-            {"bufferView": view, "componentType": component, "count": len(array), "type": kind, **limits}
-        )
+        self.accessors.append({"bufferView": view, "componentType": component, "count": len(array), "type": kind, **limits})
         return len(self.accessors) - 1
 
 
 def glb(mesh: Surface, material: Material, *, uv: np.ndarray | None = None) -> bytes:
     """A binary glTF file with one mesh of one material; uv [n, 2] are texture coordinates."""
     buffer = _Buffer()
-    document = {
+    document: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "Cooperative ADAS Studio"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
@@ -84,9 +83,7 @@ def _primitive(buffer: _Buffer, mesh: Surface, uv: np.ndarray | None, *, lit: bo
     vertices = mesh.vertices.astype(np.float32)
     place = {"component": FLOAT, "target": VERTICES}
     attributes = {
-        "POSITION": buffer.add_array(
-            vertices, kind="VEC3", min=vertices.min(0).tolist(), max=vertices.max(0).tolist(), **place
-        ),
+        "POSITION": buffer.add_array(vertices, kind="VEC3", min=vertices.min(0).tolist(), max=vertices.max(0).tolist(), **place),
         "COLOR_0": buffer.add_array(_shades(mesh.colors), component=UNSIGNED_SHORT, target=VERTICES, kind="VEC4", normalized=True),
     }
     if lit:

@@ -38,12 +38,8 @@ def light(server: viser.ViserServer) -> None:
     scene.configure_default_lights(False)
     # a hemisphere light shines from its position: at the origin it would have no direction
     up = {"position": (0.0, 0.0, 100.0)}
-    scene.add_light_hemisphere(
-        "/light/sky", sky_color=rgb8(SKYLIGHT), ground_color=rgb8(GROUNDLIGHT), intensity=SKY_STRENGTH, **up
-    )
-    scene.add_light_directional(
-        "/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0)
-    )
+    scene.add_light_hemisphere("/light/sky", sky_color=rgb8(SKYLIGHT), ground_color=rgb8(GROUNDLIGHT), intensity=SKY_STRENGTH, **up)
+    scene.add_light_directional("/light/sun", color=rgb8(SUNLIGHT), intensity=SUN_STRENGTH, position=tuple(SUN * 500.0))
     air(server, HAZE_FAR)
 
 

@@ -10,7 +10,7 @@ from studio.scene.glb import Material, glb
 from studio.scene.shape import Surface, box, joined, lathe
 
 ORANGE, RED, WHITE, RUBBER, STEEL = "#e8501e", "#c8231c", "#f2f0ea", "#2b2c2e", "#8d9296"
-HIDDEN = np.float32([0.0, 0.0, -500.0])
+HIDDEN = np.array([0.0, 0.0, -500.0], np.float32)
 CONE_BANDS = np.array([[0.115, 0.04], [0.094, 0.25], [0.074, 0.42], [0.062, 0.52], [0.047, 0.65], [0.03, 0.75], [0.0, 0.75]])
 LENGTH, BOARD, STRIPES = 1.5, 0.25, 6  # [m] of a barrier, [m] height of its boards, stripes of a board
 

@@ -2,7 +2,7 @@
 
 import socket
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 
 import numpy as np
@@ -69,9 +69,7 @@ class Scene:
 
     def _add(self, layer: city.Layer) -> viser.SceneNodeHandle:
         place = (0.0, 0.0, layer.height)
-        return self._server.scene.add_glb(
-            f"/city/{layer.name}", layer.data, position=place, cast_shadow=False, receive_shadow=False
-        )
+        return self._server.scene.add_glb(f"/city/{layer.name}", layer.data, position=place, cast_shadow=False, receive_shadow=False)
 
     def _look_at(self, middle: np.ndarray, reach: float, away: np.ndarray) -> None:
         """The overview: from so far `away`, float64[3] [m], over the middle to the horizon."""
@@ -133,7 +131,7 @@ def _server() -> viser.ViserServer:
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
+def _quiet() -> Generator[None]:
     # viser prints its own address, and that is not the one to open
     console = rich.get_console()
     before, console.quiet = console.quiet, True

@@ -43,9 +43,7 @@ class Surface:
         for corner in range(3):
             np.add.at(total, self.faces[:, corner], face_normals)
         length = np.linalg.norm(total, axis=1, keepdims=True)
-        return np.divide(
-            total, length, out=np.tile([0.0, 0.0, 1.0], (len(total), 1)), where=length > 0
-        ).astype(np.float32)
+        return np.divide(total, length, out=np.tile([0.0, 0.0, 1.0], (len(total), 1)), where=length > 0).astype(np.float32)
 
 
 def surface(vertices, faces, colour: str | np.ndarray) -> Surface:
@@ -142,9 +140,5 @@ def cylinder(radius: float, height: float, colour: str, *, segments: int = 8) ->
     top = ring + [0.0, 0.0, height]
     here = np.arange(segments)
     after = (here + 1) % segments
-    faces = np.concatenate(
-        [np.stack([here, after, after + segments], 1), np.stack([here, after + segments, here + segments], 1)]
-    )
-    return joined(
-        [surface(np.concatenate([ring, top]), faces, colour), fan(top, colour), fan(ring[::-1], colour)]
-    )
+    faces = np.concatenate([np.stack([here, after, after + segments], 1), np.stack([here, after + segments, here + segments], 1)])
+    return joined([surface(np.concatenate([ring, top]), faces, colour), fan(top, colour), fan(ring[::-1], colour)])

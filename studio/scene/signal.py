@@ -19,7 +19,7 @@ LIT_IN = {"red": (RED, RED_AMBER), "amber": (RED_AMBER, AMBER), "green": (GREEN,
 STEEL, HOUSING, OFF = "#6f757a", "#1b1e20", "#33302c"
 # a lit lamp stands a little before the dark one [m]
 PROUD = 0.02
-HIDDEN = np.float32([0.0, 0.0, -500.0])
+HIDDEN = np.array([0.0, 0.0, -500.0], np.float32)
 
 
 def masts(network: Network) -> Surface:
@@ -31,9 +31,7 @@ def head_places(network: Network) -> tuple[np.ndarray, np.ndarray]:
     """x and y of the signal head of every link [m]."""
     signals = network.signals
     ahead = BEHIND_LINE
-    return signals.link_x + ahead * np.cos(signals.link_heading), signals.link_y + ahead * np.sin(
-        signals.link_heading
-    )
+    return signals.link_x + ahead * np.cos(signals.link_heading), signals.link_y + ahead * np.sin(signals.link_heading)
 
 
 def _approaches(network: Network) -> dict[str, list[int]]:
@@ -62,9 +60,7 @@ def _head() -> Surface:
     lamps = [ball((0.06, 0.15, 0.15), OFF, segments=12).moved(x=-0.14, z=z) for z in LAMP_HEIGHTS.values()]
     visors = [box((0.16, 0.30, 0.025), HOUSING).moved(x=-0.21, z=z + 0.165) for z in LAMP_HEIGHTS.values()]
     board = box((0.05, 0.62, 1.42), HOUSING).moved(x=-0.05, z=LAMP_HEIGHTS["amber"])
-    return joined(
-        [board, box((0.20, 0.40, 1.22), HOUSING).moved(x=-0.04, z=LAMP_HEIGHTS["amber"]), *lamps, *visors]
-    )
+    return joined([board, box((0.20, 0.40, 1.22), HOUSING).moved(x=-0.04, z=LAMP_HEIGHTS["amber"]), *lamps, *visors])
 
 
 class Lamps:
@@ -80,19 +76,14 @@ class Lamps:
         )
         before = 0.14 + PROUD
         x, y = x - before * np.cos(heading), y - before * np.sin(heading)
-        self._places = {
-            name: np.stack([x, y, np.full(len(x), z)], 1).astype(np.float32)
-            for name, z in LAMP_HEIGHTS.items()
-        }
+        self._places = {name: np.stack([x, y, np.full(len(x), z)], 1).astype(np.float32) for name, z in LAMP_HEIGHTS.items()}
         self._nodes = {name: self._add(server, name, turns) for name in LAMP_HEIGHTS}
         self._shown = np.full(len(x), -1)
 
     def _add(self, server: viser.ViserServer, name: str, turns: np.ndarray) -> viser.BatchedGlbHandle:
         lamp = glb(ball((0.07, 0.165, 0.165), LAMP_COLOURS[name], segments=12), Material(unlit=True))
         hidden = np.tile(HIDDEN, (len(turns), 1))
-        return server.scene.add_batched_glb(
-            f"/signals/{name}", lamp, turns, hidden, lod="off", cast_shadow=False, receive_shadow=False
-        )
+        return server.scene.add_batched_glb(f"/signals/{name}", lamp, turns, hidden, lod="off", cast_shadow=False, receive_shadow=False)
 
     def show(self, states: np.ndarray) -> None:
         """Light the lamps of these states, one per link; costs nothing when nothing has changed."""

@@ -5,9 +5,9 @@ reference point, x forward, y left, z up (ISO 8855).
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from studio.scene.shape import Surface, ball, box, fan, grid, joined, lathe, surface
 
@@ -37,6 +37,25 @@ class Dimensions:
         return self.front_axle, self.front_axle - self.wheelbase
 
 
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """A smooth line through points, without swinging beyond them: values at places `at`, which rise."""
+
+    at: list[float]
+    values: list[float]
+
+    @cached_property
+    def line(self):
+        """What interpolates; its import takes a second, and a server without a scene does not need it."""
+        from scipy.interpolate import PchipInterpolator
+
+        return PchipInterpolator(self.at, self.values)
+
+    def __call__(self, at) -> np.ndarray:
+        """Values at places."""
+        return self.line(at)
+
+
 # what a quad of the body is made of
 PAINT, TRIM, GLASS, HEADLIGHT, TAILLIGHT, GRILLE, PLATE = range(7)
 GLASS_COLOUR = "#1a232c"
@@ -47,27 +66,23 @@ WHEEL_COLOURS = ["#17181a", "#b9bec4", "#2a2c2f"]
 # The outline of the reference car (1.45 m high, 1.80 m wide) over the share of its length from the rear.
 # Drawn by eye to look like a compact hatchback: height of the deck (boot, sill of the windows, bonnet) [m],
 # height of the underside [m], and half width as a share of half the width.
-DECK = PchipInterpolator(
+DECK = Outline(
     [0.0, 0.008, 0.03, 0.08, 0.30, 0.70, 0.78, 0.90, 0.955, 0.985, 1.0],
     [0.62, 0.80, 0.915, 0.955, 0.955, 0.950, 0.925, 0.835, 0.760, 0.660, 0.56],
 )
-UNDERSIDE = PchipInterpolator(
-    [0.0, 0.012, 0.04, 0.12, 0.88, 0.955, 0.985, 1.0], [0.42, 0.31, 0.25, 0.20, 0.20, 0.21, 0.24, 0.33]
-)
-HALF_WIDTH = PchipInterpolator(
+UNDERSIDE = Outline([0.0, 0.012, 0.04, 0.12, 0.88, 0.955, 0.985, 1.0], [0.42, 0.31, 0.25, 0.20, 0.20, 0.21, 0.24, 0.33])
+HALF_WIDTH = Outline(
     [0.0, 0.008, 0.03, 0.08, 0.20, 0.50, 0.80, 0.90, 0.955, 0.985, 1.0],
     [0.74, 0.84, 0.91, 0.955, 0.99, 1.0, 0.985, 0.945, 0.865, 0.75, 0.62],
 )
 # The flank bulges: half width as a share of its largest over the height [m].
-FLANK = PchipInterpolator(
-    [0.19, 0.26, 0.36, 0.52, 0.62, 0.75, 0.88, 0.97], [0.935, 0.965, 0.985, 1.0, 0.998, 0.982, 0.955, 0.90]
-)
+FLANK = Outline([0.19, 0.26, 0.36, 0.52, 0.62, 0.75, 0.88, 0.97], [0.935, 0.965, 0.985, 1.0, 0.998, 0.982, 0.955, 0.90])
 # Height of the roof line [m] from the foot of the rear window to that of the windscreen.
-ROOF = PchipInterpolator(
+ROOF = Outline(
     [0.055, 0.09, 0.16, 0.22, 0.33, 0.45, 0.53, 0.575, 0.66, 0.745],
     [0.95, 1.13, 1.33, 1.405, 1.44, 1.45, 1.43, 1.395, 1.18, 0.94],
 )
-CABIN_WIDTH = PchipInterpolator([0.055, 0.16, 0.35, 0.6, 0.745], [0.80, 0.90, 0.935, 0.925, 0.82])
+CABIN_WIDTH = Outline([0.055, 0.16, 0.35, 0.6, 0.745], [0.80, 0.90, 0.935, 0.925, 0.82])
 TUMBLEHOME = 0.42
 
 # where the sections of the hull are: share of the length, and around a wheel arch the share of its radius
@@ -166,9 +181,9 @@ def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
     kinds = np.full((len(middle), half), PAINT)
     kinds[:, :FLANK_FROM] = TRIM
     kinds[:, FLANK_FROM] = TRIM
-    tail = middle < 0.03
-    kinds[np.ix_((middle > 0.945) & (middle < 0.987), [FLANK_TO - 1, FLANK_TO])] = HEADLIGHT
-    kinds[np.ix_(tail, [FLANK_TO - 1, FLANK_TO])] = TAILLIGHT
+    tail, ends = middle < 0.03, np.array([FLANK_TO - 1, FLANK_TO])
+    kinds[np.ix_((middle > 0.945) & (middle < 0.987), ends)] = HEADLIGHT
+    kinds[np.ix_(tail, ends)] = TAILLIGHT
     return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
 
 
@@ -213,12 +228,8 @@ def _cabin_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
 def _fittings(size: Dimensions, palette: list[str]) -> list[Surface]:
     """Mirrors, rear lamps, number plates, and the dark openings at the front and the rear."""
     x = 0.16 * size.length
-    mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(
-        x=x, y=0.5 * size.width + 0.015, z=0.68 * size.height
-    )
-    lamp = box((0.03, 0.30, 0.10), palette[TAILLIGHT]).moved(
-        x=-0.494 * size.length, y=0.29 * size.width, z=0.47 * size.height
-    )
+    mirror = ball((0.07, 0.10, 0.065), palette[PAINT]).moved(x=x, y=0.5 * size.width + 0.015, z=0.68 * size.height)
+    lamp = box((0.03, 0.30, 0.10), palette[TAILLIGHT]).moved(x=-0.494 * size.length, y=0.29 * size.width, z=0.47 * size.height)
     plate = box((0.02, 0.52, 0.11), palette[PLATE])
     front, rear = 0.5 * size.length + 0.002, -0.5 * size.length - 0.004
     return [
@@ -253,7 +264,7 @@ def wheel(size: Dimensions) -> Surface:
     kinds = np.tile(np.concatenate([rows, [TYRE], rows[::-1]]), (40, 1))
     # five spokes, each three of eight segments wide
     spokes = np.arange(40) % 8 < 3
-    kinds[np.ix_(spokes, [2, len(profile) - 4])] = RIM
+    kinds[np.ix_(spokes, np.array([2, len(profile) - 4]))] = RIM
     return lathe(profile, kinds, WHEEL_COLOURS)
 
 

@@ -1,25 +1,27 @@
 """What REST takes and gives, as pydantic models: OpenAPI and the page's types are made from them."""
 
-import json
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from studio.scenario.patch import Operation, is_text
+
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
-
-
-def is_text(values: dict[str, Any]) -> dict[str, Any]:
-    """Refuses half characters (lone surrogates): JSON can carry them, a scenario cannot."""
-    try:
-        json.dumps(values, ensure_ascii=False).encode()
-    except UnicodeEncodeError as error:
-        raise ValueError(f"holds text that is no Unicode: {error.reason}") from None
-    return values
+ImportStatus = Literal["running", "done", "failed", "cancelled"]
 
 
 ChangesByPath = Annotated[dict[str, Any], AfterValidator(is_text)]
+
+
+class Compiling(BaseModel):
+    """How far the first compilation on this machine is."""
+
+    done: int = Field(description="functions that are compiled")
+    of: int = Field(description="functions in all")
+    seconds: float = Field(description="since it began [s]")
+    latest: str = Field(description="the function that was compiled last")
 
 
 class Info(BaseModel):
@@ -29,6 +31,7 @@ class Info(BaseModel):
     code_version: str
     db: str
     scenarios_folder: str
+    compiling: Compiling | None = Field(description="what is compiled before the first run; null when that is done")
 
 
 class Problem(BaseModel):
@@ -87,6 +90,14 @@ class Check(BaseModel):
 
     ok: bool
     problems: list[Problem]
+    document: dict[str, Any]
+
+
+class Patched(BaseModel):
+    """A scenario after a patch: the patch that takes it back, the digest of its text (its ETag), and the document as it stands in it."""
+
+    inverse: list[Operation]
+    digest: str
     document: dict[str, Any]
 
 
@@ -517,7 +528,7 @@ class MapJob(BaseModel):
 
     id: int
     map: str = Field(description="id of the map that it makes")
-    status: Literal["running", "done", "failed", "cancelled"]
+    status: ImportStatus
     stage: str = Field(description="what is being done; may be waiting for others")
     share: float | None = Field(description="of the work that is done, 0 to 1; null where nobody knows")
     seconds: float = Field(description="since it was asked for, until its end [s]")

@@ -2,7 +2,7 @@
 
 import asyncio
 import json
-from collections.abc import AsyncIterator
+from collections.abc import AsyncGenerator
 from contextlib import asynccontextmanager
 from importlib.metadata import version
 from pathlib import Path
@@ -12,7 +12,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.responses import Response
 
-from studio.errors import Problem, ServerError, SizeError, StoreError, StudioError, UnknownError
+from studio.errors import ConflictError, Problem, SealedError, ServerError, SizeError, StaleError, StoreError, StudioError, UnknownError
 from studio.server import map_routes, relay, routes
 from studio.server.desk import Desk
 
@@ -23,8 +23,8 @@ def create_app(desk: Desk) -> FastAPI:
     """REST and scene of one desk."""
     app = FastAPI(title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan, docs_url=None, redoc_url=None)
     app.state.desk = desk
-    app.add_exception_handler(StudioError, refused)
-    app.add_exception_handler(RequestValidationError, misread)
+    app.exception_handler(StudioError)(refused)
+    app.exception_handler(RequestValidationError)(misread)
     app.include_router(routes.router)
     app.include_router(map_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.port))
@@ -33,32 +33,33 @@ def create_app(desk: Desk) -> FastAPI:
 
 
 @asynccontextmanager
-async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-    """The process for the first run gets ready while the page is already served; at the end all processes end."""
+async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
+    """Processes compile and get ready for the first run while the page is already served; at the end all processes end."""
     desk: Desk = app.state.desk
+    await asyncio.to_thread(desk.warmup.start)  # before anybody asks how far it is
     ready = asyncio.create_task(asyncio.to_thread(make_ready, desk))
     yield
     await ready
+    await asyncio.to_thread(desk.warmup.close)
     await asyncio.to_thread(desk.lives.close)
     await asyncio.to_thread(desk.map_jobs.close)
     await asyncio.to_thread(desk.stage.scene.stop)
 
 
 def make_ready(desk: Desk) -> None:
-    """Worker first: it compiles while the scene is made."""
+    """Worker first: it gets ready while the scene is made."""
     desk.lives.make_ready()
     desk.stage  # noqa: B018 - made by being looked at
 
 
+STATUS = {UnknownError: 404, StaleError: 412, ConflictError: 409, SealedError: 403, StoreError: 500, SizeError: 413}
+
+
 def status_of(error: StudioError) -> int:
     """HTTP status of an error."""
-    if isinstance(error, UnknownError):
-        return 404
-    if isinstance(error, StoreError):
-        return 500
-    if isinstance(error, SizeError):
-        return 413
-    return 409 if isinstance(error, ServerError) and "is over" in error.message else 422
+    if isinstance(error, ServerError) and "is over" in error.message:
+        return 409
+    return next((status for kind, status in STATUS.items() if isinstance(error, kind)), 422)
 
 
 def refusal(error: StudioError, status: int) -> Response:
@@ -80,9 +81,7 @@ async def no_such_route(request: Request) -> Response:
 
 async def misread(request: Request, error: RequestValidationError) -> Response:
     """FastAPI's findings about a request, in the same form."""
-    problems = [
-        Problem(".".join(map(str, each["loc"])), each["msg"], str(each.get("input", ""))[:80]) for each in error.errors()
-    ]
+    problems = [Problem(".".join(map(str, each["loc"])), each["msg"], str(each.get("input", ""))[:80]) for each in error.errors()]
     return refusal(StudioError("The request cannot be read.", problems), 422)
 
 

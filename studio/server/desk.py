@@ -1,15 +1,17 @@
 """What the routes work with: where scenarios, maps and runs are, the live runs, the imports, the stage."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from studio import job
+from studio import job, sample
 from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road.library import place
+from studio.server.answer import Pace
+from studio.server.documents import Documents
 from studio.server.frame import Frame
 from studio.server.live import LiveRun, Lives
 from studio.server.map_job import MapJobs
@@ -17,6 +19,7 @@ from studio.server.maps import Maps
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
 from studio.store.runs import Runs, reopen_runs
+from studio.warmup import Warmup
 
 
 @dataclass
@@ -30,10 +33,16 @@ class Desk:
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)
         self.lives = Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
+        self.documents = Documents(self.scenarios)
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
+        self.warmup = Warmup()
         self._stage: Stage | None = None
         self._lock = threading.Lock()
+
+    def compiling(self) -> dict[str, Any] | None:
+        """How far the warm-up is, while it goes on."""
+        return None if self.warmup.is_over else asdict(self.warmup.progress())
 
     @property
     def stage(self) -> Stage:
@@ -41,6 +50,28 @@ class Desk:
         with self._lock:
             self._stage = self._stage or Stage()
             return self._stage
+
+    def settle(self) -> None:
+        """Before something is written: the samples of an installed package are copied to ./scenarios, and from now on that is the folder.
+
+        Raises ServerError when it cannot be written.
+        """
+        with self._lock:
+            if self.scenarios != sample.PACKAGED:
+                return
+            own = Path("scenarios").resolve()
+            try:
+                sample.copy_to(own)
+            except OSError as error:
+                problem = Problem(
+                    "scenarios",
+                    error.strerror or str(error),
+                    str(own),
+                    remedy="start the studio in a folder of your own, or name one with --scenarios",
+                )
+                raise ServerError("The samples cannot be copied to a folder of your own.", [problem]) from None
+            self.scenarios = own
+            self.maps = self.map_jobs.maps = Maps(own)
 
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """Frames go to the stage."""
@@ -87,7 +118,7 @@ class Desk:
         return reopen_runs(self.db)
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
-              pace: float | str, paused: bool) -> LiveRun:  # fmt: skip
+              pace: Pace, paused: bool) -> LiveRun:  # fmt: skip
         """Starts a run in a process of its own; what is wrong with it is told before."""
         loaded = job.seeded(self.load(scenario, changes), seed)
         check_pace(pace)
@@ -95,7 +126,7 @@ class Desk:
         return self.lives.start(order, scenario, loaded)
 
 
-def check_pace(pace: float | str) -> None:
+def check_pace(pace: Pace) -> None:
     """Raises ServerError for a pace that nobody can watch."""
     if pace != "fast" and not SLOWEST <= pace <= FASTEST:
         raise ServerError(

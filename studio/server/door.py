@@ -25,6 +25,7 @@ class Door:
         if scope["type"] == "lifespan":
             await self.live(receive, send)
         elif scope["path"].startswith(INNER):
+            assert self.inside, "the server's life begins before its first request"
             app = await asyncio.shield(self.inside)
             await app(scope, receive, send)
         else:

@@ -8,10 +8,12 @@ from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.obstacle import Place
 from studio.scene.vehicle import Dimensions
+from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
+from studio.vehicle.parameter import L_F, L_R, LENGTH, RADIUS, TRACK_F, WIDTH, H
+from studio.vehicle.state import ACTIVE, DELTA, PITCH, PSI, ROLL, ROTATION, X, Y, Z
 from studio.world.build import at_start
 from studio.world.obstacle import WORDS, things
 from studio.world.setting import Setting
-from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.world import Vehicles, World
 
 JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way

@@ -1,7 +1,7 @@
 """Live runs as the server sees them: a process each, what it has told so far, and who listens.
 
-    Lives.start   takes the process that waits ready, gives it its order, starts the next one
-    LiveRun       orders to one process; its news go to all listeners
+Lives.start   takes the process that waits ready, gives it its order, starts the next one
+LiveRun       orders to one process; its news go to all listeners
 """
 
 import asyncio
@@ -9,7 +9,7 @@ import logging
 import multiprocessing
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from math import inf, isfinite
@@ -26,7 +26,7 @@ from studio.server.frame import Frame
 from studio.server.worker import Order
 from studio.store.runs import reopen_runs
 
-START_PATIENCE = 120.0  # [s] the first start compiles
+START_PATIENCE = 600.0  # [s] the first start compiles; the page tells how far it is
 MOST_LIVE = 8  # processes at a time
 END_PATIENCE = 3.0  # [s] for a process to save and end
 STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang
@@ -86,6 +86,7 @@ class LiveRun:
     frame: Frame | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
+    obeyed: bool = False
     given_up: bool = False
 
     def listen(self) -> None:
@@ -136,7 +137,7 @@ class LiveRun:
     def on_state_news(self, status: str, when: float, pace: float, real_time_factor: float) -> None:
         """Where the run is."""
         with self.lock:
-            over = status not in ("running", "paused")
+            over = self.obeyed = status not in ("running", "paused")
             self.status = self.status if over else status  # it is over when it has been saved
             self.time, self.pace, self.real_time_factor = when, pace, real_time_factor
             self.tell(self.state())
@@ -180,8 +181,8 @@ class LiveRun:
         patience.start()
 
     def give_up(self) -> None:
-        """Ends a process that still has not stopped."""
-        if not self.is_over:
+        """Ends a process that still has not stopped; one that has may take its time to save."""
+        if not (self.is_over or self.obeyed):
             self.given_up = True
             self.process.process.kill()
 
@@ -247,6 +248,7 @@ class Lives:
         self.make_ready()
         with self.lock:
             process, self.spare = self.spare, None
+        assert process, "made ready above"
         return process
 
     def start(self, order: Order, scenario: str, loaded: Loaded) -> LiveRun:
@@ -260,7 +262,7 @@ class Lives:
         return live
 
     @contextmanager
-    def place(self) -> Iterator[None]:
+    def place(self) -> Generator[None]:
         """A place among the live runs, held while one starts; raises ServerError when there is none."""
         with self.lock:
             if self.starting + sum(not live.is_over for live in self.runs.values()) >= MOST_LIVE:

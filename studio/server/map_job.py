@@ -44,7 +44,7 @@ class MapJob:
     id: int
     map: str
     order: Order
-    status: str = "running"
+    status: answer.ImportStatus = "running"
     stage: str = WAITING
     share: float | None = None
     problem: StudioError | None = None
@@ -68,7 +68,7 @@ class MapJob:
                 problem=self.problem.as_json() if self.problem else None,
             )  # fmt: skip
 
-    def end(self, status: str, problem: StudioError | None = None) -> None:
+    def end(self, status: answer.ImportStatus, problem: StudioError | None = None) -> None:
         """It is over, unless it has been before."""
         with self.lock:
             if not self.is_over:
@@ -102,7 +102,7 @@ class MapJob:
                 self.process.start()
         return ours
 
-    def listen(self, pipe: Connection) -> tuple[str, StudioError | None]:
+    def listen(self, pipe: Connection) -> tuple[answer.ImportStatus, StudioError | None]:
         """Hears the process out; the status that it ends with, and the problem."""
         outcome = None
         with pipe, suppress(EOFError, OSError):
@@ -115,7 +115,7 @@ class MapJob:
         kill(self.process)
         return outcome or ("failed", gone(self.process.exitcode))
 
-    def hear(self, pipe: Connection, word: str, values: list[Any]) -> tuple[str, StudioError | None] | None:
+    def hear(self, pipe: Connection, word: str, values: list[Any]) -> tuple[answer.ImportStatus, StudioError | None] | None:
         """One piece of news; the last one is how it ended."""
         if word in ("done", "failed"):
             return word, values[0]
@@ -179,9 +179,7 @@ class MapJobs:
 
     # -- what is done ------------------------------------------------------------------------------
 
-    async def upload(
-        self, body: AsyncIterator[bytes], *, name: str, size: int, bbox: str | None, replace: bool
-    ) -> answer.MapJob:
+    async def upload(self, body: AsyncIterator[bytes], *, name: str, size: int, bbox: str | None, replace: bool) -> answer.MapJob:
         """Takes a map file and imports it; `size` is what its sender says of it [B]. Raises MapError, SizeError or ServerError."""
         base, ending = file_name(name)
         if bbox is not None:
@@ -206,7 +204,7 @@ class MapJobs:
             problem = Problem("place, bbox", "are none or both given", remedy="give one of them")
             raise MapError("What shall be downloaded?", [problem])
         by = download.servers()
-        place = new.place if new.bbox is None else osm.bounding_box(",".join(map(repr, new.bbox)))
+        place = new.place or "" if new.bbox is None else osm.bounding_box(",".join(map(repr, new.bbox)))
         if isinstance(place, osm.Box):
             download.check_area(place)
         base = plain_name(new.name or name_for(place))
@@ -357,4 +355,3 @@ def too_large() -> SizeError:
     """The refusal of a file that is too large."""
     limit = f"{osm.LARGEST_FILE // 2**20} MiB"
     return SizeError("The file is too large.", [Problem("body", "is too large", "", f"at most {limit}", "cut out a smaller place")])
-

@@ -3,19 +3,29 @@
 Imports are answered at once with a job; whoever asked looks at it until it is over.
 """
 
-from typing import Annotated
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Depends, Query, Request
 
 from studio.server import answer
+from studio.server.desk import Desk
 from studio.server.routes import AtDesk
 
-REFUSALS = {status: {"model": answer.Refusal} for status in (404, 409, 413, 422)}
+REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 413, 422)}
 BODY = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
 Name = Annotated[str, Query(description="name of the file; its ending tells the kind: .osm, .osm.gz, .osm.pbf, .json", max_length=300)]
 Box = Annotated[str | None, Query(description="the part to keep, west,south,east,north [deg]")]
 Replace = Annotated[bool, Query(description="replace the import of that name; its corrections are kept")]
 router = APIRouter(prefix="/api", responses=REFUSALS)
+
+
+def own_desk(desk: AtDesk) -> Desk:
+    """The desk, where something may be written."""
+    desk.settle()
+    return desk
+
+
+AtOwnDesk = Annotated[Desk, Depends(own_desk)]
 
 
 @router.get("/maps")
@@ -37,7 +47,7 @@ def map_plan(map: str, desk: AtDesk) -> answer.MapPlan:
 
 
 @router.post("/maps", status_code=202, openapi_extra=BODY)
-async def upload(request: Request, desk: AtDesk, name: Name, bbox: Box = None, replace: Replace = False) -> answer.MapJob:
+async def upload(request: Request, desk: AtOwnDesk, name: Name, bbox: Box = None, replace: Replace = False) -> answer.MapJob:
     """Imports the map file that is the body, at most 100 MiB of it."""
     said = request.headers.get("content-length", "")
     size = int(said) if said.isdigit() else 0
@@ -45,7 +55,7 @@ async def upload(request: Request, desk: AtDesk, name: Name, bbox: Box = None, r
 
 
 @router.post("/maps/download", status_code=202)
-def download(new: answer.NewDownload, desk: AtDesk) -> answer.MapJob:
+def download(new: answer.NewDownload, desk: AtOwnDesk) -> answer.MapJob:
     """Downloads a place from the Overpass server of this studio, and imports it."""
     return desk.map_jobs.download(new)
 
@@ -81,7 +91,7 @@ def take_back(map: str, element: str, desk: AtDesk) -> answer.MapJob:
 
 
 @router.post("/maps/{map}/drive", status_code=201)
-def drive(map: str, desk: AtDesk) -> answer.Driven:
+def drive(map: str, desk: AtOwnDesk) -> answer.Driven:
     """Writes a scenario with one car on this map, to be opened at once."""
     return answer.Driven(scenario=desk.maps.drive(map))
 

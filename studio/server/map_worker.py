@@ -70,7 +70,9 @@ def outcome(pipe: Connection, order: Order) -> tuple[Any, ...]:
         return "failed", without(error, order)
     except MemoryError:
         limit = f"{MOST_MEMORY / 2**30:g} GiB"
-        return "failed", MapError("The map needs more memory than an import may take.", [Problem("map", "is too large", "", limit, "cut out a smaller place")])
+        return "failed", MapError(
+            "The map needs more memory than an import may take.", [Problem("map", "is too large", "", limit, "cut out a smaller place")]
+        )
     except ServerGone:
         raise
     except Exception as error:

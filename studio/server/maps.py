@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 
 from studio.errors import MapError, Problem, ScenarioError, StudioError, UnknownError, nearest
 from studio.road import load
@@ -25,6 +24,8 @@ from studio.road.library.reader import ENDINGS, ending_of
 from studio.road.network import Network
 from studio.road.ways.trip import Trip, trip
 from studio.scenario import file as scenario_file
+from studio.scenario.schema import VERSION
+from studio.scenario.splice import written
 from studio.server import answer
 from studio.world.setting import USUAL_RADIUS
 
@@ -113,7 +114,9 @@ class Maps:
         """Removes an import. Raises UnknownError, or MapError when a scenario names it or it holds other things."""
         path = self.find_import(name)
         if users := self.users(path):
-            problems = [Problem(f"scenario {each}", "names this map", remedy="remove the scenario, or let it name another map") for each in users]
+            problems = [
+                Problem(f"scenario {each}", "names this map", remedy="remove the scenario, or let it name another map") for each in users
+            ]
             raise MapError(f"The map {name!r} is in use.", problems)
         if others := sorted(each.name for each in path.iterdir() if each.name not in OURS):
             problem = Problem("map", "holds other things", ", ".join(others)[:200], remedy="move them elsewhere")
@@ -159,7 +162,9 @@ def file_name(text: str) -> tuple[str, str]:
         ending = ending_of(Path(last))
     except MapError:
         allowed = ", ".join(ENDINGS)
-        raise MapError("This kind of file cannot be imported.", [Problem("name", "has an ending that is not known", shown, allowed)]) from None
+        raise MapError(
+            "This kind of file cannot be imported.", [Problem("name", "has an ending that is not known", shown, allowed)]
+        ) from None
     name = plain_name(last[: -len(ending)])
     if not name:
         raise MapError("The file has no name.", [Problem("name", "holds no letter or digit", shown, "such as my_place.osm.gz")])
@@ -300,7 +305,7 @@ def scenario_text(name: str, found: Trip, maker: str, terms: str) -> str:
     """A scenario file: one car on a trip, at the limit."""
     duration = min(600.0, 10.0 * np.ceil((1.2 * found.time + RED_LIGHT * len(found.path.stop_lines)) / 10.0) + 10.0)
     document = {
-        "version": 1,
+        "version": VERSION,
         "title": f"A drive in {name}"[:120],
         "description": f"One car drives {found.length:.0f} m through the map {name}, a way drawn by lot, and stops at red.",
         "map": {"file": f"{CALLED}/{name}"},
@@ -311,7 +316,7 @@ def scenario_text(name: str, found: Trip, maker: str, terms: str) -> str:
     }
     named = " ".join(", ".join(filter(None, (maker, terms))).split())  # a header may hold line breaks
     head = f"# Map data {named}.\n" if named else ""
-    return head + yaml.safe_dump(document, allow_unicode=True, sort_keys=False)
+    return f"{head}{written(document, flow=None)}\n"
 
 
 def write_new(place: Path, base: str, text: str) -> str:

@@ -53,9 +53,7 @@ class SameOrigin:
             )
         origin = _header(scope, b"origin")
         if origin and _place(origin) != called:
-            return Problem(
-                "Origin", "a page of another origin may not talk to this server", origin, host, REMEDY
-            )
+            return Problem("Origin", "a page of another origin may not talk to this server", origin, host, REMEDY)
         return None
 
     def knows(self, name: str) -> bool:

@@ -1,9 +1,11 @@
-"""The page: the bundle that the build made, for every address that is neither REST nor scene."""
+"""The page: the bundle that the build made, for every address that is neither REST nor scene nor documentation."""
 
 from pathlib import Path
 
 from fastapi import FastAPI
 from fastapi.responses import FileResponse, HTMLResponse, Response
+
+from studio.server import book
 
 BUNDLE = Path(__file__).parent.parent / "_web"
 FOREVER = {"Cache-Control": "public, max-age=31536000, immutable"}  # names of assets hold a digest of their content
@@ -13,6 +15,7 @@ MISSING = """<!doctype html><title>Cooperative ADAS Studio</title>
 <a href="/openapi.json">/openapi.json</a>.</p>"""
 
 app = FastAPI(openapi_url=None)
+app.include_router(book.router)
 
 
 @app.get("/{path:path}")

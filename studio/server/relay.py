@@ -50,8 +50,11 @@ async def relay(browser: WebSocket, url: str) -> None:
             max_size=None,
             compression=None,
             proxy=None,
+            # viser is a thread of this process: it cannot be gone without a word, and a busy machine lets it answer late
+            open_timeout=None,
+            ping_interval=None,
         )
-    except (OSError, websockets.WebSocketException, TimeoutError):
+    except (OSError, websockets.WebSocketException):
         await browser.close(TRY_AGAIN_LATER)
         return
     async with upstream:

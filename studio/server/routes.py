@@ -2,21 +2,30 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Request, WebSocket
+from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
+from starlette.responses import Response
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
 from studio.application import registry
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
+from studio.scenario.document import digest
+from studio.scenario.patch import Operation, operations
 from studio.scenario.schema import Scenario
+from studio.scenario.source import Source
 from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.live import Listener, plain
 from studio.server.worker import pace_factor
+from studio.source import code_version
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
 
-REFUSALS = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
+REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
+YAML: dict[int | str, dict[str, Any]] = {
+    200: {"description": "YAML (RFC 9512)", "content": {"application/yaml": {"schema": {"type": "string"}}}}
+}
+CHANGED: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (403, 412)}
 router = APIRouter(prefix="/api", responses=REFUSALS)
 
 
@@ -31,8 +40,14 @@ AtDesk = Annotated[Desk, Depends(desk_of)]
 @router.get("/info")
 def info(desk: AtDesk) -> answer.Info:
     """About this server."""
-    code = job.code_version()
-    return answer.Info(version=code.partition("+")[0], code_version=code, db=str(desk.db), scenarios_folder=str(desk.scenarios))
+    code = code_version()
+    return answer.Info(
+        version=code.partition("+")[0],
+        code_version=code,
+        db=str(desk.db),
+        scenarios_folder=str(desk.scenarios),
+        compiling=desk.compiling(),
+    )
 
 
 @router.get("/scenarios")
@@ -67,6 +82,33 @@ def check(scenario: str, changes: answer.Changes, desk: AtDesk) -> answer.Check:
     except ScenarioError as error:
         document = desk.load(scenario).document
         return answer.Check(ok=False, problems=error.as_json()["problems"], document=document)
+
+
+@router.get("/scenarios/{scenario}/text", response_class=Response, responses=YAML)
+def text(scenario: str, desk: AtDesk) -> Response:
+    """A scenario file as it stands, in the present version of the format; its ETag is the digest of the text."""
+    found = desk.documents.read(desk.file(scenario))
+    return Response(found.text, media_type="application/yaml", headers={"ETag": etag(found)})
+
+
+@router.patch("/scenarios/{scenario}", responses=CHANGED, response_model_exclude_unset=True)
+def patch_scenario(
+    scenario: str,
+    patch: Annotated[list[Operation], Body(media_type="application/json-patch+json")],
+    desk: AtDesk,
+    response: Response,
+    if_match: Annotated[str | None, Header(description="ETag of the text that the patch is for; without it, any")] = None,
+) -> answer.Patched:
+    """Changes a scenario file by a JSON patch (RFC 6902): all of it if the result is valid, else nothing. Undo: send the inverse."""
+    expected = None if if_match in (None, "*") else if_match.strip().removeprefix("W/").strip('"')
+    found, inverse = desk.documents.patch(desk.file(scenario), operations(patch), expected)
+    response.headers["ETag"] = etag(found)
+    return answer.Patched(inverse=inverse, digest=digest(found.text), document=found.value)
+
+
+def etag(found: Source) -> str:
+    """The digest of a text as HTTP has it."""
+    return f'"{digest(found.text)}"'
 
 
 @router.get("/applications")
@@ -129,9 +171,7 @@ def live_runs(desk: AtDesk) -> list[answer.Live]:
 @router.post("/live", status_code=201)
 def start_live(new: answer.NewLiveRun, desk: AtDesk) -> answer.Live:
     """Starts a live run in a process of its own."""
-    live = desk.start(
-        new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace=new.pace, paused=new.paused
-    )
+    live = desk.start(new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace=new.pace, paused=new.paused)
     return answer.Live(**live.as_json())
 
 

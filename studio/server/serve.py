@@ -9,14 +9,15 @@ from pathlib import Path
 
 import uvicorn
 
+from studio import sample
 from studio.errors import Problem, ServerError
 from studio.server import page
 from studio.server.door import Door
 from studio.server.origin import SameOrigin
 from studio.store.tables import open_database
 
-SAMPLES = Path(__file__).parent.parent.parent / "scenarios"
 FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent in one piece
+PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
 
 
 def serve(*, host: str, port: int, db: Path, scenarios: Path | None, applications: Path | None, browser: bool) -> None:
@@ -34,7 +35,12 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, application
     if browser and has_display():
         threading.Timer(0.5, webbrowser.open, [address]).start()
     config = uvicorn.Config(
-        app, log_level="warning", ws_max_size=FRAME_LIMIT, ws_per_message_deflate=False, timeout_graceful_shutdown=2
+        app,
+        log_level="warning",
+        ws_max_size=FRAME_LIMIT,
+        ws_per_message_deflate=False,
+        ws_ping_timeout=PONG_PATIENCE,
+        timeout_graceful_shutdown=2,
     )
     uvicorn.Server(config).run(sockets=[listening])
 
@@ -80,7 +86,7 @@ def scenario_folder(wanted: Path | None) -> Path:
             f"There is no folder {wanted}.", [Problem("--scenarios", "is not a folder", str(wanted), "a folder of YAML files")]
         )
     here = Path("scenarios")
-    return wanted or (here if here.is_dir() else SAMPLES)
+    return wanted or (here if here.is_dir() else sample.folder())
 
 
 def shown(host: str) -> str:

@@ -24,7 +24,7 @@ from studio import job
 from studio.application.registry import load_folder
 from studio.errors import StudioError
 from studio.execution.loop import Pace
-from studio.execution.simulation import Simulation, simulation
+from studio.execution.simulation import Case, Simulation, simulation
 from studio.server.frame import blend, frame, poses
 from studio.store.runs import open_runs
 
@@ -66,6 +66,11 @@ class Live:
     before: np.ndarray = field(default_factory=lambda: np.zeros(0))
     after: np.ndarray = field(default_factory=lambda: np.zeros(0))
     advanced: float = 0.0
+
+    @property
+    def case(self) -> Case:
+        """The only world."""
+        return self.simulation.cases[0]
 
     def run(self) -> None:
         """Until the run is over."""
@@ -148,7 +153,7 @@ class Live:
     def status(self) -> str:
         """What the run is doing."""
         if self.simulation.is_over:
-            return self.simulation.status
+            return self.case.status
         return "paused" if self.paused else "running"
 
     def real_time_factor(self, now: float) -> float:
@@ -161,7 +166,7 @@ class Live:
 
     def send_events(self) -> None:
         """Happenings that have not been told."""
-        happenings = self.simulation.happenings
+        happenings = self.case.happenings
         for each in happenings[self.told :]:
             self.pipe.send(("event", each.time, each.text, each.vehicle))
         self.told = len(happenings)
@@ -170,7 +175,7 @@ class Live:
         """Samples of the live channels that have not been sent, at the charts' period; single steps and the end too."""
         recorder = self.simulation.recorder
         thin = max(round(SAMPLE_PERIOD / (recorder.every * self.simulation.world.clock.tick)), 1)
-        last = len(recorder.times) - 1
+        last = recorder.count - 1
         whole = self.paused or self.simulation.is_over
         fresh = [i for i in range(self.sampled, last + 1) if i % thin == 0 or (whole and i == last)]
         self.sampled = last + 1
@@ -220,7 +225,7 @@ def start(pipe: Connection, order: Order) -> None:
         current = simulation(prepared)
         Live(current, pipe, Pace(order.pace), order.paused).run()
         job.save(number, job.outcome(loaded, current), runs)
-        pipe.send(("end", current.status, current.error))
+        pipe.send(("end", current.cases[0].status, current.cases[0].error))
     except (EOFError, OSError):
         runs.end(number, "killed", "The server ended before the run did.")
     except Exception:

@@ -2,27 +2,31 @@
 
 A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
 says "running", the run was killed; the row says so as soon as somebody looks.
+
+What only traces and events need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
 
 import json
 import os
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import psutil
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
 from studio.errors import UnknownError
-from studio.execution.record import Happening, Record
-from studio.store import trace
 from studio.store.tables import open_database, reopen_database, unusable
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from studio.execution.record import Happening, Record
 
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
@@ -83,12 +87,16 @@ class Runs:
             kept = {"hash": scenario_hash, "title": title, "map_digest": map_digest}
             content = {key: value for key, value in document.items() if key != "seed"}
             kept["document"] = json.dumps(content, ensure_ascii=False)
-            self.database["scenarios"].insert(kept, pk="hash", ignore=True)
-            return int(self.database["runs"].insert(row, pk="run").last_pk)
+            self.database.table("scenarios").insert(kept, pk="hash", ignore=True)
+            number = self.database.table("runs").insert(row, pk="run").last_pk
+            assert number is not None, "a row that was inserted has a key"
+            return int(number)
 
-    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: Record, sim_time_s: float,
+    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing."""
+        from studio.store import trace
+
         ending = {
             "status": status,
             "error": error,
@@ -99,10 +107,10 @@ class Runs:
         }
         parquet = trace.write(record, channels)
         with self.writing():
-            self.database["runs"].update(run, ending)
-            self.database["metrics"].insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
-            self.database["events"].insert_all({"run": run, **asdict(each)} for each in record.happenings)
-            self.database["traces"].insert({"run": run, "parquet": parquet}, pk="run", replace=True)
+            self.database.table("runs").update(run, ending)
+            self.database.table("metrics").insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
+            self.database.table("events").insert_all({"run": run, **asdict(each)} for each in record.happenings)
+            self.database.table("traces").insert({"run": run, "parquet": parquet}, pk="run", replace=True)
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
@@ -111,7 +119,7 @@ class Runs:
             self.database.conn.execute(change, [status, error, run])
 
     @contextmanager
-    def writing(self) -> Iterator[None]:
+    def writing(self) -> Generator[None]:
         """One transaction: all of it or nothing. SQLite's refusals become StoreErrors."""
         connection = self.database.conn
         try:
@@ -134,11 +142,11 @@ class Runs:
             raise UnknownError(f"There is no run {run} in {self.path}; {have}")
         return rows[0]
 
-    def select(self, *, where: str = "1", values: list = (), limit: int = -1) -> list[Row]:
+    def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
         self.mark_killed()
-        query = f"select * from runs where {where} order by run desc limit {int(limit)}"
-        rows = [dict(row) for row in self.rows(query, values)]
+        query = f"select * from runs where {where} order by run desc limit ?"
+        rows = [dict(row) for row in self.rows(query, (*values, limit))]
         metrics = self.metrics_of([row["run"] for row in rows])
         return [row_of(row, metrics.get(row["run"], {})) for row in rows]
 
@@ -166,7 +174,7 @@ class Runs:
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
-        return json.loads(self.database["scenarios"].get(row.scenario_hash)["document"]) | {"seed": row.seed}
+        return json.loads(self.database.table("scenarios").get(row.scenario_hash)["document"]) | {"seed": row.seed}
 
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
@@ -178,15 +186,21 @@ class Runs:
 
     def channels(self, run: int) -> list[dict[str, str]]:
         """Recorded channels of a run; none when it has no traces."""
+        from studio.store import trace
+
         found = self.rows("select parquet from traces where run = ?", [run])
         return trace.channels(found[0]["parquet"]) if found else []
 
-    def trace(self, run: int, names: list[str]) -> dict[str, np.ndarray]:
+    def trace(self, run: int, names: list[str]) -> dict[str, "np.ndarray"]:
         """Time and channels of a run."""
+        from studio.store import trace
+
         return trace.read(self.parquet(run), names)
 
-    def events(self, run: int) -> list[Happening]:
+    def events(self, run: int) -> list["Happening"]:
         """What happened in a run."""
+        from studio.execution.record import Happening
+
         rows = self.rows("select time, text, vehicle from events where run = ? order by time, rowid", [run])
         return [Happening(**row) for row in rows]
 

@@ -105,9 +105,9 @@ def make_tables(database: Database) -> None:
     patiently(lambda: database.conn.execute("begin immediate"))
     with database.conn:
         for name, (columns, key, foreign) in TABLES.items():
-            database[name].create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
-        database["events"].create_index(["run"], if_not_exists=True)
-        database["runs"].create_index(["scenario"], if_not_exists=True)
+            database.table(name).create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
+        database.table("events").create_index(["run"], if_not_exists=True)
+        database.table("runs").create_index(["scenario"], if_not_exists=True)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 

@@ -1,29 +1,37 @@
 """From settings to a world: the only place where names become indices.
 
-    build([settings])   →  World         arrays, one column per vehicle, world after world
+build([settings])   →  World         arrays, one column per vehicle, world after world
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from studio.application import registry
 from studio.application.contract import ACTUATORS
-from studio.application.host import Hosted, compiled_loop, first_memory, observation_rows, python_loop
+from studio.application.host import Group, Hosted, compiled_loop, first_memory, observation_rows, python_loop
 from studio.conventions import GRAVITY
 from studio.model.driver import sight_speed
 from studio.road.network import shadow
-from studio.road.network.shadow import Shadow
-from studio.scenario.schema import Driver, Friction, Weather
+from studio.scenario.schema import Application, Driver, Friction, Weather
+from studio.vehicle.command import RING, U_DRIVE
+from studio.vehicle.fleet import Start, fleet, level_ground
+from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
+from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world import ground
 from studio.world.change import changes_of
 from studio.world.control import wheel_torque
-from studio.world.fleet import Start, fleet, level_ground
-from studio.world.line import Lines, Zones, detours_of, lines_of, starts, stops_of, table_of, zones
+from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
+from studio.world.mind import DRIVER, MIND, SIGHT, STATION
+from studio.world.neighbour import neighbours
 from studio.world.obstacle import obstacles_of
+from studio.world.queue import queues
 from studio.world.setting import Car, Setting, pose
-from studio.world.state import *  # noqa: F403 - the names of the rows
-from studio.world.world import Clock, Events, Roads, Units, Vehicles, World, Worlds
+from studio.world.snapshot import gather, origin_of
+from studio.world.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
+from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
+from studio.world.world import Clock, Conflicts, Events, Roads, Units, Vehicles, World, Worlds
 
 MOST_HITS = 64  # collisions that are reported per world
 
@@ -39,8 +47,8 @@ def build(settings: Sequence[Setting]) -> World:
     obstacles = obstacles_of(settings, lines)
     table = table_of(lines, stops[0], obstacles.counts)
     known: Zones = {}
-    pair, span = zones(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
-    roads = roads_of(settings, lines, table, stops, pair, span)
+    met = conflicts(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
+    roads = roads_of(settings, lines, table, stops, met)
     world = World(
         clock=Clock(clock.tick, clock.step),
         vehicles=vehicles,
@@ -51,11 +59,15 @@ def build(settings: Sequence[Setting]) -> World:
         changes=changes_of(settings, worlds, lines),
         detours=detours_of(settings, worlds, lines, table, known),
         obstacles=obstacles,
+        neighbours=neighbours(vehicles.parameter),
+        queues=queues(vehicles.size),
         hosted=hosts(settings, worlds),
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
     )
     settle(world)
+    world.origin = origin_of(settings, world)
+    gather(world)
     return world
 
 
@@ -64,11 +76,23 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
     counts = np.array([len(each.cars) for each in settings])
     return Worlds(
         of=np.repeat(np.arange(len(settings)), counts),
-        entity=np.concatenate([np.arange(count) for count in counts]),
+        number=np.concatenate([np.arange(count) for count in counts]),
+        entity=np.concatenate([entities(each) for each in settings]),
         first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
         count=counts,
         seed=np.array([each.scenario.seed for each in settings], dtype=np.uint64),
     )
+
+
+def entities(each: Setting) -> np.ndarray:
+    """Numbers by which chance tells the vehicles of a world apart.
+
+    They hang on the names, so that the order of a file changes nothing; traffic comes last, so that more of it changes
+    nothing for the others.
+    """
+    named = len(each.scenario.vehicles)
+    number = {name: i for i, name in enumerate([*sorted(each.names[:named]), *each.names[named:]])}
+    return np.array([number[name] for name in each.names])
 
 
 def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
@@ -108,8 +132,8 @@ def driver_rows(driver: Driver, weather: Weather) -> list[float]:
     return [*own, weather.visibility, sight_speed(weather.visibility, braking)]
 
 
-def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, zone_pair, zone_span) -> Roads:
-    """Points, the line that every vehicle is on, stop lines, zones, signals and surface."""
+def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, met: Conflicts) -> Roads:
+    """Points, the line that every vehicle is on, stop lines, conflicts, signals and surface."""
     _, stop_station, stop_link = stops
     return Roads(
         points=lines.points,
@@ -120,15 +144,14 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
         stop_count=table[LINE_STOPS, lines.base],
         stop_station=stop_station,
         stop_link=stop_link,
-        zone_pair=zone_pair,
-        zone_span=zone_span,
+        conflicts=met,
         **signals_of(settings),
         **surface_of(settings),
         **buildings_of(settings),
     )
 
 
-def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
+def surface_of(settings: Sequence[Setting]) -> dict[str, Any]:
     """Weather per world, and the pieces of all slippery stretches."""
     placed = [(w, site) for w, each in enumerate(settings) for site in each.sites]
     found = [
@@ -143,7 +166,7 @@ def surface_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
     }
 
 
-def buildings_of(settings: Sequence[Setting]) -> dict[str, np.ndarray | Shadow]:
+def buildings_of(settings: Sequence[Setting]) -> dict[str, Any]:
     """The map of every world, and the buildings of all maps; worlds on the same map share them."""
     shadows = {id(each.network): shadow.shadow_of(each.network) for each in settings}
     number = {name: i for i, name in enumerate(shadows)}
@@ -154,7 +177,7 @@ def buildings_of(settings: Sequence[Setting]) -> dict[str, np.ndarray | Shadow]:
     }
 
 
-def signals_of(settings: Sequence[Setting]) -> dict[str, np.ndarray]:
+def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
     """Signal programmes of all worlds, link after link."""
     all_signals = [each.network.signals for each in settings]
     phases = np.concatenate([[0], np.cumsum([signals.phase_end.size for signals in all_signals])[:-1]])
@@ -196,8 +219,9 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: list[Car]) -> Un
 
 def links_of(each: Setting, first: int) -> list[tuple[int, int]]:
     """Receiver and sender columns, in the order of the groups."""
+    numbers = {name: first + i for i, name in enumerate(each.names)}
     return [
-        (first + each.names.index(receiver), first + each.names.index(sender))
+        (numbers[receiver], numbers[sender])
         for group in each.scenario.applications.values()
         for receiver, sender in zip(group.vehicles, group.listens_to, strict=False)
     ]
@@ -221,34 +245,61 @@ def events_of(settings: Sequence[Setting], worlds: Worlds) -> Events:
     )
 
 
+class Crew(NamedTuple):
+    """The cars of an application group before they are hosted: their columns, and the link that each listens to, -1 for none."""
+
+    world: int
+    place: int
+    name: str
+    group: Application
+    columns: np.ndarray
+    links: np.ndarray
+
+
 def hosts(settings: Sequence[Setting], worlds: Worlds) -> list[Hosted]:
-    """Every application group of every world, with the links that its cars listen to."""
-    found, link = [], 0
-    for each, first in zip(settings, worlds.first, strict=True):
+    """Every application, a compiled one once for all groups of all worlds, in the order in which the files name them."""
+    together: dict[tuple[str, int], list[Crew]] = {}
+    for crew in crews(settings, worlds):
+        own = -1 if registry.find(crew.group.application).compiled else crew.place
+        together.setdefault((crew.group.application, own), []).append(crew)
+    return [hosted(registry.find(name), found) for (name, _), found in together.items()]
+
+
+def crews(settings: Sequence[Setting], worlds: Worlds) -> Iterator[Crew]:
+    """Every application group of every world."""
+    link, place = 0, 0
+    for w, (each, first) in enumerate(zip(settings, worlds.first, strict=True)):
+        numbers = {name: first + i for i, name in enumerate(each.names)}
         for name, group in each.scenario.applications.items():
             heard = len(group.listens_to)
-            columns = np.array([first + each.names.index(vehicle) for vehicle in group.vehicles], dtype=np.int64)
+            columns = np.array([numbers[vehicle] for vehicle in group.vehicles], dtype=np.int64)
             links = np.arange(link, link + heard) if heard else np.full(columns.size, -1)
-            found.append(hosted(name, group, columns, links))
-            link += heard
-    return found
+            yield Crew(w, place, name, group, columns, links)
+            link, place = link + heard, place + 1
 
 
-def hosted(name: str, group, columns: np.ndarray, links: np.ndarray) -> Hosted:
-    """One group on its host."""
-    application = registry.find(group.application)
-    values = [float(value) for value in application.parameters(group.parameters).values()]
-    n = columns.size
+def hosted(application: registry.Application, found: list[Crew]) -> Hosted:
+    """Some groups of one application on their host."""
+    columns = np.concatenate([crew.columns for crew in found])
+    ends = np.cumsum([crew.columns.size for crew in found]).tolist()
     return Hosted(
         application=application,
-        group=name,
+        groups=[
+            Group(crew.world, crew.place, crew.name, slice(end - crew.columns.size, end)) for crew, end in zip(found, ends, strict=True)
+        ],
         columns=columns,
-        links=links,
-        parameters=np.tile(np.array(values)[:, None], n),
-        memory=np.tile(np.array(first_memory(application))[:, None], n),
-        observed=np.zeros((len(observation_rows()), n)),
+        links=np.concatenate([crew.links for crew in found]),
+        parameters=np.concatenate([parameters_of(application, crew) for crew in found], axis=1),
+        memory=np.tile(np.array(first_memory(application))[:, None], columns.size),
+        observed=np.zeros((len(observation_rows()), columns.size)),
         run=compiled_loop(application) if application.compiled else python_loop(application),
     )
+
+
+def parameters_of(application: registry.Application, crew: Crew) -> np.ndarray:
+    """Parameters of all cars of a group, [row, car]."""
+    values = [float(value) for value in application.parameters(crew.group.parameters).values()]
+    return np.tile(np.array(values)[:, None], crew.columns.size)
 
 
 def settle(world: World) -> None:

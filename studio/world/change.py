@@ -8,21 +8,24 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.road.ways.detour import limited
 from studio.road.ways.path import PATH_SPEED, project
 from studio.scenario.schema import Limit
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.state import ACTIVE, X, Y
 from studio.world import obstacle
-from studio.world.line import Lines, zones
+from studio.world.line import Lines, conflicts
+from studio.world.mind import STATION
 from studio.world.setting import Setting
 from studio.world.site import Site
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.street import ACTING, AT, BY, OVER, PIECE_ACTS, PIECE_CHANGE, WHEN
 from studio.world.world import Changes, World, Worlds
 
 EARLY = 1e-9  # [s] a time that is a whole number of ticks must not come a tick late by rounding
 
 
-@compiled
+@lean
 def has_come(i, time, moments, state, points, path_first, path_count, mind):
     """Whether a moment is there: its time, or its vehicle at its station."""
     if moments[BY, i] < 0.0:
@@ -32,7 +35,7 @@ def has_come(i, time, moments, state, points, path_first, path_count, mind):
     return state[ACTIVE, v] > 0.0 and s >= moments[AT, i]
 
 
-@compiled
+@lean
 def proceed(time, moments, state, points, path_first, path_count, mind, phase, turned):
     """Changes begin and end; whether one did."""
     any_turned = False
@@ -44,14 +47,14 @@ def proceed(time, moments, state, points, path_first, path_count, mind, phase, t
     return any_turned
 
 
-@compiled
+@lean
 def is_within(v, enter, leave, state, parameter, mind):
     """Whether a part of a vehicle is between two stations of its line."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     return state[ACTIVE, v] > 0.0 and bumper > enter and bumper - parameter[LENGTH, v] < leave
 
 
-@compiled
+@lean
 def choose(phase, vehicle, work, base, span, state, parameter, mind, held, choice, chosen):
     """Everybody who is not within a work takes the line that it asks for now; counts those who are held by one; whether one went over."""
     held[:] = 0
@@ -79,8 +82,7 @@ def turn(world: World) -> None:
     if not c.phase.size:
         return
     if proceed(world.clock.time, c.moments, v.state, r.points, r.path_first, r.path_count, v.mind, c.phase, c.turned):
-        post_limits(c, r.points)
-        r.pieces[PIECE_ACTS] = c.phase[r.pieces[PIECE_CHANGE].astype(np.int64)] == ACTING
+        post(world)
     chosen = d.choice.copy()
     if choose(c.phase, d.vehicle, d.work, d.base, d.span, v.state, v.parameter, v.mind, d.held, d.choice, chosen):
         go_over(world, chosen)
@@ -100,7 +102,21 @@ def go_over(world: World, chosen: np.ndarray) -> None:
             o.sweep_first[column], o.sweep_count[column],
         ) = d.lines[:, new]  # fmt: skip
     d.choice[:] = chosen
-    r.zone_pair, r.zone_span = zones(world.worlds, r.points, r.path_first, r.path_count, d.known)
+    meet_anew(world)
+
+
+def meet_anew(world: World) -> None:
+    """Everybody's conflicts, on the lines that are taken now."""
+    r = world.roads
+    r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, world.detours.known)
+
+
+def follow(world: World) -> None:
+    """Makes anew what follows from phases and choices, after both have been set from outside."""
+    if world.changes.phase.size:
+        post(world)
+    if world.detours.vehicle.size:
+        meet_anew(world)
 
 
 def carried(station: float, old: np.ndarray, new: np.ndarray) -> float:
@@ -111,6 +127,13 @@ def carried(station: float, old: np.ndarray, new: np.ndarray) -> float:
     if station <= here[0]:
         return station
     return float(np.interp(station, here, there) + max(station - here[-1], 0.0))
+
+
+def post(world: World) -> None:
+    """What the changes that act mean for the roads: limits, and slippery pieces."""
+    c, pieces = world.changes, world.roads.pieces
+    post_limits(c, world.roads.points)
+    pieces[PIECE_ACTS] = c.phase[pieces[PIECE_CHANGE].astype(np.int64)] == ACTING
 
 
 def post_limits(changes: Changes, points: np.ndarray) -> None:
@@ -133,6 +156,7 @@ def changes_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines) -> Cha
     limits = [each for number, (w, site) in enumerate(placed) for each in limits_of(number, site, w, lines)]
     limited_at = np.unique(np.concatenate([np.zeros(0, np.int64), *(columns for _, columns, _ in limits)]))
     return Changes(
+        world=np.array([w for w, _ in placed], dtype=np.int64),
         moments=np.array([(each.time, columns.get((w, each.vehicle), -1), each.station) for w, each in occasions]).reshape(-1, 3).T.copy(),
         phase=np.zeros(len(placed), dtype=np.int64),
         turned=np.full((2, len(placed)), np.nan),

@@ -6,31 +6,37 @@ D. Manocha, OBBTree, SIGGRAPH 1996). What happens after a contact is not claimed
 
 from math import cos, sin, sqrt
 
-from studio.compiled import compiled
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.compiled import inlined, lean
+from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
+from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
+from studio.world.neighbour import AT_X, AT_Y, moved, within
+from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+
+NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than half of both lengths and this
+ROUNDING = 1e-6  # [m] by which a bound gives way
 
 
-@compiled
+@lean
 def centre(v, state, parameter):
     """Middle of the body [m]."""
     ahead = parameter[FRONT, v] - 0.5 * parameter[LENGTH, v]
     return state[X, v] + ahead * cos(state[PSI, v]), state[Y, v] + ahead * sin(state[PSI, v])
 
 
-@compiled
+@lean
 def reach_along(angle, length, width):
     """Half extent [m] of a box along a direction at `angle` [rad] to its length."""
     return 0.5 * (length * abs(cos(angle)) + width * abs(sin(angle)))
 
 
-@compiled
+@lean
 def separated(axis, dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
     """Whether the direction `axis` [rad] has a gap between two boxes whose centres are (dx, dy) [m] apart."""
     distance = abs(dx * cos(axis) + dy * sin(axis))
     return distance > reach_along(psi_a - axis, length_a, width_a) + reach_along(psi_b - axis, length_b, width_b)
 
 
-@compiled
+@lean
 def overlap(dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
     """Whether two boxes whose centres are (dx, dy) [m] apart overlap."""
     quarter = 1.5707963267948966
@@ -40,32 +46,48 @@ def overlap(dx, dy, psi_a, length_a, width_a, psi_b, length_b, width_b):
     return True
 
 
-@compiled
+@inlined
+def half_and_offset(v, parameter):
+    """Half the length of a body and how far its middle is from its centre of gravity [m]."""
+    return 0.5 * parameter[LENGTH, v] + abs(parameter[FRONT, v] - 0.5 * parameter[LENGTH, v])
+
+
+@inlined
+def are_apart(a, b, state, parameter):
+    """Whether two centres of gravity are too far from each other for the middles to be near; without an angle."""
+    dx, dy = state[X, b] - state[X, a], state[Y, b] - state[Y, a]
+    reach = half_and_offset(a, parameter) + half_and_offset(b, parameter) + NEAR + ROUNDING
+    return dx * dx + dy * dy > reach * reach
+
+
+@lean
 def touching(a, b, state, parameter):
     """Whether the bodies of two cars overlap."""
+    if are_apart(a, b, state, parameter):
+        return False
     x_a, y_a = centre(a, state, parameter)
     x_b, y_b = centre(b, state, parameter)
     dx, dy = x_b - x_a, y_b - y_a
-    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 4.0) ** 2:
+    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, a] + parameter[LENGTH, b] + 2.0 * NEAR) ** 2:
         return False
     return overlap(
         dx, dy, state[PSI, a], parameter[LENGTH, a], parameter[WIDTH, a], state[PSI, b], parameter[LENGTH, b], parameter[WIDTH, b]
     )
 
 
-@compiled
+@lean
 def striking(v, i, state, parameter, table):
     """Whether the body of a car overlaps object i."""
     x, y = centre(v, state, parameter)
     dx, dy = table[O_X, i] - x, table[O_Y, i] - y
-    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, v] + table[O_LENGTH, i] + 4.0) ** 2:
+    if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, v] + table[O_LENGTH, i] + 2.0 * NEAR) ** 2:
         return False
     return overlap(
         dx, dy, state[PSI, v], parameter[LENGTH, v], parameter[WIDTH, v], table[O_HEADING, i], table[O_LENGTH, i], table[O_WIDTH, i]
     )
 
 
-@compiled
+@lean
 def relative_speed(a, b, state):
     """Speed [m/s] of one body as seen from the other."""
     east = state[V_X, a] * cos(state[PSI, a]) - state[V_X, b] * cos(state[PSI, b])
@@ -73,7 +95,7 @@ def relative_speed(a, b, state):
     return sqrt(east * east + north * north)
 
 
-@compiled
+@lean
 def is_known(a, b, first, last, hits):
     """Whether this pair stands in the columns from `first` to before `last`."""
     for i in range(first, last):
@@ -82,7 +104,7 @@ def is_known(a, b, first, last, hits):
     return False
 
 
-@compiled
+@lean
 def report(time, a, b, speed, column, hits):
     """Writes a collision at a relative speed [m/s]."""
     hits[HIT_TIME, column] = time
@@ -91,32 +113,37 @@ def report(time, a, b, speed, column, hits):
     hits[HIT_SPEED, column] = speed
 
 
-@compiled
-def collide(time, state, parameter, first, count, hits, found):
-    """Adds new contacts to `hits` and counts them in `found`, world by world."""
-    share = hits.shape[1] // first.size
-    for w in range(first.size):
-        start = w * share
-        for a in range(first[w], first[w] + count[w]):
-            for b in range(a + 1, first[w] + count[w]):
-                if found[w] == share or state[ACTIVE, a] == 0.0 or state[ACTIVE, b] == 0.0:
-                    continue
-                if touching(a, b, state, parameter) and not is_known(a, b, start, start + found[w], hits):
-                    report(time, a, b, relative_speed(a, b, state), start + found[w], hits)
-                    found[w] += 1
+@lean
+def collide(time, widest, state, parameter, world_of, number, grid, places, found, hits, total):
+    """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers."""
+    share, far = hits.shape[1] // total.size, 2.0 * moved(state, places) + widest + NEAR + ROUNDING
+    for a in range(state.shape[1]):
+        w = world_of[a]
+        if state[ACTIVE, a] == 0.0 or total[w] == share:
+            continue
+        reach = half_and_offset(a, parameter) + far
+        for i in range(within(w, places[AT_X, a], places[AT_Y, a], 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
+            b = found[i]
+            if b > a and state[ACTIVE, b] > 0.0 and touching(a, b, state, parameter):
+                add(time, number[a], number[b], relative_speed(a, b, state), w, share, hits, total)
 
 
-@compiled
-def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, found):
+@lean
+def add(time, a, b, speed, w, share, hits, total):
+    """A contact of a pair that has not been reported."""
+    first = w * share
+    if total[w] < share and not is_known(a, b, first, first + total[w], hits):
+        report(time, a, b, speed, first + total[w], hits)
+        total[w] += 1
+
+
+@lean
+def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, total):
     """The same for cars and the objects that stand on the road; object i is OBJECT - i."""
     share = hits.shape[1] // first.size
     for w in range(first.size):
-        start = w * share
         for v in range(first[w], first[w] + count[w]):
             for i in range(first_object[w], first_object[w] + object_count[w]):
-                if found[w] == share or state[ACTIVE, v] == 0.0 or standing[i] == 0:
-                    continue
-                if striking(v, i, state, parameter, table) and not is_known(v, OBJECT - i, start, start + found[w], hits):
+                if state[ACTIVE, v] > 0.0 and standing[i] != 0 and striking(v, i, state, parameter, table):
                     speed = sqrt(state[V_X, v] * state[V_X, v] + state[V_Y, v] * state[V_Y, v])
-                    report(time, v, OBJECT - i, speed, start + found[w], hits)
-                    found[w] += 1
+                    add(time, v - first[w], OBJECT - (i - first_object[w]), speed, w, share, hits, total)

@@ -11,11 +11,27 @@ engine gets F R as a request at the wheels, negative ones too; the brake gets wh
 from math import cos, inf, isnan, nan, sin
 
 from studio.application.contract import ACTUATORS
-from studio.compiled import compiled
+from studio.compiled import inlined, lean
 from studio.conventions import GRAVITY
 from studio.model import actuator, aerodynamics
 from studio.model.driver import NO_LIMIT
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER, U_STEER_TORQUE, U
+from studio.vehicle.contact import SLOPE_X, SLOPE_Y
+from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
+from studio.vehicle.state import A_X, ACCELERATOR, ACTIVE, CLUTCH, DELTA, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X, YAW_RATE, X, Y
+from studio.world.mind import (
+    AHEAD_SPEED,
+    GAP,
+    SCRIPT_BRAKE,
+    SCRIPT_SPEED,
+    SCRIPT_UNTIL,
+    STEER_WISH,
+    STOPPING,
+    V_DESIRED,
+    WISH,
+    YIELDING,
+)  # fmt: skip
+from studio.world.unit import DETECTED, GPS_EAST, GPS_NORTH, M_INTENTION, M_X, SENT
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
@@ -28,7 +44,7 @@ HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 ) = range(len(ACTUATORS))  # fmt: skip
 
 
-@compiled
+@lean
 def fire(time, trigger_time, trigger_vehicle, trigger_script, fired, script):
     """Starts the maneuvers whose time has come."""
     for i in range(trigger_time.size):
@@ -40,7 +56,7 @@ def fire(time, trigger_time, trigger_vehicle, trigger_script, fired, script):
             script[SCRIPT_SPEED, v] = trigger_script[SCRIPT_SPEED, i]
 
 
-@compiled
+@inlined
 def is_scripted(v, time, state, script):
     """Whether a maneuver commands the pedals; it ends with its time, or once its speed is reached."""
     if time >= script[SCRIPT_UNTIL, v] - 1e-9:
@@ -51,7 +67,7 @@ def is_scripted(v, time, state, script):
     return True
 
 
-@compiled
+@inlined
 def emergency(v, state, mind):
     """Acceleration [m/s²] with which a driver brakes when a collision is near, whatever assists; else nothing is asked.
 
@@ -63,26 +79,28 @@ def emergency(v, state, mind):
     return asked if closing >= 0.0 and (needed > EMERGENCY or gap < 0.0) else NO_LIMIT
 
 
-@compiled
+@inlined
 def safe(v, state, mind):
     """Acceleration [m/s²] that lights, cars which go first, and a near collision permit."""
     return min(emergency(v, state, mind), min(mind[STOPPING, v], mind[YIELDING, v]))
 
 
-@compiled
+@inlined
 def request(v, state, mind, app_acceleration):
     """Acceleration [m/s²] that application or driver ask for."""
     u = mind[WISH, v] if isnan(app_acceleration) else min(app_acceleration, safe(v, state, mind))
     return min(max(u, STRONGEST_BRAKE), STRONGEST_DRIVE)
 
 
-@compiled
+@inlined
 def grade(v, state, ground):
     """Rise of the road ahead [1]."""
+    if ground[SLOPE_X, v] == 0.0 and ground[SLOPE_Y, v] == 0.0:
+        return 0.0
     return ground[SLOPE_X, v] * cos(state[PSI, v]) + ground[SLOPE_Y, v] * sin(state[PSI, v])
 
 
-@compiled
+@inlined
 def effective_mass(v, state, parameter):
     """Mass [kg] with everything that spins; the engine counts while the clutch is closed."""
     joined = parameter[J_E, v] if state[CLUTCH, v] >= 1.0 else 0.0
@@ -90,7 +108,7 @@ def effective_mass(v, state, parameter):
     return parameter[MASS, v] + spinning / (parameter[RADIUS, v] * parameter[RADIUS, v])
 
 
-@compiled
+@inlined
 def wheel_torque(v, u, state, ground, parameter):
     """Torque [Nm] at the wheels that gives the acceleration u [m/s²]."""
     m = parameter[MASS, v]
@@ -99,7 +117,7 @@ def wheel_torque(v, u, state, ground, parameter):
     return actuator.wheel_force(u, effective_mass(v, state, parameter), air, resistance) * parameter[RADIUS, v]
 
 
-@compiled
+@inlined
 def brake_torque(v, T, state):
     """Torque [Nm] that is left to the brakes when T [Nm] is wanted at the wheels: what the powertrain does not take away.
 
@@ -109,19 +127,19 @@ def brake_torque(v, T, state):
     return max((0.0 if fades else state[TORQUE_DRIVE, v]) - T, 0.0)
 
 
-@compiled
+@inlined
 def is_held(v, u, state):
     """Whether a car stands and is to stand."""
     return u <= 0.0 and abs(state[V_X, v]) < HOLD_SPEED
 
 
-@compiled
+@lean
 def holding_torque(v, state, ground, parameter):
     """Brake torque [Nm] that holds a standing car."""
     return parameter[MASS, v] * (HOLD + GRAVITY * abs(grade(v, state, ground))) * parameter[RADIUS, v]
 
 
-@compiled
+@inlined
 def pedals(v, column, u, state, ground, parameter, commands):
     """An acceleration becomes a drive and a brake request."""
     T = wheel_torque(v, u, state, ground, parameter)
@@ -132,7 +150,7 @@ def pedals(v, column, u, state, ground, parameter, commands):
     commands[U_BRAKE, column] = holding_torque(v, state, ground, parameter) if held else brake_torque(v, T, state)
 
 
-@compiled
+@inlined
 def take_over(v, column, state, parameter, mind, app_command, commands):
     """Drive and brake that an application commands itself, unless the driver has to brake."""
     drives = not (isnan(app_command[APP_ACCELERATOR, v]) and isnan(app_command[APP_DRIVE, v]) and isnan(app_command[APP_ENGINE, v]))
@@ -148,7 +166,7 @@ def take_over(v, column, state, parameter, mind, app_command, commands):
         commands[U, column] = T / (parameter[RADIUS, v] * effective_mass(v, state, parameter))
 
 
-@compiled
+@inlined
 def steer(v, column, parameter, mind, app_command, commands):
     """Steering: a torque at the wheel, or an angle; the driver's when the application commands neither."""
     angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
@@ -157,7 +175,7 @@ def steer(v, column, parameter, mind, app_command, commands):
     commands[U_STEER_TORQUE, column] = app_command[APP_STEERING_TORQUE, v]
 
 
-@compiled
+@lean
 def command(k, time, state, ground, parameter, script, mind, app_command, commands):
     """Writes this tick's commands into the ring."""
     n = state.shape[1]
@@ -174,7 +192,7 @@ def command(k, time, state, ground, parameter, script, mind, app_command, comman
             take_over(v, column, state, parameter, mind, app_command, commands)
 
 
-@compiled
+@lean
 def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
     """What the applications of one group see, in the order of an Observation's fields."""
     for j in range(columns.size):
@@ -194,7 +212,7 @@ def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
         observe_message(time, links[j], inbox, observed, j)
 
 
-@compiled
+@lean
 def observe_message(time, link, inbox, observed, j):
     """The newest message of the unit that car j listens to."""
     observed[14, j] = 0.0

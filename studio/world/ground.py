@@ -11,7 +11,7 @@ from math import cos, sin
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.road.ways.path import (
     PATH_HEADING,
     PATH_HEIGHT,
@@ -23,14 +23,28 @@ from studio.road.ways.path import (
 )
 from studio.road.ways.path import Path as RoadPath
 from studio.scenario.schema import Friction
-from studio.world.corner import side_of
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.vehicle.contact import HEIGHT, MU, SLOPE_X, SLOPE_Y
+from studio.vehicle.corner import side_of
+from studio.vehicle.parameter import L_F, L_R, TRACK_F, TRACK_R
+from studio.vehicle.state import PSI, X, Y
+from studio.world.street import (
+    PIECE,
+    PIECE_ACTS,
+    PIECE_CHANGE,
+    PIECE_FRICTION,
+    PIECE_HEADING,
+    PIECE_LEFT,
+    PIECE_RIGHT,
+    PIECE_WORLD,
+    PIECE_X,
+    PIECE_Y,
+)  # fmt: skip
 
 NEAR = 12.0  # [m] a piece farther from the centre of gravity is under no wheel
 MOST_NEAR = 1000  # pieces that are looked at for one vehicle
 
 
-@compiled
+@lean
 def touch(w, s, points, first, count, ground):
     """Lays the plane under one wheel that touches a path at station s [m]: z = height + slope_x x + slope_y y."""
     at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
@@ -41,14 +55,14 @@ def touch(w, s, points, first, count, ground):
     ground[HEIGHT, w] = interpolate(points, first, PATH_HEIGHT, at) - level
 
 
-@compiled
+@lean
 def touch_all(v, n, s, points, first, count, ground):
     """The same plane under all wheels of one vehicle."""
     for corner in range(4):
         touch(corner * n + v, s, points, first, count, ground)
 
 
-@compiled
+@lean
 def rise(state, parameter, station, points, path_first, path_count, raised, ground):
     """First pass: height and slope under all wheels of vehicles whose path is `raised`; the others' ground stays level."""
     n = state.shape[1]
@@ -77,7 +91,7 @@ def pieces(stretch: Friction, path: RoadPath, world: int, change: int) -> np.nda
     return made
 
 
-@compiled
+@lean
 def covers(i, x, y, table):
     """Whether a piece lies under a point [m]."""
     c, s = cos(table[PIECE_HEADING, i]), sin(table[PIECE_HEADING, i])
@@ -86,7 +100,7 @@ def covers(i, x, y, table):
     return abs(forward) <= 0.5 * PATH_SPACING and -table[PIECE_RIGHT, i] <= left <= table[PIECE_LEFT, i]
 
 
-@compiled
+@lean
 def friction_at(x, y, friction, near, found, table):
     """Friction [1] at a point: the last of the pieces `near` it that cover it, else that of the weather."""
     for j in range(found):
@@ -95,7 +109,7 @@ def friction_at(x, y, friction, near, found, table):
     return friction
 
 
-@compiled
+@lean
 def near_pieces(v, world, state, table, near):
     """Fills `near` with the pieces around a vehicle whose change acts; how many there are."""
     found = 0
@@ -108,12 +122,16 @@ def near_pieces(v, world, state, table, near):
     return found
 
 
-@compiled
+@lean
 def lay(state, parameter, world_of, weather, table, near, ground):
     """Second pass: friction under all wheels; weather float64[world]."""
     n = state.shape[1]
     for v in range(n):
         found = near_pieces(v, world_of[v], state, table, near)
+        if found == 0:
+            for corner in range(4):
+                ground[MU, corner * n + v] = weather[world_of[v]]
+            continue
         c, s = cos(state[PSI, v]), sin(state[PSI, v])
         for corner in range(4):
             x = parameter[L_F, v] if corner < 2 else -parameter[L_R, v]

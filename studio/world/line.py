@@ -1,9 +1,10 @@
 """Lines: every path that a vehicle of a batch of worlds may take, in one array of points, with what stands along it.
 
-    lines_of(settings)   →  Lines      the usual path of every vehicle, and those that lead it around works
-    zones(...)           →  arrays     where the lines that are taken just now run close to each other
+lines_of(settings)   →  Lines      the usual path of every vehicle, and those that lead it around works
+conflicts(...)       →  Conflicts  where the lines that are taken just now run close to each other
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -13,9 +14,8 @@ import numpy as np
 from studio.road.ways import conflict
 from studio.road.ways.path import Path
 from studio.world.setting import Setting
-from studio.world.state import *  # noqa: F403 - the names of the rows
 from studio.world.way import MOST_WORKS, Way
-from studio.world.world import Detours, Worlds
+from studio.world.world import Conflicts, Detours, Worlds
 
 Zones = dict[tuple[int, int], np.ndarray]
 
@@ -106,18 +106,28 @@ def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table:
     )
 
 
-def zones(worlds: Worlds, points: np.ndarray, path_first: np.ndarray, path_count: np.ndarray, known: Zones):
-    """Zones of every ordered pair of vehicles of one world on the lines they are on; a pair of lines is looked at once."""
-    pairs, spans = [], []
-    for first, count in zip(worlds.first, worlds.count, strict=True):
-        for i in range(first, first + count):
-            for j in range(first, first + count):
-                if i == j:
-                    continue
-                key = (int(path_first[i]), int(path_first[j]))
-                if key not in known:
-                    known[key] = conflict.zones(points, path_first[i], path_count[i], path_first[j], path_count[j])
-                pairs += [(i, j)] * len(known[key])
-                spans.append(known[key])
-    table = np.concatenate(spans) if spans else np.zeros((0, 4))
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2).T.copy(), table.T.copy()
+def conflicts(worlds: Worlds, points: np.ndarray, path_first: np.ndarray, path_count: np.ndarray, known: Zones) -> Conflicts:
+    """Zones of every ordered pair of tracks on which vehicles of one world are now; a pair is looked at once.
+
+    A track meets itself where two vehicles of a world are on it.
+    """
+    counts = dict(zip(path_first.tolist(), path_count.tolist(), strict=True))
+    used = [Counter(path_first[first : first + count].tolist()) for first, count in zip(worlds.first, worlds.count, strict=True)]
+    pairs = {(a, b) for tracks in used for a in tracks for b in tracks if a != b or tracks[a] > 1}
+    for a, b in pairs - known.keys():
+        known[a, b] = conflict.zones(points, a, counts[a], b, counts[b])
+    meeting = sorted(pair for pair in pairs if len(known[pair]))
+    tracks, track = np.unique(path_first, return_inverse=True)
+    mine, other = np.searchsorted(tracks, np.array(meeting, dtype=np.int64).reshape(-1, 2).T)
+    queues, queue = np.unique(worlds.of * tracks.size + track, return_inverse=True)
+    queue_of = np.full(worlds.first.size * tracks.size, -1)
+    queue_of[queues] = np.arange(queues.size)
+    return Conflicts(
+        track=track,
+        queue=queue,
+        queue_of=queue_of.reshape(worlds.first.size, tracks.size),
+        partner_first=np.searchsorted(mine, np.arange(tracks.size + 1)),
+        partner=other,
+        zone_first=np.cumsum([0, *(len(known[pair]) for pair in meeting)]),
+        zone_span=np.concatenate([np.zeros((0, 4)), *(known[pair] for pair in meeting)]).T.copy(),
+    )

@@ -8,13 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
+from studio.road.ways.detour import Work
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.scenario.schema import CloseLane, Objects
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting
 from studio.world.site import Site
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.street import ACTING, BARRIER, CONE, O_CHANGE, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
 from studio.world.world import Obstacles
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width
@@ -43,21 +44,20 @@ def things(sites: Sequence[Site]) -> Iterator[Thing]:
             kind = {"cones": CONE, "barriers": BARRIER}[do.kind]
             for station in np.arange(do.start, do.end + 1e-9, do.spacing):
                 yield beside(site.line, station, do.offset, kind, number)
-        elif isinstance(do, CloseLane):
-            yield from fence(site, number)
+        elif isinstance(do, CloseLane) and site.work:
+            yield from fence(site.work, site.edges, number)
 
 
-def fence(site: Site, number: int) -> Iterator[Thing]:
+def fence(work: Work, edges: tuple[int, ...], number: int) -> Iterator[Thing]:
     """What a lane is closed with: cones on the taper, boards across both ends, a row of them along its open sides."""
-    work = site.work
     for end, inwards in ((work.start, 1.0), (work.end, -1.0)):
         for aside in (-1.0, 1.0):
             offset = aside * 0.26 * work.width
             yield beside(work.line, end + inwards, offset, BARRIER, number, turned=0.5 * np.pi)
-    for side in site.edges:
+    for side in edges:
         for station in np.arange(work.start + ROW_SPACING, work.end - 0.5 * ROW_SPACING, ROW_SPACING):
             yield beside(work.line, station, side * (0.5 * work.width - ROW_INSET), BARRIER, number)
-    if work.target is not None and work.side in site.edges:
+    if work.target is not None and work.side in edges:
         stations = np.arange(work.start - work.taper, work.start, CONE_SPACING)
         for station, edge in zip(stations, work.edge(stations), strict=True):
             yield beside(work.line, station, edge - work.side * CONE_INSET, CONE, number)
@@ -76,9 +76,7 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
     counts = np.array([len(each) for each in found])
     first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
-        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.change)
-        for w, some in enumerate(found)
-        for each in some
+        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.change) for w, some in enumerate(found) for each in some
     ]
     table = np.array(rows).reshape(-1, len(OBSTACLE)).T.copy()
     swept = [sweep(each.path, table, first[each.world], counts[each.world]) for each in lines.laid]
@@ -131,7 +129,7 @@ def passed(apart: np.ndarray, heading: float, station: float, row: np.ndarray) -
     return float(station + forward - along), float(abs(left) - across)
 
 
-@compiled
+@lean
 def put_up(table, phase, held, standing):
     """Objects stand while their change acts; those of a closed lane are put up once the last car has left it."""
     for i in range(standing.size):

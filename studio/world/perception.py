@@ -3,9 +3,9 @@
 Sensors look at the true world and add their errors; messages are looked up in what the senders have sent.
 """
 
-from math import atan2, cos, nan, sin, sqrt
+from math import atan2, nan, sqrt
 
-from studio.compiled import compiled
+from studio.compiled import inlined, lean
 from studio.model import radio, satellite, sensor
 from studio.model.random import (
     GPS_DRIFT,
@@ -18,44 +18,84 @@ from studio.model.random import (
     normal_pair,
     uniform,
 )  # fmt: skip
+from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import EYE, open_sky, walls_between
+from studio.vehicle.command import RING, U
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import A_X, ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.collision import reach_along
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.neighbour import AT_X, AT_Y, COS, REAR_X, REAR_Y, SIN, within
+from studio.world.street import BARRIER, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.unit import (
+    AZIMUTH,
+    BUILDINGS,
+    CANYON,
+    DELAY,
+    DETECTED,
+    DRIFT_EAST,
+    DRIFT_NORTH,
+    DRIFT_SIGMA,
+    DRIFT_TIME,
+    EXPONENT,
+    GPS_EAST,
+    GPS_NORTH,
+    GPS_SIGMA,
+    LOSS,
+    LOSS_DISTANCE,
+    M_ACCELERATION,
+    M_INTENTION,
+    M_SPEED,
+    M_TRUE_X,
+    M_TRUE_Y,
+    M_X,
+    M_Y,
+    OPENING,
+    PERIOD,
+    RADIO_RANGE,
+    RANGE,
+    RANGE_RATE,
+    RANGE_SIGMA,
+    RATE_SIGMA,
+    REACH,
+    SENT,
+    TARGET,
+    VARIATION,
+)  # fmt: skip
 
 EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
+FIRST_LOOK = 30.0  # [m]
 PAIR = 65536  # a link is numbered receiver · PAIR + sender
 
 
-@compiled
-def rear_seen(v, other, state, parameter):
-    """The middle of the other's rear bumper [m], forward and left of the own front bumper."""
-    psi = state[PSI, other]
-    back = parameter[LENGTH, other] - parameter[FRONT, other]
-    x = state[X, other] - back * cos(psi)
-    y = state[Y, other] - back * sin(psi)
-    forward, left = sensor.seen_from(state[X, v], state[Y, v], state[PSI, v], x, y)
-    return forward - parameter[FRONT, v], left
+@inlined
+def nearest_target(v, world, longest, state, parameter, sensor_set, grid, places, found):
+    """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none.
 
-
-@compiled
-def nearest_target(v, first, count, state, parameter, sensor_set):
-    """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none."""
+    Near cars are looked at first: where one is seen, none that is farther can be nearer.
+    """
     kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
     best, best_forward, best_left = -1, sensor_set[REACH, v], 0.0
-    for other in range(first, first + count):
-        if other == v or state[ACTIVE, other] == 0.0:
-            continue
-        if abs(state[X, other] - state[X, v]) > best_forward + 20.0:
-            continue
-        forward, left = rear_seen(v, other, state, parameter)
-        if forward >= best_forward or not sensor.in_corridor(forward, left, kappa):
-            continue
-        if sensor.in_view(forward, left, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
-            best, best_forward, best_left = other, forward, left
+    x, y, c, s = places[AT_X, v], places[AT_Y, v], places[COS, v], places[SIN, v]
+    for reach in (min(FIRST_LOOK, sensor_set[REACH, v]), sensor_set[REACH, v]):
+        if best_forward < reach:
+            break
+        ahead = parameter[FRONT, v] + reach + longest
+        bow = min(max(0.5 * kappa * reach * reach, -ahead), ahead)  # of the corridor at its end
+        left, right = max(bow, 0.0) + sensor.CORRIDOR + longest, min(bow, 0.0) - sensor.CORRIDOR - longest
+        for i in range(within(world, x, y, c, s, -longest, ahead, right, left, grid, places, found)):
+            other = found[i]
+            if other == v or state[ACTIVE, other] == 0.0:
+                continue
+            forward, aside = sensor.turned(places[REAR_X, other] - x, places[REAR_Y, other] - y, c, s)
+            forward -= parameter[FRONT, v]
+            if forward >= best_forward or not sensor.in_corridor(forward, aside, kappa):
+                continue
+            if sensor.in_view(forward, aside, sensor_set[REACH, v], 0.5 * sensor_set[OPENING, v]):
+                best, best_forward, best_left = other, forward, aside
     return best, best_forward, best_left
 
 
-@compiled
+@lean
 def nearest_barrier(v, best, best_forward, best_left, first, count, state, parameter, sensor_set, table, standing):
     """The same among the barriers that stand there, of which the radar sees the near edge. A cone of plastic sends nothing back."""
     kappa = sensor.own_curvature(state[V_X, v], state[YAW_RATE, v])
@@ -71,19 +111,18 @@ def nearest_barrier(v, best, best_forward, best_left, first, count, state, param
     return best, best_forward, best_left
 
 
-@compiled
-def closing_rate(v, other, forward, left, state):
+@inlined
+def closing_rate(v, other, forward, left, state, places):
     """Change of the distance [m/s] to a car, or an object at rest, seen in that direction."""
     distance = max(sqrt(forward * forward + left * left), 1e-6)
-    psi = state[PSI, v]
-    psi_other, v_other = (state[PSI, other], state[V_X, other]) if other >= 0 else (0.0, 0.0)
-    east = v_other * cos(psi_other) - state[V_X, v] * cos(psi)
-    north = v_other * sin(psi_other) - state[V_X, v] * sin(psi)
-    ahead, aside = east * cos(psi) + north * sin(psi), north * cos(psi) - east * sin(psi)
+    c, s = places[COS, v], places[SIN, v]
+    c_other, s_other, v_other = (places[COS, other], places[SIN, other], state[V_X, other]) if other >= 0 else (1.0, 0.0, 0.0)
+    east, north = v_other * c_other - state[V_X, v] * c, v_other * s_other - state[V_X, v] * s
+    ahead, aside = sensor.turned(east, north, c, s)
     return (ahead * forward + aside * left) / distance
 
 
-@compiled
+@inlined
 def forget(v, sensors):
     """No target until one is found."""
     sensors[DETECTED, v] = 0.0
@@ -91,60 +130,53 @@ def forget(v, sensors):
     sensors[TARGET, v] = -1.0
 
 
-@compiled
-def sense(k, state, parameter, sensor_set, world_of, entity, first, count, seed, sensors):
-    """First pass: the front sensor of every car."""
+@lean
+def sense(k, longest, state, parameter, sensor_set, world_of, number, entity, table, first_object, object_count, standing, seed, grid,
+          places, found, sensors):  # fmt: skip
+    """First pass: the front sensor of every car. A barrier that is nearer than the car takes its place."""
     for v in range(state.shape[1]):
         w = world_of[v]
         forget(v, sensors)
         if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0:
             continue
-        other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
-        if other >= 0:
-            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
+        other, forward, left = nearest_target(v, w, longest, state, parameter, sensor_set, grid, places, found)
+        if object_count[w] > 0:
+            other, forward, left = nearest_barrier(
+                v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
+            )
+        if other != -1:
+            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], places, sensors)
+            sensors[TARGET, v] = number[other] if other >= 0 else other + first_object[w]
 
 
-@compiled
-def sense_barriers(k, state, parameter, sensor_set, world_of, entity, first, count, table, first_object, object_count, standing,
-                   seed, sensors):  # fmt: skip
-    """First pass, where objects stand: a barrier that is nearer than the car takes its place."""
-    for v in range(state.shape[1]):
-        w = world_of[v]
-        if state[ACTIVE, v] == 0.0 or sensor_set[REACH, v] <= 0.0 or object_count[w] == 0:
-            continue
-        other, forward, left = nearest_target(v, first[w], count[w], state, parameter, sensor_set)
-        other, forward, left = nearest_barrier(
-            v, other, forward, left, first_object[w], object_count[w], state, parameter, sensor_set, table, standing
-        )
-        if other <= OBJECT:
-            report(k, v, other, forward, left, state, sensor_set, entity[v], seed[w], sensors)
-
-
-@compiled
-def report(k, v, other, forward, left, state, sensor_set, unit, seed, sensors):
+@inlined
+def report(k, v, other, forward, left, state, sensor_set, unit, seed, places, sensors):
     """Writes a target with the sensor's errors."""
     noise_range = sensor_set[RANGE_SIGMA, v] * normal(seed, unit, RANGE_NOISE, k)
     noise_rate = sensor_set[RATE_SIGMA, v] * normal(seed, unit, RATE_NOISE, k)
     sensors[DETECTED, v] = 1.0
-    sensors[TARGET, v] = other
     sensors[RANGE, v] = max(sqrt(forward * forward + left * left) + noise_range, 0.0)
-    sensors[RANGE_RATE, v] = closing_rate(v, other, forward, left, state) + noise_rate
+    sensors[RANGE_RATE, v] = closing_rate(v, other, forward, left, state, places) + noise_rate
     sensors[AZIMUTH, v] = atan2(left, forward)
 
 
-@compiled
+@lean
 def fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, sensors):
     """Second pass: where every car takes itself to be. A car without errors draws nothing."""
+    tau, phi, frame = 0.0, 0.0, shadow.grid.frame
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 and (gps_set[DRIFT_SIGMA, v] > 0.0 or gps_set[GPS_SIGMA, v] > 0.0):
-            sky = open_sky(shadow, place_of[world_of[v]], state[X, v], state[Y, v])
-            wander(k, tick, v, sky, gps_set, entity[v], seed[world_of[v]], sensors)
+            if gps_set[DRIFT_TIME, v] != tau:  # most receivers are alike
+                tau = gps_set[DRIFT_TIME, v]
+                phi = satellite.kept(tick, tau) if k > 0 else 0.0
+            place = place_of[world_of[v]]
+            sky = open_sky(shadow, place, state[X, v], state[Y, v]) if frame[COLUMNS, place] > 0.0 else 1.0
+            wander(k, v, sky, phi, gps_set, entity[v], seed[world_of[v]], sensors)
 
 
-@compiled
-def wander(k, tick, v, sky, gps_set, unit, seed, sensors):
-    """The error of a satellite position at this tick; at the first one the slow error is drawn as if it had long been running."""
-    phi = satellite.kept(tick, gps_set[DRIFT_TIME, v]) if k > 0 else 0.0
+@inlined
+def wander(k, v, sky, phi, gps_set, unit, seed, sensors):
+    """The error of a satellite position at this tick; at the first one, phi = 0, the slow error is drawn as if it had long been running."""
     draw_east, draw_north = normal_pair(seed, unit, GPS_DRIFT, k)
     noise_east, noise_north = normal_pair(seed, unit, GPS_NOISE, k)
     sensors[DRIFT_EAST, v] = satellite.drift(sensors[DRIFT_EAST, v], phi, draw_east)
@@ -154,13 +186,13 @@ def wander(k, tick, v, sky, gps_set, unit, seed, sensors):
     sensors[GPS_NORTH, v] = sigma * sensors[DRIFT_NORTH, v] + gps_set[GPS_SIGMA, v] * noise_north
 
 
-@compiled
+@lean
 def is_turn(k, unit, period):
     """Whether a unit sends at tick k: every `period` ticks, units spread over the period."""
     return (k + unit) % period == 0
 
 
-@compiled
+@lean
 def send(k, tick, state, command, radio_set, world_of, entity, sensors, sent):
     """Third pass, first half: the units whose turn it is broadcast what their car's bus and its receiver say."""
     n = state.shape[1]
@@ -178,7 +210,15 @@ def send(k, tick, state, command, radio_set, world_of, entity, sensors, sent):
             sent[M_TRUE_Y, column] = state[Y, v]
 
 
-@compiled
+@inlined
+def may_arrive(time, tick, sent_at, w, radio_set):
+    """Whether a message may come in at this tick, whatever is drawn."""
+    soonest = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 0.0)
+    latest = radio.delay(radio_set[DELAY, w], radio_set[VARIATION, w], 1.0)
+    return sent_at + latest + EARLY > time - tick and sent_at + soonest - 2.0 * EARLY <= time
+
+
+@inlined
 def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed):
     """Whether message `number` of the sender comes in at this tick: every message does so once."""
     link = entity[receiver] * PAIR + entity[sender]
@@ -186,17 +226,17 @@ def arrives(time, tick, number, sent_at, sender, receiver, w, radio_set, entity,
     return time - tick < sent_at + air - EARLY <= time
 
 
-@compiled
+@lean
 def felt_distance(x0, y0, x1, y1, w, place, radio_set, shadow):
     """Distance [m] between two antennas, drawn out by the buildings between them."""
     distance = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
-    if radio_set[BUILDINGS, w] == 0.0 or distance > radio_set[RADIO_RANGE, w]:
+    if radio_set[BUILDINGS, w] == 0.0 or distance > radio_set[RADIO_RANGE, w] or shadow.grid.frame[COLUMNS, place] == 0.0:
         return distance
     walls, inside = walls_between(shadow, place, x0, y0, EYE, x1, y1, EYE)
     return radio.felt_distance(distance, radio.attenuation(walls, inside), radio_set[EXPONENT, w])
 
 
-@compiled
+@lean
 def gets_through(number, column, sender, receiver, w, place, state, radio_set, entity, seed, sent, shadow):
     """Whether a message that comes in now is in range and not lost."""
     link = entity[receiver] * PAIR + entity[sender]
@@ -207,7 +247,7 @@ def gets_through(number, column, sender, receiver, w, place, state, radio_set, e
     return not radio.is_lost(distance, radio_set[RADIO_RANGE, w], radio_set[LOSS, w], radio_set[LOSS_DISTANCE, w], draw)
 
 
-@compiled
+@lean
 def receive(
     k, tick, state, radio_set, link_receiver, link_sender, world_of, entity, seed, place_of, shadow, sent, inbox
 ):  # fmt: skip
@@ -224,8 +264,12 @@ def receive(
             sent_at = (number * period - entity[sender]) * tick
             if sent_at <= inbox[SENT, link]:
                 break
+            if not may_arrive(k * tick, tick, sent_at, w, radio_set):
+                continue
             was_sent = abs(sent[SENT, column] - sent_at) < 0.5 * tick  # else it left before, and this is an older one
-            if was_sent and arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
-                if gets_through(number, column, sender, receiver, w, place_of[w], state, radio_set, entity, seed[w], sent, shadow):
-                    inbox[:, link] = sent[:, column]
-                    break
+            if not was_sent or not arrives(k * tick, tick, number, sent_at, sender, receiver, w, radio_set, entity, seed[w]):
+                continue
+            if gets_through(number, column, sender, receiver, w, place_of[w], state, radio_set, entity, seed[w], sent, shadow):
+                for row in range(inbox.shape[0]):
+                    inbox[row, link] = sent[row, column]
+                break

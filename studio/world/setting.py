@@ -1,6 +1,6 @@
 """A scenario with everything resolved that names something: its map, and the path and start of every car.
 
-    setting(scenario)   →  Setting
+setting(scenario)   →  Setting
 """
 
 import os
@@ -19,11 +19,11 @@ from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X
 from studio.road.ways.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Driver, FrontSensor, Gps, Place, Scenario
+from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
+from studio.vehicle.command import RING
+from studio.vehicle.fleet import check_step
 from studio.world.channel import BY_NAME
-from studio.world.fleet import check_step
 from studio.world.site import Site, joins, place_problems, sites
-from studio.world.state import RING
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
@@ -71,7 +71,7 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     network = place(scenario, folder, where)
     refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
     models = models_of(scenario, folder, where)
-    paths = {name: path_of(name, scenario, network, where) for name in scenario.vehicles}
+    paths = paths_of(scenario, network, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     check_starts(cars, where)
     found = sites(scenario, network)
@@ -159,8 +159,8 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     for i, name in enumerate(scenario.recording.channels):
         check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
     for name, change in scenario.changes.items():
-        if getattr(change.do, "route", None) is not None:
-            check(f"changes.{name}.do.route", change.do.route, set(scenario.routes), "route of this scenario")
+        if (route := getattr(change.do, "route", None)) is not None:
+            check(f"changes.{name}.do.route", route, set(scenario.routes), "route of this scenario")
         for field, moment in (("start", change.start), ("end", change.end)):
             if moment.vehicle is not None:
                 check(f"changes.{name}.{field}.vehicle", moment.vehicle, vehicles, "vehicle of this scenario")
@@ -212,13 +212,25 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     return found
 
 
+def paths_of(scenario: Scenario, network: Network, where: str) -> dict[str, road_path.Path]:
+    """The line of every named vehicle; those that start alike on the same route share one."""
+    made: dict[tuple, road_path.Path] = {}
+    found = {}
+    for name, vehicle in scenario.vehicles.items():
+        key = vehicle.route, vehicle.position.road, vehicle.position.lane
+        if key not in made:
+            made[key] = path_of(name, scenario, network, where)
+        found[name] = made[key]
+    return found
+
+
 def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road_path.Path:
     """The line that a named vehicle drives, with the speeds of its route."""
     vehicle = scenario.vehicles[name]
-    route = scenario.routes[vehicle.route]
+    route, start = scenario.routes[vehicle.route], vehicle.position.road
     roads, lane = route.roads, None
-    if vehicle.position.road is not None:
-        roads, lane = from_road(name, vehicle.position, route.roads, where), vehicle.position.lane
+    if start is not None:
+        roads, lane = from_road(name, start, route.roads, where), vehicle.position.lane
     try:
         path = road_path.path(network, connect(network, roads, start_lane=lane))
     except RouteError as error:
@@ -227,19 +239,19 @@ def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road
             f"{where} cannot be driven.",
             [Problem(f"{where}: {field}", error.message, remedy="; ".join(map(str, error.problems)))],
         ) from None
-    joined = 0.0 if lane is None and vehicle.position.road is None else joins(vehicle.position.road, route.roads, network)
+    joined = 0.0 if start is None else joins(start, route.roads, network)
     return annotated(path, route.speeds, joined)
 
 
-def from_road(name: str, position: Place, roads: list[str], where: str) -> list[str]:
+def from_road(name: str, start: str, roads: list[str], where: str) -> list[str]:
     """The route from the road on which a vehicle starts."""
-    if position.road not in roads:
+    if start not in roads:
         field = f"{where}: vehicles.{name}.position.road"
         raise ScenarioError(
             f"{where} is not a valid scenario.",
-            [Problem(field, "is not a road of this route", repr(position.road), remedy=nearest(position.road, roads))],
+            [Problem(field, "is not a road of this route", repr(start), remedy=nearest(start, roads))],
         )
-    return roads[roads.index(position.road) :]
+    return roads[roads.index(start) :]
 
 
 def annotated(path: road_path.Path, speeds, joined: float) -> road_path.Path:
@@ -289,9 +301,7 @@ def check_works(cars: list[Car], works: Works, where: str) -> None:
 # --- traffic -----------------------------------------------------------------------------------------------------------
 
 
-def traffic(
-    scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works
-) -> list[Car]:
+def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works) -> list[Car]:
     """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
     wanted = scenario.traffic
     taken = [position(car.path, car.station) for car in named]
@@ -310,7 +320,20 @@ def traffic(
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
         name = f"traffic_{i + 1:02d}"
-        cars.append(Car(name, models[wanted.model], path, station, speed, driver, FrontSensor(range=0.0), PAINTS[i % len(PAINTS)], Gps(drift=0.0, noise=0.0), returns=True))
+        cars.append(
+            Car(
+                name,
+                models[wanted.model],
+                path,
+                station,
+                speed,
+                driver,
+                FrontSensor(range=0.0),
+                PAINTS[i % len(PAINTS)],
+                Gps(drift=0.0, noise=0.0),
+                returns=True,
+            )
+        )
     return cars
 
 
@@ -338,14 +361,18 @@ def position(path: road_path.Path, station: float) -> tuple[float, float]:
 
 def check_starts(cars: list[Car], where: str) -> None:
     """No two named cars may start in the same place."""
-    for i, car in enumerate(cars):
-        for other in cars[:i]:
-            (x, y), (a, b) = position(car.path, car.station), position(other.path, other.station)
+    cells: dict[tuple[int, int], list[tuple[float, float, str]]] = {}
+    for car in cars:
+        x, y = position(car.path, car.station)
+        column, row = int(x // CAR_LENGTH), int(y // CAR_LENGTH)
+        around = [each for i in (-1, 0, 1) for j in (-1, 0, 1) for each in cells.get((column + i, row + j), [])]
+        for a, b, other in around:
             if (x - a) ** 2 + (y - b) ** 2 < CAR_LENGTH**2:
-                what = f"starts where {other.name!r} starts"
+                what = f"starts where {other!r} starts"
                 field = f"{where}: vehicles.{car.name}.position"
                 remedy = f"place it at least {CAR_LENGTH:g} m away"
                 raise ScenarioError(f"{where} is not a valid scenario.", [Problem(field, what, remedy=remedy)])
+        cells.setdefault((column, row), []).append((x, y, car.name))
 
 
 def free_place(i: int, scenario: Scenario, ways, taken, works: Works) -> tuple[road_path.Path, float] | None:

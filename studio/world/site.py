@@ -1,7 +1,7 @@
 """Where the changes of a scenario lie: each stretch as a line on the map, each moment as a time or a place.
 
-    place_problems(scenario, network, where)   what is wrong with their places, all of it
-    sites(scenario, network)                   →  Site, one for each change, in the order of the file
+place_problems(scenario, network, where)   what is wrong with their places, all of it
+sites(scenario, network)                   →  Site, one for each change, in the order of the file
 """
 
 from collections.abc import Iterator
@@ -71,7 +71,9 @@ def site(name: str, each: Change, scenario: Scenario, network: Network) -> Site:
     lane = network.lanes_of(each.do.road)[each.do.lane]
     line = lane_line(network, lane)
     if isinstance(each.do, ShiftLane):
-        return Site(name, each, line, begins, ends, Work(line, each.do.start, each.do.end, each.do.taper, lane.width, offset=each.do.offset))
+        return Site(
+            name, each, line, begins, ends, Work(line, each.do.start, each.do.end, each.do.taper, lane.width, offset=each.do.offset)
+        )
     target = open_lane(each.do, scenario, network)
     work = Work(line, each.do.start, each.do.end, each.do.taper, lane.width)
     if target is not None:
@@ -115,6 +117,7 @@ def occasion(moment: Moment, scenario: Scenario, network: Network) -> Occasion:
     """A moment, its station counted on the path that the vehicle drives, which may begin later than its route."""
     if moment.time is not None:
         return Occasion(time=moment.time)
+    assert moment.vehicle is not None and moment.along is not None  # a moment has these or a time
     return Occasion(vehicle=moment.vehicle, station=moment.along - joined_at(moment.vehicle, scenario, network))
 
 
@@ -178,7 +181,13 @@ def taper_problems(do: LaneWork, scenario: Scenario, network: Network, at: str) 
     room = min(do.start, np.floor(lane.length) - do.end)
     if do.taper > room:
         remedy = "close less of the road, or farther from its ends"
-        yield Problem(f"{at}.taper", f"does not fit on road {do.road!r} before the start and behind the end", f"{do.taper} m", f"≤ {room:.0f} m", remedy)
+        yield Problem(
+            f"{at}.taper",
+            f"does not fit on road {do.road!r} before the start and behind the end",
+            f"{do.taper} m",
+            f"≤ {room:.0f} m",
+            remedy,
+        )
     target = open_lane(do, scenario, network) if isinstance(do, CloseLane) else None
     width = abs(do.offset) if isinstance(do, ShiftLane) else lane.width * abs(target.index - lane.index) if target else 0.0
     shortest = np.ceil(np.sqrt(STEEPEST * width / SHARPEST))
@@ -205,7 +214,7 @@ def is_one_site(one: LaneWork, other: LaneWork) -> bool:
 
 def moment_problems(moment: Moment, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
     """The vehicle must come by."""
-    if moment.vehicle not in scenario.vehicles:
+    if moment.vehicle not in scenario.vehicles or moment.along is None:
         return
     length = route_length(scenario.vehicles[moment.vehicle].route, scenario, network)
     if moment.along > length:

@@ -4,10 +4,21 @@ At a tick everybody meets: lights change, triggers fire, drivers look around, se
 applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps.
 """
 
+from collections.abc import Callable
+
 from studio.application.host import Hosted
-from studio.world import change, collision, control, fleet, ground, perception, traffic
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.errors import ApplicationError
+from studio.vehicle import fleet
+from studio.world import change, collision, control, ground, neighbour, perception, queue, traffic
+from studio.world.mind import STATION
 from studio.world.world import World
+
+Refuse = Callable[[Hosted, ApplicationError], None]
+
+
+def let_through(_hosted: Hosted, error: ApplicationError) -> None:
+    """An application that fails ends everything."""
+    raise error
 
 
 def tick(world: World) -> None:
@@ -16,14 +27,18 @@ def tick(world: World) -> None:
     part(world)
 
 
-def meet(world: World) -> None:
-    """What happens at one instant; afterwards everything that is known belongs to the same time."""
+def meet(world: World, refuse: Refuse = let_through) -> None:
+    """What happens at one instant; afterwards everything that is known belongs to the same time.
+
+    `refuse` is told of applications that fail.
+    """
     environment(world)
+    gather(world)
     look(world)
     sense(world)
     communicate(world)
     think(world)
-    applications(world)
+    applications(world, refuse)
     act(world)
 
 
@@ -45,31 +60,35 @@ def environment(world: World) -> None:
     control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
 
 
+def gather(world: World) -> None:
+    """All vehicles are sorted by place, so that everybody finds who is near."""
+    v, g = world.vehicles, world.neighbours
+    neighbour.sort(v.state, v.parameter, world.worlds.of, g.grid, g.places)
+
+
 def look(world: World) -> None:
     """Drivers find themselves on their path and see who, or what, is ahead."""
-    v, r, o = world.vehicles, world.roads, world.obstacles
+    v, r, o, c, q, w = world.vehicles, world.roads, world.obstacles, world.roads.conflicts, world.queues, world.worlds
     traffic.orient(
-        v.state, v.parameter, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
         r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
+    queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
     traffic.meetings(
-        v.state, v.parameter, r.points, r.path_first, r.path_count, r.zone_pair, r.zone_span, v.drivers, v.mind
-    )
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
+        c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
+    )  # fmt: skip
     if o.standing.size:
-        traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, v.drivers, v.mind)
+        traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
 
 
 def sense(world: World) -> None:
     """Sensors measure, satellites tell where one is."""
-    v, u, w, o, r, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.clock
+    v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
     perception.sense(
-        clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, w.seed, u.sensors
-    )
-    if o.standing.size:
-        perception.sense_barriers(
-            clock.k, v.state, v.parameter, u.sensor_set, w.of, w.entity, w.first, w.count, o.table, o.first, o.count, o.standing,
-            w.seed, u.sensors,
-        )  # fmt: skip
+        clock.k, g.longest, v.state, v.parameter, u.sensor_set, w.of, w.number, w.entity, o.table, o.first, o.count, o.standing,
+        w.seed, g.grid, g.places, g.found, u.sensors,
+    )  # fmt: skip
     perception.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.sensors)
 
 
@@ -89,19 +108,20 @@ def think(world: World) -> None:
     traffic.decide(v.state, v.parameter, v.drivers, v.mind)
 
 
-def applications(world: World) -> None:
+def applications(world: World, refuse: Refuse = let_through) -> None:
     """Every application sees its observation and decides."""
     for hosted in world.hosted:
         observe(world, hosted)
-        hosted.decide(world.vehicles.app_command)
+        try:
+            hosted.decide(world.vehicles.app_command)
+        except ApplicationError as error:
+            refuse(hosted, error)
 
 
 def observe(world: World, hosted: Hosted) -> None:
     """What the cars of one group see, row by row as `observation_rows` names them."""
     v, u, clock = world.vehicles, world.units, world.clock
-    control.observe(
-        clock.time, clock.tick, hosted.columns, hosted.links, v.state, v.mind, u.sensors, u.inbox, hosted.observed
-    )
+    control.observe(clock.time, clock.tick, hosted.columns, hosted.links, v.state, v.mind, u.sensors, u.inbox, hosted.observed)
 
 
 def act(world: World) -> None:
@@ -117,16 +137,17 @@ def move(world: World) -> None:
 
 def collide(world: World) -> None:
     """Contacts are found at the end of the tick."""
-    v, w, e, o = world.vehicles, world.worlds, world.events, world.obstacles
+    v, w, e, o, g = world.vehicles, world.worlds, world.events, world.obstacles, world.neighbours
     time = world.clock.time + world.clock.tick
-    collision.collide(time, v.state, v.parameter, w.first, w.count, e.hits, e.found)
+    collision.collide(time, g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found, e.hits, e.found)
     if o.standing.size:
         collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
 
 
 def recirculate(world: World) -> None:
     """Traffic that has arrived comes in again."""
-    v, r, w = world.vehicles, world.roads, world.worlds
+    v, r, w, g = world.vehicles, world.roads, world.worlds, world.neighbours
     traffic.recirculate(
-        v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, w.first, w.count, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
-    )
+        v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, g.grid, g.places, g.found, g.entered, v.state, v.wheels,
+        v.ground, v.parameter, v.gears, v.mind,
+    )  # fmt: skip

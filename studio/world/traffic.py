@@ -5,9 +5,9 @@ Following on one lane, merging and crossing are then one and the same: a car tha
 first, drives ahead at the distance that the stretches give.
 """
 
-from math import cos, inf, nan, sin
+from math import inf, nan
 
-from studio.compiled import compiled
+from studio.compiled import inlined, lean
 from studio.model import driver
 from studio.road.network.signals import GREEN, signal_state
 from studio.road.ways.path import (
@@ -20,9 +20,39 @@ from studio.road.ways.path import (
     interpolate,
     project,
 )
+from studio.vehicle.parameter import C_FRONT, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, WIDTH
+from studio.vehicle.shift import start
+from studio.vehicle.state import ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.ground import touch_all
-from studio.world.shift import start
-from studio.world.state import *  # noqa: F403 - the names of the rows
+from studio.world.mind import (
+    AHEAD,
+    AHEAD_SPEED,
+    BRAKE_COMFORT,
+    COMFORT,
+    D_PSI,
+    FOLLOWING,
+    FRONT_OFFSET,
+    GAP,
+    HEADWAY,
+    OFFSET,
+    PATH_KAPPA,
+    RED_STATION,
+    SIGHT,
+    SIGHT_SPEED,
+    SPEED_FACTOR,
+    STANDSTILL,
+    STATION,
+    STEER_GAIN,
+    STEER_WISH,
+    STOPPING,
+    V_DESIRED,
+    WISH,
+    YAW_DAMPING,
+    YIELDING,
+)  # fmt: skip
+from studio.world.neighbour import COS, REAR_X, REAR_Y, SIN, moved, within
+from studio.world.queue import from_station
+from studio.world.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
@@ -30,11 +60,12 @@ HORIZON = 60.0  # [m] how far before a merge drivers mind each other
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
+SLACK = 1e-6  # [m] by which a bound gives way to rounding
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
 
-@compiled
+@lean
 def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, shown):
     """First pass: what every signal shows."""
     for link in range(shown.size):
@@ -43,12 +74,12 @@ def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, s
         )
 
 
-@compiled
-def locate(v, state, parameter, points, first, count, mind):
+@inlined
+def locate(v, state, parameter, places, points, first, count, mind):
     """Where the car is on its path, and how its front axle stands to it."""
     psi, l_f = state[PSI, v], parameter[L_F, v]
     s, e = project(points, first, count, state[X, v], state[Y, v], mind[STATION, v])
-    x_f, y_f = state[X, v] + l_f * cos(psi), state[Y, v] + l_f * sin(psi)
+    x_f, y_f = state[X, v] + l_f * places[COS, v], state[Y, v] + l_f * places[SIN, v]
     s_f, e_f = project(points, first, count, x_f, y_f, s + l_f)
     mind[STATION, v] = s
     mind[OFFSET, v] = e
@@ -58,13 +89,13 @@ def locate(v, state, parameter, points, first, count, mind):
     mind[D_PSI, v] = psi - interpolate(points, first, PATH_HEADING, clip(s_f, count))
 
 
-@compiled
+@inlined
 def clip(s, count):
     """A station that lies on the path."""
     return min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
 
 
-@compiled
+@inlined
 def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown, sight):
     """Station [m] of the next stop line in sight ahead of the bumper that shows no green and at which the driver will stop."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
@@ -75,14 +106,14 @@ def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, st
     return inf
 
 
-@compiled
-def orient(state, parameter, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
+@lean
+def orient(state, parameter, places, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
            drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
             continue
-        locate(v, state, parameter, points, path_first[v], path_count[v], mind)
+        locate(v, state, parameter, places, points, path_first[v], path_count[v], mind)
         if mind[STATION, v] > (path_count[v] - 1) * PATH_SPACING - ARRIVAL:
             state[ACTIVE, v] = 0.0
         permitted = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
@@ -93,17 +124,15 @@ def orient(state, parameter, points, path_first, path_count, stop_first, stop_co
         forget(v, mind)
 
 
-@compiled
+@inlined
 def permitted_speed(v, state, points, first, count, mind):
     """Speed [m/s] that is allowed here and a little ahead."""
     here = mind[STATION, v]
     ahead = here + SPEED_PREVIEW * state[V_X, v]
-    return min(
-        interpolate(points, first, PATH_SPEED, clip(here, count)), interpolate(points, first, PATH_SPEED, clip(ahead, count))
-    )
+    return min(interpolate(points, first, PATH_SPEED, clip(here, count)), interpolate(points, first, PATH_SPEED, clip(ahead, count)))
 
 
-@compiled
+@inlined
 def forget(v, mind):
     """Nothing is ahead until a zone says so."""
     mind[GAP, v] = nan
@@ -113,7 +142,7 @@ def forget(v, mind):
     mind[YIELDING, v] = driver.NO_LIMIT
 
 
-@compiled
+@inlined
 def behind(v, other, gap, state, drivers, mind):
     """IDM acceleration [m/s²] of v behind the other car."""
     closing = state[V_X, v] - state[V_X, other]
@@ -123,25 +152,23 @@ def behind(v, other, gap, state, drivers, mind):
     )  # fmt: skip
 
 
-@compiled
-def is_in_the_way(v, other, s_guess, state, parameter, points, first, count):
+@inlined
+def is_in_the_way(v, other, s_guess, parameter, places, points, first, count):
     """Whether the rear of the other car overlaps the strip that v's body will sweep along its path."""
-    psi, back = state[PSI, other], parameter[LENGTH, other] - parameter[FRONT, other]
-    x, y = state[X, other] - back * cos(psi), state[Y, other] - back * sin(psi)
-    _, e = project(points, first, count, x, y, s_guess)
+    _, e = project(points, first, count, places[REAR_X, other], places[REAR_Y, other], s_guess)
     return abs(e) < 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other])
 
 
-@compiled
-def is_ahead(v, other, gap, state, mind):
-    """The other car is what the gap is measured to, if it is the nearest."""
-    if not gap >= mind[GAP, v]:  # also true while the gap is not a number
+@inlined
+def is_ahead(v, other, number, gap, state, mind):
+    """The other car, of this number in its world, is what the gap is measured to, if it is the nearest, or the first of the nearest."""
+    if not gap >= mind[GAP, v] or (gap == mind[GAP, v] and number < mind[AHEAD, v]):  # true too while the gap is not a number
         mind[GAP, v] = gap
-        mind[AHEAD, v] = other
+        mind[AHEAD, v] = number
         mind[AHEAD_SPEED, v] = state[V_X, other]
 
 
-@compiled
+@inlined
 def goes_first(v, other, d_v, d_other, zone_start, state, mind):
     """Whether the other car, also before the zone, will be there before v: nearer, and neither waiting nor held."""
     held = mind[RED_STATION, other] <= zone_start
@@ -149,7 +176,7 @@ def goes_first(v, other, d_v, d_other, zone_start, state, mind):
     return nearer and not held and d_other < HORIZON and state[V_X, other] > STANDING
 
 
-@compiled
+@inlined
 def is_unseen(v, other, state, parameter, drivers):
     """Whether the other car is farther from the own front bumper than one sees."""
     dx, dy = state[X, other] - state[X, v], state[Y, other] - state[Y, v]
@@ -157,8 +184,8 @@ def is_unseen(v, other, state, parameter, drivers):
     return dx * dx + dy * dy > reach * reach
 
 
-@compiled
-def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter, points, first, count, drivers, mind):
+@inlined
+def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind):
     """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     bumper_other = mind[STATION, other] + parameter[FRONT, other]
@@ -173,28 +200,73 @@ def meet(v, other, v_enter, v_leave, other_enter, other_leave, state, parameter,
         if in_front:
             mind[FOLLOWING, v] = min(mind[FOLLOWING, v], behind(v, other, gap, state, drivers, mind))
             rear = bumper + gap
-            if gap > 0.0 and is_in_the_way(v, other, rear, state, parameter, points, first, count):
-                is_ahead(v, other, gap, state, mind)
-    elif bumper < v_enter:
-        if goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
-            wish = max(behind(v, other, gap, state, drivers, mind), -COURTESY)
-            mind[YIELDING, v] = min(mind[YIELDING, v], wish)
+            if gap > 0.0 and is_in_the_way(v, other, rear, parameter, places, points, first, count):
+                is_ahead(v, other, number, gap, state, mind)
+    elif bumper < v_enter and goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
+        wish = max(behind(v, other, gap, state, drivers, mind), -COURTESY)
+        mind[YIELDING, v] = min(mind[YIELDING, v], wish)
 
 
-@compiled
-def meetings(state, parameter, points, path_first, path_count, zone_pair, zone_span, drivers, mind):
-    """Third pass: every zone, for the first car of its pair."""
-    for z in range(zone_pair.shape[1]):
-        v, other = zone_pair[0, z], zone_pair[1, z]
-        if state[ACTIVE, v] > 0.0 and state[ACTIVE, other] > 0.0:
+@inlined
+def asks_no_more(v, gap, speed, state, drivers, mind):
+    """Whether nobody from this gap [m] on, none slower than `speed`, can ask more of v than is asked already, or be nearer."""
+    own = state[V_X, v]
+    if not gap > mind[GAP, v] or gap <= 0.0 or own < 0.0:
+        return False
+    wish = driver.following_acceleration(
+        own, mind[V_DESIRED, v], gap, own - speed, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v],
+        drivers[BRAKE_COMFORT, v],
+    )  # fmt: skip
+    return wish >= mind[FOLLOWING, v]
+
+
+@inlined
+def meet_queue(v, begin, end, order, slowest, number, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, places,
+               points, first, count, drivers, mind):  # fmt: skip
+    """What one zone means for v: everybody in the queue of the other track from where he may matter on.
+
+    Who is farther back than v itself will not be first, and from somewhere ahead on nobody asks more than the nearer ones.
+    """
+    bumper = mind[STATION, v] + parameter[FRONT, v]
+    if bumper - parameter[LENGTH, v] > v_leave or v_enter - bumper > HORIZON:
+        return
+    station = other_enter + (mind[STATION, v] - v_enter) - longest - SLACK
+    for place in range(from_station(station, begin, end, mind, order), end):
+        other = order[place]
+        rear = mind[STATION, other] - longest - SLACK  # or before
+        if rear > other_leave:
+            return
+        if mind[STATION, other] >= other_enter and asks_no_more(
+            v, (rear - other_enter) - (bumper - v_enter), slowest[place], state, drivers, mind
+        ):
+            return
+        if other != v:
             meet(
-                v, other, zone_span[0, z], zone_span[1, z], zone_span[2, z], zone_span[3, z],
-                state, parameter, points, path_first[v], path_count[v], drivers, mind,
+                v, other, number[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count,
+                drivers, mind,
             )  # fmt: skip
 
 
-@compiled
-def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, drivers, mind):
+@lean
+def meetings(state, parameter, places, points, path_first, path_count, world_of, number, longest, track, queue_of, partner_first, partner,
+             zone_first, zone_span, queue_first, order, slowest, drivers, mind):  # fmt: skip
+    """Third pass: for every driver the queues on the tracks that his own meets."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] == 0.0:
+            continue
+        for p in range(partner_first[track[v]], partner_first[track[v] + 1]):
+            queue = queue_of[world_of[v], partner[p]]
+            if queue < 0 or queue_first[queue] == queue_first[queue + 1]:
+                continue
+            for z in range(zone_first[p], zone_first[p + 1]):
+                meet_queue(
+                    v, queue_first[queue], queue_first[queue + 1], order, slowest, number, longest, zone_span[0, z], zone_span[1, z],
+                    zone_span[2, z], zone_span[3, z], state, parameter, places, points, path_first[v], path_count[v], drivers, mind,
+                )  # fmt: skip
+
+
+@lean
+def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first_object, world_of, drivers, mind):
     """Fourth pass: the first object in sight that stands in the strip which the own body will sweep."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
@@ -204,13 +276,13 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, drive
             gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
             if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
                 if gap <= drivers[SIGHT, v]:
-                    stand_before(v, number, gap, state, drivers, mind)
+                    stand_before(v, number - first_object[world_of[v]], gap, state, drivers, mind)
                 break
 
 
-@compiled
+@lean
 def stand_before(v, number, gap, state, drivers, mind):
-    """Object `number` is followed as a car that stands."""
+    """Object `number` of the world is followed as a car that stands."""
     wish = driver.following_acceleration(
         state[V_X, v], mind[V_DESIRED, v], gap, state[V_X, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
         drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
@@ -220,7 +292,7 @@ def stand_before(v, number, gap, state, drivers, mind):
         mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, 0.0
 
 
-@compiled
+@inlined
 def stop_wish(v, state, parameter, drivers, mind):
     """Acceleration [m/s²] that the next light permits."""
     distance = mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
@@ -232,7 +304,7 @@ def stop_wish(v, state, parameter, drivers, mind):
     )  # fmt: skip
 
 
-@compiled
+@inlined
 def steer_wish(v, state, parameter, drivers, mind):
     """Road wheel angle [rad] that keeps the path."""
     compliance = driver.front_compliance(
@@ -244,42 +316,54 @@ def steer_wish(v, state, parameter, drivers, mind):
     )  # fmt: skip
 
 
-@compiled
+@lean
 def decide(state, parameter, drivers, mind):
     """Fifth pass: what every driver wants of pedals and wheel."""
     for v in range(state.shape[1]):
         if state[ACTIVE, v] == 0.0:
             continue
         mind[STOPPING, v] = stop_wish(v, state, parameter, drivers, mind)
-        free = driver.free_acceleration(
-            state[V_X, v], mind[V_DESIRED, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v]
-        )
+        free = driver.free_acceleration(state[V_X, v], mind[V_DESIRED, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v])
         mind[WISH, v] = min(min(free, mind[FOLLOWING, v]), min(mind[YIELDING, v], mind[STOPPING, v]))
         mind[STEER_WISH, v] = steer_wish(v, state, parameter, drivers, mind)
 
 
-@compiled
-def is_free(x, y, first, count, state):
-    """Whether no car of the same world is near a place."""
-    for other in range(first, first + count):
-        dx, dy = state[X, other] - x, state[Y, other] - y
-        if state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE:
+@lean
+def is_free(x, y, world, reach, world_of, state, grid, places, found, entered, count):
+    """Whether no car of the same world is near a place: none of those that are about, nor of the first that have entered just now."""
+    for i in range(within(world, x, y, 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
+        if is_close(found[i], x, y, state):
+            return False
+    for i in range(count):
+        if world_of[entered[i]] == world and is_close(entered[i], x, y, state):
             return False
     return True
 
 
-@compiled
+@lean
+def is_close(other, x, y, state):
+    """Whether a car is near a place."""
+    dx, dy = state[X, other] - x, state[Y, other] - y
+    return state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE
+
+
+@lean
 def recirculate(
-    returns, points, path_first, path_count, raised, world_of, first, count, state, wheels, ground, parameter, gears, mind
+    returns, points, path_first, path_count, raised, world_of, grid, places, found, entered, state, wheels, ground, parameter, gears, mind
 ):  # fmt: skip
     """Sixth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
+    count, reach = 0, 0.0
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:
             continue
-        at, w = path_first[v], world_of[v]
+        if reach == 0.0:
+            reach = ENTRY_CLEARANCE + moved(state, places)
+        at = path_first[v]
         x, y = points[PATH_X, at], points[PATH_Y, at]
-        if is_free(x, y, first[w], count[w], state):
+        if is_free(x, y, world_of[v], reach, world_of, state, grid, places, found, entered, count):
             if raised[v] != 0:
                 touch_all(v, state.shape[1], 0.0, points, at, path_count[v], ground)
             start(v, x, y, points[PATH_HEADING, at], points[PATH_SPEED, at], state, wheels, ground, parameter, gears)
             mind[STATION, v] = 0.0
+            entered[count] = v
+            count += 1

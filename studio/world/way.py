@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from studio.road.ways.detour import led, passing
+from studio.road.ways.detour import Work, led, passing
 from studio.road.ways.path import Path
 from studio.world.site import Site
 
@@ -48,14 +48,15 @@ class Works:
 
 def way(path: Path, sites: Sequence[Site]) -> Way:
     """All that may become of a path; the number of its works is not bounded here."""
-    passed = {number: passing(path, site.work) for number, site in enumerate(sites) if site.work is not None}
+    placed = {number: site.work for number, site in enumerate(sites) if site.work is not None}
+    passed = {number: passing(path, work) for number, work in placed.items()}
     works = tuple(number for number, stations in passed.items() if np.isfinite(stations).any())
     paths, spans = [], []
     for choice in range(2 ** min(len(works), MOST_WORKS)):
         made, at = path, np.arange(path.points.shape[1], dtype=float)
         for bit in order(works, passed):
-            if choice >> bit & 1 and is_led(sites[works[bit]]):
-                made, on = led(made, sites[works[bit]].work, passing_on(made, at, passed[works[bit]]))
+            if choice >> bit & 1 and is_led(placed[works[bit]]):
+                made, on = led(made, placed[works[bit]], passing_on(made, at, passed[works[bit]]))
                 at = np.interp(at, np.arange(on.size), on)
         paths.append(made)
         inside = [np.flatnonzero(np.isfinite(passed[number]))[[0, -1]] for number in works]
@@ -68,9 +69,9 @@ def order(works: Sequence[int], passed: dict[int, np.ndarray]) -> list[int]:
     return sorted(range(len(works)), key=lambda bit: int(np.isfinite(passed[works[bit]]).argmax()))
 
 
-def is_led(site: Site) -> bool:
+def is_led(work: Work) -> bool:
     """Whether a work leads anywhere: where all lanes are closed cars stop on their path."""
-    return site.work.target is not None or site.work.offset != 0.0
+    return work.target is not None or work.offset != 0.0
 
 
 def passing_on(made: Path, at: np.ndarray, stations: np.ndarray) -> np.ndarray:

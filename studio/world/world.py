@@ -1,14 +1,20 @@
-"""The world: all arrays of a batch of runs, in one place. One copy of it is a snapshot, its bytes are the hash."""
+"""The world: all arrays of a batch of runs, in one place. What moves is one buffer; a copy of it is a snapshot."""
 
 import hashlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.application.host import Hosted
+from studio.application.host import Group, Hosted
 from studio.road.network.shadow import Shadow
-from studio.world.fleet import Fleet
-from studio.world.state import OBJECT
+from studio.rows import Moving
+from studio.vehicle.command import RING
+from studio.vehicle.fleet import Fleet
+from studio.vehicle.state import ACTIVE
+from studio.world.neighbour import Neighbours
+from studio.world.queue import Queues
+from studio.world.street import OBJECT
 
 
 @dataclass
@@ -30,43 +36,43 @@ class Vehicles(Fleet):
     """A fleet with drivers: what they want, know and are told, [row, vehicle]."""
 
     drivers: np.ndarray
-    mind: np.ndarray
-    script: np.ndarray
+    mind: Moving
+    script: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
-    app_command: np.ndarray  # [actuator, vehicle] of applications, not a number where there is none
+    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
 
 
 @dataclass
 class Worlds:
-    """Which vehicles belong to which world: `of` and `entity` per vehicle; `first`, `count`, `seed` per world."""
+    """Which vehicles belong to which world, and which number they have there: in order, and by chance's order of names."""
 
-    of: np.ndarray
-    entity: np.ndarray
-    first: np.ndarray
-    count: np.ndarray
-    seed: np.ndarray
+    of: np.ndarray  # per vehicle
+    number: np.ndarray  # per vehicle, in the order of columns
+    entity: np.ndarray  # per vehicle, as chance tells them apart
+    first: np.ndarray  # per world
+    count: np.ndarray  # per world
+    seed: np.ndarray  # per world
 
 
 @dataclass
 class Roads:
-    """Paths as one array of points with a first point and a count per vehicle; stop lines; zones; signals."""
+    """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
-    path_first: np.ndarray
-    path_count: np.ndarray
+    path_first: Moving
+    path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
-    stop_first: np.ndarray
-    stop_count: np.ndarray
+    stop_first: Moving
+    stop_count: Moving
     stop_station: np.ndarray
     stop_link: np.ndarray
-    zone_pair: np.ndarray  # int64[2, z]
-    zone_span: np.ndarray  # float64[4, z]
+    conflicts: "Conflicts"
     signal_time: np.ndarray  # [cycle, offset] per link
     signal_first: np.ndarray
     signal_count: np.ndarray
     phase_end: np.ndarray
     phase_state: np.ndarray
-    shown: np.ndarray
+    shown: Moving
     weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
@@ -75,12 +81,29 @@ class Roads:
 
 
 @dataclass
+class Conflicts:
+    """Where tracks run close to each other. A track is a row of points; a queue is what drives on it in one world.
+
+    The partners of track t stand from `partner_first[t]` on, the zones of the p-th of them from `zone_first[p]` on.
+    """
+
+    track: np.ndarray  # on which each vehicle is now
+    queue: np.ndarray  # in which each vehicle is now
+    queue_of: np.ndarray  # int64[world, track], -1 for none
+    partner_first: np.ndarray
+    partner: np.ndarray  # tracks
+    zone_first: np.ndarray
+    zone_span: np.ndarray  # float64[4, zone]: where it is entered and left on the track, and on its partner [m]
+
+
+@dataclass
 class Changes:
     """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
 
-    moments: np.ndarray  # [row, change] of all beginnings, then of all ends
-    phase: np.ndarray  # int64[change]: BEFORE, ACTING, OVER
-    turned: np.ndarray  # [s] float64[2, change]: when it began and ended, not a number before
+    world: np.ndarray  # number of the world, per change
+    moments: Moving  # [row, change] of all beginnings, then of all ends
+    phase: Moving  # int64[change]: BEFORE, ACTING, OVER
+    turned: Moving  # [s] float64[2, change]: when it began and ended, not a number before
     limits: list[tuple[int, np.ndarray, np.ndarray]]  # change, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
 
@@ -90,13 +113,13 @@ class Detours:
     """Vehicles whose path passes works: which of its paths each has taken (`choice` is state), and all their paths."""
 
     vehicle: np.ndarray  # int64[m]: columns
-    choice: np.ndarray  # int64[m]: bit b is work b
+    choice: Moving  # int64[m]: bit b is work b
     work: np.ndarray  # int64[MOST_WORKS, m]: change that work b is, -1 for none
     base: np.ndarray  # int64[m]: column of `lines` with choice 0
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
-    held: np.ndarray  # int64[change]: vehicles that are still within it on the usual path
-    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of paths, by their first points
+    held: Moving  # int64[change]: vehicles that are still within it on the usual path
+    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of tracks, by their first points
 
 
 @dataclass
@@ -106,11 +129,11 @@ class Obstacles:
     table: np.ndarray  # [row, object]
     first: np.ndarray  # per world
     count: np.ndarray
-    standing: np.ndarray  # int64[object], 1 while it stands there
+    standing: Moving  # int64[object], 1 while it stands there
     sweep: np.ndarray  # [row, object on a line]
     counts: np.ndarray  # of these per line
-    sweep_first: np.ndarray  # per vehicle, on the line it is on
-    sweep_count: np.ndarray
+    sweep_first: Moving  # per vehicle, on the line it is on
+    sweep_count: Moving
     names: tuple[str, ...]
 
 
@@ -119,13 +142,13 @@ class Units:
     """Sensors and radio: what is set, what was sent, what has been received."""
 
     sensor_set: np.ndarray
-    sensors: np.ndarray
+    sensors: Moving
     gps_set: np.ndarray
     radio_set: np.ndarray  # per world
-    sent: np.ndarray  # [row, slot · n + vehicle]
+    sent: Moving  # [row, slot · n + vehicle]
     link_receiver: np.ndarray
     link_sender: np.ndarray
-    inbox: np.ndarray  # [row, link]
+    inbox: Moving  # [row, link]
 
 
 @dataclass
@@ -135,9 +158,9 @@ class Events:
     trigger_time: np.ndarray
     trigger_vehicle: np.ndarray
     trigger_script: np.ndarray
-    fired: np.ndarray
-    hits: np.ndarray  # every world has its share of the columns
-    found: np.ndarray  # how many collisions each world has had
+    fired: Moving
+    hits: Moving  # every world has its share of the columns
+    found: Moving  # how many collisions each world has had
 
     @property
     def hits_found(self) -> int:
@@ -163,9 +186,13 @@ class World:
     changes: Changes
     detours: Detours
     obstacles: Obstacles
+    neighbours: Neighbours
+    queues: Queues
     hosted: list[Hosted]
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
+    origin: str = ""  # digest of what it was built from
+    arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 
     @property
     def size(self) -> int:
@@ -177,39 +204,60 @@ class World:
         return int(self.worlds.first[world]) + self.names[world].index(name)
 
     def name_of(self, number: int, world: int = 0) -> str:
-        """Name of the vehicle in a column, or of an object, OBJECT - i."""
+        """Name of a vehicle by its number in its world, or of an object, OBJECT - i."""
         if number <= OBJECT:
-            return self.obstacles.names[OBJECT - number]
-        return self.names[world][number - int(self.worlds.first[world])]
+            return self.obstacles.names[self.objects(world)][OBJECT - number]
+        return self.names[world][number]
 
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""
         first = int(self.worlds.first[world])
         return slice(first, first + int(self.worlds.count[world]))
 
-    def moving_parts(self) -> list[np.ndarray]:
-        """The arrays that change during a run."""
+    def objects(self, world: int = 0) -> slice:
+        """Columns of the objects of one world."""
+        first = int(self.obstacles.first[world])
+        return slice(first, first + int(self.obstacles.count[world]))
+
+    def hashed_parts(self) -> list[np.ndarray]:
+        """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
         units = [u.sensors, u.sent, u.inbox]
         happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
-        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(hosted.memory for hosted in self.hosted)]
+        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
-    def digest(self) -> str:
-        """SHA-256 of the moving parts and the clock."""
+    def digest(self, number: int | None = None) -> str:
+        """SHA-256 of these parts and the clock; of those of one world, which do not depend on the batch that it runs in."""
         digest = hashlib.sha256(str(self.clock.k).encode())
-        for part in self.moving_parts():
+        for part in self.hashed_parts() if number is None else self.parts_of(number):
             digest.update(np.ascontiguousarray(part).tobytes())
         return digest.hexdigest()
 
-    def world_digest(self, world: int) -> str:
-        """SHA-256 of the state of one world's vehicles, which does not depend on the batch they ran in."""
-        columns = self.columns(world)
-        digest = hashlib.sha256(str(self.clock.k).encode())
-        digest.update(np.ascontiguousarray(self.vehicles.state[:, columns]).tobytes())
-        digest.update(np.ascontiguousarray(self.wheel_columns(columns)).tobytes())
-        return digest.hexdigest()
+    def parts_of(self, number: int) -> Iterator[np.ndarray]:
+        """The shares of one world in the moving parts."""
+        v, u, e, c, o, d = self.vehicles, self.units, self.events, self.changes, self.obstacles, self.detours
+        columns, of = self.columns(number), self.worlds.of
+        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.script, 1), (v.commands, RING), (u.sensors, 1), (u.sent, RING)
+        for part, groups in per_vehicle:
+            yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
+        yield u.inbox[:, of[u.link_receiver] == number]
+        yield e.fired[of[e.trigger_vehicle] == number]
+        share = e.hits.shape[1] // e.found.size
+        yield e.hits[:, number * share : (number + 1) * share]
+        yield c.phase[c.world == number]
+        yield c.turned[:, c.world == number]
+        yield o.standing[self.objects(number)]
+        yield d.choice[of[d.vehicle] == number]
+        yield from (memory for group, memory in self.memories() if group.world == number)
 
-    def wheel_columns(self, columns: slice) -> np.ndarray:
-        """Wheel state [row, corner, vehicle] of some vehicles."""
-        wheels = self.vehicles.wheels
-        return wheels.reshape(wheels.shape[0], 4, self.size)[:, :, columns]
+    def memories(self) -> list[tuple[Group, np.ndarray]]:
+        """What each application group remembers, group by group."""
+        found = [(group, hosted.memory[:, group.cars]) for hosted in self.hosted for group in hosted.groups]
+        return sorted(found, key=lambda each: each[0].place)
+
+    def leave(self, number: int) -> None:
+        """The vehicles of a world take no part any more, nor do its applications."""
+        columns = self.columns(number)
+        self.vehicles.state[ACTIVE, columns] = 0.0
+        self.vehicles.returns[columns] = 0
+        self.hosted = [hosted for hosted in self.hosted if {group.world for group in hosted.groups} != {number}]

@@ -10,26 +10,12 @@ from studio.application import registry
 from studio.application.contract import ACTUATORS, LEAVE, Actuators, Command
 from studio.application.setup import complete
 from studio.road.network.signals import AMBER, GREEN
+from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_STEER, U
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import A_X, ACCELERATOR, DELTA, GEAR, RATIO, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, V_X
 from studio.world.build import build
+from studio.world.mind import STATION
 from studio.world.setting import setting
-from studio.world.state import (
-    A_X,
-    ACCELERATOR,
-    DELTA,
-    FRONT,
-    GEAR,
-    RATIO,
-    RING,
-    STATION,
-    T_ENGINE,
-    TORQUE_BRAKE,
-    TORQUE_DRIVE,
-    U_BRAKE,
-    U_DRIVE,
-    U_STEER,
-    V_X,
-    U,
-)  # fmt: skip
 from studio.world.tick import tick
 
 NOTHING = Actuators(*[LEAVE] * len(ACTUATORS))

@@ -87,7 +87,13 @@ def test_goals():
 
 @pytest.mark.parametrize(
     ("a", "b", "goal", "better"),
-    [(1.0, 2.0, "higher", "b"), (1.0, 2.0, "lower", "a"), (2.0, 2.0, "lower", "same"), (1.0, 2.0, None, None), (0.0, 0.0, "higher", "same")],
+    [
+        (1.0, 2.0, "higher", "b"),
+        (1.0, 2.0, "lower", "a"),
+        (2.0, 2.0, "lower", "same"),
+        (1.0, 2.0, None, None),
+        (0.0, 0.0, "higher", "same"),
+    ],
 )
 def test_better(a, b, goal, better):
     assert compare.better(a, b, goal) == better

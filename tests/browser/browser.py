@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = [
@@ -31,9 +31,12 @@ def browser() -> Iterator[Browser]:
     if found is None:
         pytest.skip("no browser: install one with `apt install chromium`, or put google-chrome on the PATH")
     with sync_playwright() as playwright:
-        yield playwright.chromium.launch(
-            executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS
-        )
+        yield playwright.chromium.launch(executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS)
+
+
+def drawn(page: Page) -> None:
+    """Until the page has drawn what it was told to before: the next frame may have begun, the one after has not."""
+    page.evaluate("async () => { for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame); }")
 
 
 def pixels(screenshot: bytes) -> np.ndarray:

@@ -3,17 +3,16 @@
 import base64
 import re
 import shutil
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.browser import browser, pixels
+from tests.browser.browser import browser, drawn, pixels
+from tests.patience import PATIENCE_MS, until
 from tests.server.server import served
 
-PATIENCE = 180_000  # [ms] the first import and the first run compile
 SIZE = {"width": 1280, "height": 760}
 REFERENCE = Path(__file__).parents[1] / "reference" / "maps"
 SEATTLE, PERTH = "seattle_triangle_small", "perth_peanut_roundabout_lht"
@@ -28,6 +27,13 @@ DROP = """([content, name]) => {
   document.querySelector("main").dispatchEvent(new DragEvent("dragenter", over));
   window.dropped = () => document.querySelector("main").dispatchEvent(new DragEvent("drop", over));
 }"""
+
+# Notes what the page tells of imports: on a slow machine one may be over before anybody looks.
+NOTE = """window.told = [];
+const note = () => {
+  for (const { textContent } of document.querySelectorAll('[data-testid="map-job"]')) window.told.push(textContent);
+};
+new MutationObserver(note).observe(document, { subtree: true, childList: true, characterData: true });"""
 
 
 @pytest.fixture(scope="module")
@@ -45,11 +51,12 @@ def maps(place):
     """A page of a server, at its maps, and what its console complained about."""
     with browser() as opened, served(place) as (client, _, _):
         page = opened.new_page(viewport=SIZE, color_scheme="light")
-        page.set_default_timeout(PATIENCE)
-        expect.set_options(timeout=PATIENCE)
+        page.set_default_timeout(PATIENCE_MS)
+        expect.set_options(timeout=PATIENCE_MS)
         complaints = []
         page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
         page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.add_init_script(NOTE)
         page.goto(f"{client.base_url}/maps")
         yield page, complaints
         opened.close()
@@ -70,14 +77,20 @@ def drop(page, path: Path):
 
 def plan(page) -> np.ndarray:
     """The picture of the plan, when it stands still."""
-    before = None
-    for _ in range(40):
-        picture = pixels(page.get_by_test_id("plan").screenshot())
-        if before is not None and np.array_equal(before, picture):
-            return picture
-        before = picture
-        time.sleep(0.2)
-    raise AssertionError("the plan does not come to rest")
+    pictures = [looked(page)]
+
+    def still():
+        pictures.append(looked(page))
+        return np.array_equal(*pictures[-2:])
+
+    until(still, "the plan to come to rest")
+    return pictures[-1]
+
+
+def looked(page) -> np.ndarray:
+    """The picture of the plan, with all that was to be drawn when it was asked for."""
+    drawn(page)
+    return pixels(page.get_by_test_id("plan").screenshot())
 
 
 def share(picture, colour) -> float:
@@ -111,8 +124,9 @@ def details(page):
 
 def corrected(page):
     """Sends the correction in the form, and waits until the map was imported again."""
+    before = page.evaluate("told.length")
     page.get_by_test_id("correct").click()
-    expect(page.get_by_test_id("map-job")).to_be_visible()
+    page.wait_for_function("before => told.length > before", arg=before)
     expect(page.get_by_test_id("map-job")).to_have_count(0)
 
 
@@ -120,9 +134,9 @@ def test_1_a_dropped_file_becomes_a_map(page):
     """What is being done is told; then the map opens by itself, with its numbers and its source."""
     expect(page.get_by_test_id("map-row")).to_have_count(1)
     drop(page, REFERENCE / f"{SEATTLE}.osm.gz")
-    expect(page.get_by_test_id("map-job")).to_contain_text(SEATTLE)
-    expect(page.get_by_test_id("map-job-stage")).to_contain_text(re.compile(r"\d s"))
     page.wait_for_url(f"**/maps/{SEATTLE}*")
+    told = page.evaluate("told")
+    assert any(SEATTLE in each and re.search(r"\d s", each) for each in told), told
     summary = page.get_by_test_id("map-summary")
     expect(summary).to_contain_text("right")
     expect(summary).to_contain_text("2 of 4")
@@ -132,6 +146,7 @@ def test_1_a_dropped_file_becomes_a_map(page):
 
 
 def test_2_the_plan_shows_the_place(page):
+    until(lambda: share(looked(page), ASPHALT) > 0.04, "roads in the plan")
     picture = plan(page)
     assert share(picture, ASPHALT) > 0.04 and share(picture, BUILDING) > 0.04 and share(picture, GREEN) > 0.004
 
@@ -150,7 +165,7 @@ def test_3_the_plan_is_moved_and_enlarged(page):
     assert np.abs(plan(page) - whole).mean() < 0.01
     canvas.hover()
     page.mouse.wheel(0, -480)
-    assert share(plan(page), ASPHALT) > 1.3 * share(whole, ASPHALT)
+    until(lambda: share(looked(page), ASPHALT) > 1.3 * share(whole, ASPHALT), "a larger plan")
     page.keyboard.press("f")
 
 
@@ -249,7 +264,7 @@ def test_b_a_broken_file_is_told_and_nothing_is_lost(page, tmp_path):
 def test_c_an_upload_is_cancelled(page):
     """How much is sent is told; cancelled, nothing of it is there, and the same file can be chosen again."""
     line = page.context.new_cdp_session(page)
-    slow = {"offline": False, "latency": 0, "downloadThroughput": -1, "uploadThroughput": 4000}
+    slow = {"offline": False, "latency": 0, "downloadThroughput": -1, "uploadThroughput": 400}
     line.send("Network.emulateNetworkConditions", slow)
     for _ in range(2):
         page.get_by_test_id("file-input").set_input_files(REFERENCE / f"{SEATTLE}.osm.gz")
@@ -264,8 +279,10 @@ def test_d_it_is_dark_when_the_page_is(page):
     page.keyboard.press("g")
     page.keyboard.press("m")
     page.get_by_role("link", name=SEATTLE).click()
+    until(lambda: share(looked(page), ASPHALT) > 0.04, "roads in the plan")
     light = plan(page).mean()
     page.get_by_test_id("theme-toggle").click()
+    until(lambda: looked(page).mean() < light, "another plan")
     assert plan(page).mean() < 90 < 180 < light
 
 

@@ -1,15 +1,13 @@
 """The product's main job once around, in a real browser: see the city, run, watch, tune, run again, compare."""
 
-import time
-
 import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.browser import browser, pixels
+from tests.browser.browser import browser, drawn, pixels
+from tests.patience import PATIENCE_MS, until
 from tests.server.server import served
 
-PATIENCE = 180_000  # [ms] the first start compiles
 SIZE = {"width": 1100, "height": 640}  # a software renderer draws every pixel of it
 HEADWAY = "param-applications.platoon.parameters.headway"
 
@@ -20,19 +18,24 @@ def studio(tmp_path_factory, sample):
     folder = tmp_path_factory.mktemp("browser")
     with browser() as opened, served(folder, "--scenarios", sample.parent) as (client, _, _):
         page = opened.new_page(viewport=SIZE)
-        page.set_default_timeout(PATIENCE)
-        expect.set_options(timeout=PATIENCE)
+        page.set_default_timeout(PATIENCE_MS)
+        expect.set_options(timeout=PATIENCE_MS)
         complaints = []
         page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.goto(str(client.base_url))
-        yield page, complaints
+        yield page, complaints, client
         opened.close()
 
 
 @pytest.fixture(scope="module")
 def page(studio):
     return studio[0]
+
+
+@pytest.fixture(scope="module")
+def client(studio):
+    return studio[2]
 
 
 def scene(page) -> np.ndarray:
@@ -46,16 +49,6 @@ def is_a_picture(picture) -> bool:
     """Neither white nor black nor empty: light and dark, in many tones."""
     tones = np.unique((picture // 16).astype(int).reshape(-1, 3), axis=0)
     return picture.std() > 20 and 40 < picture.mean() < 220 and len(tones) > 60
-
-
-def wait_for(condition, patience=60.0):
-    """Until something is true."""
-    end = time.monotonic() + patience
-    while time.monotonic() < end:
-        if condition():
-            return
-        time.sleep(0.5)
-    raise AssertionError("waited in vain")
 
 
 def sim_time(page) -> float:
@@ -74,33 +67,50 @@ def start_fast(page):
 
 def test_1_the_city_is_seen(page):
     expect(page.get_by_test_id("attribution")).to_have_text("© OpenStreetMap contributors")
-    wait_for(lambda: is_a_picture(scene(page)))
+    until(lambda: is_a_picture(scene(page)), "a picture")
 
 
 def test_2_a_run_is_seen_moving(page):
     """The picture changes, time goes on, the charts get their lines."""
     standing = scene(page)
+    page.get_by_test_id("pace").select_option("0.25")  # so that it is still going on when a slow machine wants to pause it
     page.get_by_test_id("run").click()
-    wait_for(lambda: sim_time(page) > 2)
-    first = scene(page)
-    wait_for(lambda: sim_time(page) > 4)
-    second = scene(page)
-    assert np.abs(first - standing).mean() > 2 and np.abs(second - first).mean() > 1
-    assert is_a_picture(second)
+    until(lambda: sim_time(page) > 2, "two seconds")
+    first = until_changed(page, standing, by=2)
+    until(lambda: sim_time(page) > 4, "four seconds")
+    assert is_a_picture(until_changed(page, first, by=1))
     assert page.locator("canvas").count() >= 2
 
 
-def test_3_pause_and_step(page):
+def until_changed(page, before, *, by) -> np.ndarray:
+    """The picture of the scene as soon as it differs from another by so much in the mean of its pixels."""
+    pictures = [before]
+
+    def changed():
+        pictures.append(scene(page))
+        return np.abs(pictures[-1] - before).mean() > by
+
+    until(changed, "another picture")
+    return pictures[-1]
+
+
+def test_3_pause_and_step(page, client):
+    """The run stands where the server says, and a step is one tick from there: nothing went on between the two."""
     page.get_by_test_id("pause").click()
     expect(page.get_by_test_id("resume")).to_be_visible()
-    time.sleep(1)
-    stood = sim_time(page)
-    time.sleep(1)
-    assert sim_time(page) == stood
+    until(lambda: live(client)["status"] == "paused", "the pause")
+    stood = live(client)["time"]
+    until(lambda: sim_time(page) == pytest.approx(stood, abs=0.006), "the time of the pause")
     page.get_by_test_id("step").click()
-    wait_for(lambda: sim_time(page) > stood)
-    assert sim_time(page) == pytest.approx(stood + 0.02, abs=0.011)
+    until(lambda: live(client)["time"] > stood, "the step")
+    assert live(client)["time"] == pytest.approx(stood + 0.02) and live(client)["status"] == "paused"
+    until(lambda: sim_time(page) == pytest.approx(stood + 0.02, abs=0.006), "the time of the step")
     page.get_by_test_id("resume").click()
+
+
+def live(client):
+    """The newest live run, as the server sees it."""
+    return client.get("/api/live").json()[0]
 
 
 def test_4_the_run_ends_in_the_history(page):
@@ -154,8 +164,11 @@ def test_9_dark(page):
     seen = []
     for _ in range(3):
         seen.append(pixels(page.screenshot()).mean())
-        page.get_by_test_id("theme-toggle").click()
-        time.sleep(0.5)
+        toggle = page.get_by_test_id("theme-toggle")
+        scheme = toggle.get_attribute("data-scheme")
+        toggle.click()
+        expect(toggle).not_to_have_attribute("data-scheme", scheme)
+        drawn(page)
     assert min(seen) < 90 < 180 < max(seen)
 
 

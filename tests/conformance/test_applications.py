@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
@@ -52,7 +52,6 @@ def test_unknown_parameters_are_refused(application):
         application.parameters({"no_such_parameter": 1})
 
 
-@settings(max_examples=100, deadline=None)  # the first call may compile
 @given(observation=observations)
 @pytest.mark.parametrize("name", NAMES)
 def test_any_observation_gives_a_command(name, observation):

@@ -1,5 +1,7 @@
 """What is recorded: everything of a sample belongs to one instant; who has left has no values."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -71,10 +73,12 @@ def test_an_annotated_speed_stands_where_the_route_has_it(sample):
 
 def test_a_trigger_may_have_any_name(sample):
     loaded = job.load(sample, {"clock.duration": 1})
-    renamed = loaded.scenario.model_copy(update={"triggers": {"hits": loaded.scenario.triggers["hard_brake"].model_copy(update={"time": 0.5})}})
-    run = simulation(job.prepare(job.Loaded(loaded.path, {}, renamed)))
+    renamed = loaded.scenario.model_copy(
+        update={"triggers": {"hits": loaded.scenario.triggers["hard_brake"].model_copy(update={"time": 0.5})}}
+    )
+    run = simulation(job.prepare(replace(loaded, scenario=renamed)))
     as_fast_as_possible(run)
-    assert [event.time for event in run.happenings] == [0.5]
+    assert [event.time for event in run.cases[0].happenings] == [0.5]
 
 
 def test_what_happens_to_the_platoon_is_told(sample):

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from studio.model import body
 
-patient = settings(deadline=None)  # the first call compiles
 parts = st.floats(-1, 1)
 vectors = st.tuples(*[st.floats(-10, 10)] * 3)
 four = st.tuples(*[parts] * 4).filter(lambda q: np.linalg.norm(q) > 0.1)
@@ -20,7 +19,6 @@ def of_scipy(q) -> Rotation:
     return Rotation.from_quat([q[1], q[2], q[3], q[0]])
 
 
-@patient
 @given(quaternions, vectors)
 def test_rotations_are_those_of_scipy(q, x):
     R = body.rotation(*q)
@@ -29,7 +27,6 @@ def test_rotations_are_those_of_scipy(q, x):
     assert body.to_body(R, *body.to_world(R, *x)) == pytest.approx(x, abs=1e-9)
 
 
-@patient
 @given(vectors, vectors)
 def test_cross_product(a, b):
     assert body.cross(*a, *b) == pytest.approx(np.cross(a, b), abs=1e-9)
@@ -50,13 +47,11 @@ def test_constant_rates_turn_about_their_axis():
     assert errors[0] < 1e-5 and errors[0] / errors[1] == pytest.approx(4.0, rel=0.01)
 
 
-@patient
 @given(quaternions, vectors)
 def test_orientation_keeps_unit_length(q, rates):
     assert np.linalg.norm(body.turned(*q, *rates, 0.005)) == pytest.approx(1.0, abs=1e-14)
 
 
-@patient
 @given(vectors)
 def test_without_moments_energy_and_angular_momentum_stay(rates):
     """d(w J w)/dt = 2 w J dw/dt = 0 and d|J w|²/dt = 2 J w · J dw/dt = 0."""

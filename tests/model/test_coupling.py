@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import coupling
 from studio.model.coupling import FIRM, STALL
 from studio.scenario import catalogue
 
-patient = settings(deadline=None)  # the first call compiles
 speeds = st.floats(0, 600)
 DT, J_E, J_IN = 0.005, 0.2, 1.5
 CONVERTERS = [name for name in catalogue.vehicle_names() if catalogue.find_vehicle(name).values.coupling.kind == "converter"]
@@ -24,16 +23,14 @@ def engaged(w_e, w_in, T_cap, T_net=0.0):
     return T_c, w_e + D_e, w_in + D_in
 
 
-@patient
 @given(speeds, speeds, st.floats(-300, 300))
 def test_a_strong_clutch_makes_both_sides_equally_fast(w_e, w_in, T_net):
-    T_c, after_e, after_in = engaged(w_e, w_in, 1e9, T_net)
+    _, after_e, after_in = engaged(w_e, w_in, 1e9, T_net)
     assert after_e == pytest.approx(after_in, abs=1e-6)
     momentum = J_E * w_e + J_IN * w_in + DT * T_net
     assert J_E * after_e + J_IN * after_in == pytest.approx(momentum, rel=1e-9, abs=1e-9)
 
 
-@patient
 @given(speeds, speeds, st.floats(0, 500))
 def test_a_slipping_clutch_is_coulomb_friction(w_e, w_in, T_cap):
     """It carries its capacity from the faster to the slower side, and destroys energy."""
@@ -121,7 +118,6 @@ def test_a_turbine_turned_backwards_is_taken_as_standing():
     assert at("bmw_320i", 200.0, -50.0)[:2] == at("bmw_320i", 200.0, 0.0)[:2]
 
 
-@patient
 @given(st.floats(60, 600), st.floats(0, 700), st.floats(-50, 300), st.floats(0, 400), st.floats(0.01, 20))
 def test_a_step_solves_converter_and_clutch_together(w_e, w_t, T_e, T_cap, M):
     """The two linear equations of the docstring hold with the torque that the clutch carries, and so does Coulomb's law."""

@@ -34,11 +34,7 @@ def scattered(low, high, n=200_000):
 
 def test_atan():
     """Relative error below 1e-12 over 24 decades, dense around the seams at tan(pi/8) and tan(3 pi/8)."""
-    seams = [
-        np.nextafter(seam, side)
-        for seam in (elementary.TAN_EIGHTH, elementary.TAN_THREE_EIGHTHS)
-        for side in (0.0, 9.0)
-    ]
+    seams = [np.nextafter(seam, side) for seam in (elementary.TAN_EIGHTH, elementary.TAN_THREE_EIGHTHS) for side in (0.0, 9.0)]
     x = both_signs(np.sort(np.concatenate([np.logspace(-12, 12, 200_000), scattered(0.3, 3.0), seams])))
     assert np.max(np.abs(evaluated(elementary.atan, x) / np.arctan(x) - 1.0)) < 1e-12
 
@@ -51,9 +47,7 @@ def test_atan_at_its_ends():
     assert math.isnan(nan)
 
 
-@pytest.mark.parametrize(
-    ("ours", "library"), [(elementary.sin, np.sin), (elementary.cos, np.cos)], ids=["sin", "cos"]
-)
+@pytest.mark.parametrize(("ours", "library"), [(elementary.sin, np.sin), (elementary.cos, np.cos)], ids=["sin", "cos"])
 def test_sine_and_cosine(ours, library):
     """Absolute error below 2e-13 for |x| < 1000, dense around the seams at half-odd multiples of pi."""
     seams = (np.arange(-318, 318) + 0.5) * math.pi

@@ -1,13 +1,12 @@
 """The gearbox's control unit: its schedule, and what it refuses."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import gearbox
 from studio.model.gearbox import WALKING
 
-patient = settings(deadline=None)  # the first call compiles
 UP, DOWN, TOP, LIMIT = 300.0, 150.0, 5, 600.0
 
 
@@ -22,7 +21,6 @@ def test_the_schedule_goes_one_gear_at_a_time_within_the_gears():
     assert gearbox.automatic(1, TOP, 0.0, UP, DOWN) == 1
 
 
-@patient
 @given(st.floats(DOWN, UP), st.integers(1, TOP))
 def test_between_the_curves_the_gear_is_kept(w_in, gear):
     assert gearbox.automatic(gear, TOP, w_in, UP, DOWN) == gear

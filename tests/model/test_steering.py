@@ -3,12 +3,11 @@
 from math import atan2, exp, hypot, tan
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import steering
 
-patient = settings(deadline=None)  # the first call compiles
 L, TRACK, DT = 2.6, 1.4, 0.005
 
 
@@ -17,7 +16,6 @@ def angle(delta, y):
     return atan2(s, c)
 
 
-@patient
 @given(st.floats(-0.9, 0.9).filter(lambda delta: abs(delta) > 1e-3))
 def test_ackermann_points_at_one_centre(delta):
     """Both front wheels and the rear axle turn about one point: cot(right) - cot(left) = track/wheelbase, the mean on delta."""
@@ -26,7 +24,6 @@ def test_ackermann_points_at_one_centre(delta):
     assert 1 / tan(right) + 1 / tan(left) == pytest.approx(2 / tan(delta), rel=1e-6)
 
 
-@patient
 @given(st.floats(-0.9, 0.9))
 def test_a_direction_has_unit_length_and_left_mirrors_right(delta):
     c, s = steering.wheel_direction(delta, L, TRACK / 2)

@@ -1,5 +1,6 @@
 """Spring, damper, anti-roll bar, links and the vertical tyre: the laws of one corner."""
 
+import itertools
 from math import exp, log, pi, sqrt
 
 import pytest
@@ -68,7 +69,7 @@ def test_no_damping_is_too_much_for_a_step():
     """Overdamped a hundredfold the wheel creeps back, exp(-k t/d), and neither swings nor explodes at 5 ms."""
     damping = 200.0 * sqrt((k + k_t) * m_u)
     seen = hopping(damping, 0.005, 5.0)
-    assert all(0.0 < after <= before for before, after in zip(seen, seen[1:], strict=False))
+    assert all(0.0 < after <= before for before, after in itertools.pairwise(seen))
     assert seen[-1] == pytest.approx(0.01 * exp(-(k + k_t) / damping * 5.0), rel=0.01)
 
 

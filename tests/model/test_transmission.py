@@ -2,16 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import transmission
 
-patient = settings(deadline=None)  # the first call compiles
 DT = 0.005
 
 
-@patient
 @given(st.floats(-200, 400), st.floats(1, 15), st.floats(0, 0.5), st.floats(0, 1), st.tuples(*[st.floats(5, 200)] * 4))
 def test_a_step_solves_the_equations_of_wheels_and_gearbox(T, i, J_g, front, omega):
     """Unknowns w_1..4, w_in and T_out: I_j (w_j' - w_j)/dt = s_j T_out, w_in = i sum s_j w_j, Eq. 8 with dw_in/dt."""

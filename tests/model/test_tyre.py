@@ -6,7 +6,7 @@ from math import atan, cos, pi, radians, sin, tan
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import tyre
@@ -24,7 +24,6 @@ PAIRS = {
 }
 SCALING = [name for name in Tyre._fields if name.startswith("L")]
 
-patient = settings(deadline=None)  # the first call compiles
 
 slips = st.floats(-1, 1)
 angles = st.floats(-0.6, 0.6)
@@ -80,14 +79,10 @@ def test_forces_of_another_program(reference):
 
 def test_pure_slip_of_another_program(reference):
     t, rows = reference
-    inputs = zip(
-        rows["kappa"], np.tan(rows["alpha_rad"]), np.sin(rows["gamma_rad"]), rows["Fz_N"], strict=True
-    )
+    inputs = zip(rows["kappa"], np.tan(rows["alpha_rad"]), np.sin(rows["gamma_rad"]), rows["Fz_N"], strict=True)
     for i, (kappa, alpha, gamma, F_z) in enumerate(inputs):
         if i % 5 == 0:
-            assert tyre.longitudinal_pure(t, kappa, gamma, F_z, 1.0) == pytest.approx(
-                rows["Fx0_N"][i], abs=1e-3
-            )
+            assert tyre.longitudinal_pure(t, kappa, gamma, F_z, 1.0) == pytest.approx(rows["Fx0_N"][i], abs=1e-3)
             assert tyre.lateral_pure(t, alpha, gamma, F_z, 1.0) == pytest.approx(rows["Fy0_N"][i], abs=1e-3)
 
 
@@ -95,7 +90,6 @@ def test_pure_slip_of_another_program(reference):
 
 
 @pytest.mark.parametrize("t", TYRES, ids=list(PAIRS))
-@patient
 @given(gamma=cambers, F_z=loads)
 def test_slopes_at_the_origin(t, gamma, F_z):
     """BCD is the slope: the stiffness functions are the derivatives of the forces where the shifted slip is 0."""
@@ -104,9 +98,7 @@ def test_slopes_at_the_origin(t, gamma, F_z):
     rise_x = [tyre.longitudinal_pure(t, slip - x.S_H, gamma, F_z, 1.0) for slip in (-h, h)]
     rise_y = [tyre.lateral_pure(t, slip - y.S_H, gamma, F_z, 1.0) for slip in (-h, h)]
     assert (rise_x[1] - rise_x[0]) / (2 * h) == pytest.approx(tyre.slip_stiffness(t, F_z), rel=1e-4)
-    assert (rise_y[1] - rise_y[0]) / (2 * h) == pytest.approx(
-        tyre.cornering_stiffness(t, gamma, F_z), rel=1e-4
-    )
+    assert (rise_y[1] - rise_y[0]) / (2 * h) == pytest.approx(tyre.cornering_stiffness(t, gamma, F_z), rel=1e-4)
 
 
 def test_stiffness_is_greatest_at_its_load():
@@ -155,9 +147,7 @@ def test_curvature_is_at_most_one():
     large, one = (MEASURED._replace(REX1=e, REX2=0.0, REY1=e, REY2=0.0) for e in (5.0, 1.0))
     assert tyre.longitudinal_curvature(MEASURED._replace(PEX1=50.0), 0.0, 0.1) == 1.0
     assert tyre.lateral_curvature(MEASURED._replace(PEY1=50.0), 0.0, 0.0, 0.1) == 1.0
-    assert tyre.longitudinal_weight(large, 0.1, 0.2, 4000.0) == tyre.longitudinal_weight(
-        one, 0.1, 0.2, 4000.0
-    )
+    assert tyre.longitudinal_weight(large, 0.1, 0.2, 4000.0) == tyre.longitudinal_weight(one, 0.1, 0.2, 4000.0)
     assert tyre.lateral_weight(large, 0.1, 0.2, 4000.0) == tyre.lateral_weight(one, 0.1, 0.2, 4000.0)
 
 
@@ -167,12 +157,9 @@ def test_curvature_is_at_most_one():
 @pytest.mark.parametrize("name", SCALING)
 def test_every_scaling_factor_scales(name):
     scaled = MEASURED._replace(**{name: 0.8})
-    assert sweep(scaled, 0.05, 0.06, 0.03, 8000.0) != pytest.approx(
-        sweep(MEASURED, 0.05, 0.06, 0.03, 8000.0), rel=1e-4
-    )
+    assert sweep(scaled, 0.05, 0.06, 0.03, 8000.0) != pytest.approx(sweep(MEASURED, 0.05, 0.06, 0.03, 8000.0), rel=1e-4)
 
 
-@patient
 @given(factor=st.floats(0.5, 2.0), kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_nominal_load(factor, kappa, alpha, gamma, F_z):
     """LFZO FNOMIN is the nominal load: a tyre with LFZO behaves as one with another FNOMIN (4.E1)."""
@@ -183,7 +170,6 @@ def test_nominal_load(factor, kappa, alpha, gamma, F_z):
     assert tyre.forces(scaled, kappa, alpha, gamma, F_z, 1.0) == pytest.approx(expected, rel=1e-9, abs=1e-6)
 
 
-@patient
 @given(mu=st.floats(0.1, 1.2), kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_road_friction_is_a_scaling_factor(mu, kappa, alpha, gamma, F_z):
     """A slippery road is a tyre with smaller LMUX and LMUY."""
@@ -193,20 +179,14 @@ def test_road_friction_is_a_scaling_factor(mu, kappa, alpha, gamma, F_z):
 
 def test_stiffness_factors():
     t = MEASURED._replace(LKX=2.0, LKY=3.0)
-    assert tyre.slip_stiffness(t, 5000.0) == pytest.approx(
-        2.0 * tyre.slip_stiffness(MEASURED, 5000.0), rel=1e-12
-    )
-    assert tyre.cornering_stiffness(t, 0.02, 5000.0) == pytest.approx(
-        3.0 * tyre.cornering_stiffness(MEASURED, 0.02, 5000.0), rel=1e-12
-    )
+    assert tyre.slip_stiffness(t, 5000.0) == pytest.approx(2.0 * tyre.slip_stiffness(MEASURED, 5000.0), rel=1e-12)
+    assert tyre.cornering_stiffness(t, 0.02, 5000.0) == pytest.approx(3.0 * tyre.cornering_stiffness(MEASURED, 0.02, 5000.0), rel=1e-12)
 
 
 def test_camber_factors():
     """Without LGAX, LGAY camber does not reach the force in pure slip; LGAZ = 0 takes it out of the trail."""
     t = MEASURED._replace(LGAX=0.0, LGAY=0.0, LGAZ=0.0)
-    assert tyre.longitudinal_pure(t, 0.1, 0.05, 5000.0, 1.0) == tyre.longitudinal_pure(
-        t, 0.1, 0.0, 5000.0, 1.0
-    )
+    assert tyre.longitudinal_pure(t, 0.1, 0.05, 5000.0, 1.0) == tyre.longitudinal_pure(t, 0.1, 0.0, 5000.0, 1.0)
     assert tyre.lateral_pure(t, 0.1, 0.05, 5000.0, 1.0) == tyre.lateral_pure(t, 0.1, 0.0, 5000.0, 1.0)
     assert tyre.trail(t, 0.1, 0.05, 0.0, 1.0, 0.0) == tyre.trail(t, 0.1, 0.0, 0.0, 1.0, 0.0)
 
@@ -241,7 +221,7 @@ def test_parts_of_the_aligning_moment():
     def moment(**factors):
         return tyre.forces(t._replace(**factors), kappa, alpha, 0.0, F_z, 1.0)[2]
 
-    none = dict(LTR=0.0, LRES=0.0, LS=0.0)
+    none = {"LTR": 0.0, "LRES": 0.0, "LS": 0.0}
     parts = [moment(**{**none, name: 1.0}) for name in none]
     assert moment(**none) == 0.0
     assert all(abs(part) > 1.0 for part in parts)
@@ -255,7 +235,6 @@ def without(t, *prefixes):
     return t._replace(**{name: 0.0 for name in Tyre._fields if name.startswith(prefixes)})
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_zeros_switch_groups_off(kappa, alpha, gamma, F_z):
     bare = without(MEASURED, "R", "Q", "SSZ")
@@ -268,7 +247,6 @@ def test_zeros_switch_groups_off(kappa, alpha, gamma, F_z):
 # --- invariants --------------------------------------------------------------------------------------------------------
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=st.floats(0, 9000), mu=st.floats(0.1, 1.2))
 def test_a_mirrored_tyre(kappa, alpha, gamma, F_z, mu):
     """What does not tell left from right gives mirrored forces for mirrored slip and camber."""
@@ -279,7 +257,6 @@ def test_a_mirrored_tyre(kappa, alpha, gamma, F_z, mu):
     assert -mirrored_z == pytest.approx(M_z, rel=1e-9, abs=1e-6)
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers)
 def test_no_load_no_force(kappa, alpha, gamma):
     """Exactly none at no load; near it in proportion to the load."""
@@ -289,13 +266,11 @@ def test_no_load_no_force(kappa, alpha, gamma):
     assert light == pytest.approx(1e3 * lighter, rel=1e-3, abs=1e-14)
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=loads)
 def test_no_friction_no_force(kappa, alpha, gamma, F_z):
     assert tyre.forces(MEASURED, kappa, alpha, gamma, F_z, 0.0) == (0.0, 0.0, 0.0)
 
 
-@patient
 @given(kappa=slips, degrees=st.floats(-40, 40), F_z=loads)
 def test_combined_slip_never_exceeds_pure_slip(kappa, degrees, F_z):
     """The weights take away, they do not add."""
@@ -333,13 +308,11 @@ def test_trail_at_its_peak():
     assert tyre.trail(t, alpha, 0.0, df_z, 1.0, 0.0) == pytest.approx(expected, rel=1e-12)
 
 
-@patient
 @given(x=st.floats(-0.3, 0.3))
 def test_tangent_squared(x):
     assert tyre.tangent_squared(x) == pytest.approx(tan(x) ** 2, rel=3e-4, abs=1e-300)
 
 
-@patient
 @given(shifted=st.floats(-0.3, 0.3), slip=st.floats(-5, 5))
 def test_equivalent_slip(shifted, slip):
     """The formula of MF-Tyre 5.2; with one kind of slip alone it is that slip's own angle."""
@@ -352,7 +325,6 @@ def test_equivalent_slip(shifted, slip):
 SCALED = MEASURED._replace(LKY=1.2, LMUY=0.7, LGAZ=0.8, LTR=0.9, LRES=1.1, QBZ10=0.6, QEZ3=0.4)
 
 
-@patient
 @given(
     alpha=st.floats(-0.25, 0.25),
     gamma=cambers,
@@ -364,29 +336,15 @@ def test_trail(alpha, gamma, df_z, mu, slip):
     """t/cos(alpha) (4.E33 to 4.E44) written out with the mathematics library."""
     t, gamma_z = SCALED, SCALED.LGAZ * gamma
     alpha_t = alpha + t.QHZ1 + t.QHZ2 * df_z + (t.QHZ3 + t.QHZ4 * df_z) * gamma_z
-    B = (
-        (t.QBZ1 + t.QBZ2 * df_z + t.QBZ3 * df_z**2)
-        * (1 + t.QBZ4 * gamma_z + t.QBZ5 * abs(gamma_z))
-        * t.LKY
-        / (t.LMUY * mu)
-    )
-    D = (
-        (1 + df_z)
-        * (t.QDZ1 + t.QDZ2 * df_z)
-        * (1 + t.QDZ3 * gamma_z + t.QDZ4 * gamma_z**2)
-        * t.UNLOADED_RADIUS
-        * t.LTR
-    )
+    B = (t.QBZ1 + t.QBZ2 * df_z + t.QBZ3 * df_z**2) * (1 + t.QBZ4 * gamma_z + t.QBZ5 * abs(gamma_z)) * t.LKY / (t.LMUY * mu)
+    D = (1 + df_z) * (t.QDZ1 + t.QDZ2 * df_z) * (1 + t.QDZ3 * gamma_z + t.QDZ4 * gamma_z**2) * t.UNLOADED_RADIUS * t.LTR
     E = t.QEZ1 + t.QEZ2 * df_z + t.QEZ3 * df_z**2
     E = min(E * (1 + (t.QEZ4 + t.QEZ5 * gamma_z) * 2 / pi * atan(B * t.QCZ1 * alpha_t)), 1.0)
     z = B * tyre.equivalent_slip(alpha_t, slip)
     expected = D * cos(t.QCZ1 * atan(z - E * (z - atan(z))))
-    assert tyre.trail(t, alpha, gamma, df_z, t.LKY / (t.LMUY * mu), slip) == pytest.approx(
-        expected, rel=1e-8, abs=1e-10
-    )
+    assert tyre.trail(t, alpha, gamma, df_z, t.LKY / (t.LMUY * mu), slip) == pytest.approx(expected, rel=1e-8, abs=1e-10)
 
 
-@patient
 @given(
     alpha=st.floats(-0.25, 0.25),
     gamma=cambers,
@@ -400,18 +358,12 @@ def test_residual_moment(alpha, gamma, df_z, mu, slip):
     y = tyre.lateral_factors(t, gamma, df_z, mu)
     softening = t.LKY / (t.LMUY * mu)
     B = t.QBZ9 * softening + t.QBZ10 * y.B * y.C
-    D = (
-        ((t.QDZ6 + t.QDZ7 * df_z) * t.LRES + (t.QDZ8 + t.QDZ9 * df_z) * gamma_z)
-        * t.UNLOADED_RADIUS
-        * t.LMUY
-        * mu
-    )
+    D = ((t.QDZ6 + t.QDZ7 * df_z) * t.LRES + (t.QDZ8 + t.QDZ9 * df_z) * gamma_z) * t.UNLOADED_RADIUS * t.LMUY * mu
     expected = D * cos(atan(B * tyre.equivalent_slip(alpha + y.S_H + y.S_V / y.K, slip)))
     found = tyre.residual_per_load(t, y, alpha, gamma, df_z, mu, softening, 1.0 / y.K, slip)
     assert found == pytest.approx(expected, rel=1e-8, abs=1e-12)
 
 
-@patient
 @given(kappa=slips, alpha=angles, gamma=cambers, F_z=loads, mu=st.floats(0.3, 1.2))
 def test_aligning_moment(kappa, alpha, gamma, F_z, mu):
     """M_z = (M_zr - t F'_y) cos(alpha) + s F_x (4.E71, 4.E72), put together from its parts."""

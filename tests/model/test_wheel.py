@@ -3,13 +3,12 @@
 from math import copysign, exp
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.model import wheel
 from studio.model.wheel import SIGMA
 
-patient = settings(deadline=None)  # the first call compiles
 J, R, DT = 1.5, 0.3, 0.005
 
 
@@ -38,7 +37,6 @@ def test_at_rest_slip_is_a_spring():
     assert wheel.uptake(slip, 0.0, 0.0, DT) == slip  # and keeps it
 
 
-@patient
 @given(st.floats(-1.5, 1.5), st.floats(-70, 70), st.floats(-70, 70))
 def test_uptake_never_overshoots(slip, V_slide, V_x):
     """The new slip lies between the old one and the steady one, however long the step."""
@@ -78,7 +76,6 @@ def test_slip_per_spin_is_the_derivative_of_what_the_tyre_uses():
     assert wheel.slip_per_spin(R, V_x, gain, DT) == pytest.approx((used[1] - used[0]) / 2e-4, rel=1e-6)
 
 
-@patient
 @given(st.floats(-200, 200), st.floats(0, 1e5))
 def test_a_brake_stops_a_wheel_and_never_turns_it_back(omega, T_brake):
     after = wheel.spin(omega, 0.0, 0.0, T_brake, R, J, DT)

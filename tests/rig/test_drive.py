@@ -11,6 +11,7 @@ from studio.errors import RunError, ScenarioError, UnknownError
 from studio.rig import drive as rig
 from studio.rig.drive import drive
 from studio.scenario import catalogue
+from studio.vehicle.parameter import MASS
 
 VEHICLES = catalogue.vehicle_names()
 STRAIGHT = {"time_s": [0.0, 5.0], "throttle": [1.0, 1.0]}
@@ -214,7 +215,7 @@ def test_a_state_that_is_none_ends_the_drive(monkeypatch):
 
     def poisoned(*arguments):
         fleet = made(*arguments)
-        fleet.parameter[rig.MASS] = np.nan
+        fleet.parameter[MASS] = np.nan
         return fleet
 
     monkeypatch.setattr(rig, "made", poisoned)

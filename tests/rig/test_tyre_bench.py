@@ -77,9 +77,7 @@ def test_a_result_put_in_again_stays_as_it_is(tyre_file, folder, tmp_path):
 
 
 def test_columns_in_any_order_and_texts(tyre_file, t, tmp_path):
-    (tmp_path / "rows.csv").write_text(
-        'note,Fz_N,gamma_rad,kappa,alpha_rad\n"wet, cold",4000,0.02, 0.1 ,-0.05\n\n'
-    )
+    (tmp_path / "rows.csv").write_text('note,Fz_N,gamma_rad,kappa,alpha_rad\n"wet, cold",4000,0.02, 0.1 ,-0.05\n\n')
     assert rig.bench(tyre_file, tmp_path / "rows.csv", tmp_path / "out.csv") == 1
     (row,) = read_rows(tmp_path / "out.csv")
     assert row["note"] == "wet, cold"
@@ -187,7 +185,7 @@ def test_files_that_are_not_there(tyre_file, tmp_path):
     (tmp_path / "rows.csv").write_text(f"{HEAD}\n0,0,0,4000\n")
     with pytest.raises(ScenarioError, match="cannot be written: there is no such folder"):
         rig.bench(tyre_file, tmp_path / "rows.csv", tmp_path / "nowhere" / "out.csv")
-    with pytest.raises(ScenarioError, match="There is no tyre|is no file"):
+    with pytest.raises(ScenarioError, match=r"There is no tyre|is no file"):
         rig.bench(tmp_path / "none.tir", tmp_path / "rows.csv", tmp_path / "out.csv")
 
 

@@ -64,9 +64,7 @@ class Draft:
         self.lines.append(f'<way id="{number}" version="1">{refs}{inner}</way>')
 
     def write(self, target):
-        target.write_text(
-            f'<?xml version="1.0"?><osm version="0.6">{"".join(self.lines)}</osm>', encoding="utf-8"
-        )
+        target.write_text(f'<?xml version="1.0"?><osm version="0.6">{"".join(self.lines)}</osm>', encoding="utf-8")
         return target
 
 

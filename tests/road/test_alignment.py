@@ -1,5 +1,7 @@
 """Lanes are curves that a car can follow: they meet without a kink, and a mapped corner is no reason to brake."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -98,7 +100,7 @@ def test_lanes_meet_without_a_gap_or_a_kink(place):
     """Where both are long enough to have a direction."""
     for connection in place.connections:
         order = [place.lanes[lane] for lane in (connection.from_lane, *connection.via, connection.to_lane)]
-        for a, b in zip(order, order[1:], strict=False):
+        for a, b in itertools.pairwise(order):
             assert np.hypot(*(b.centre[:, 0] - a.centre[:, -1])) < 1e-6
             assert alignment.turned(a.centre[:, -1] - a.centre[:, -2], b.centre[:, 1] - b.centre[:, 0]) < np.radians(4.0)
 
@@ -107,7 +109,7 @@ def test_lanes_keep_their_order_across_a_road(place):
     """Though every lane is smoothed alone."""
     for each in place.roads.values():
         lanes = place.lanes_of(each.id)
-        for inner, outer in zip(lanes, lanes[1:], strict=False):
+        for inner, outer in itertools.pairwise(lanes):
             if not each.internal and inner.length > 5.0:
                 apart = curve.distances(inner.centre, outer.centre)
                 assert apart.min() > 0.8 * inner.width and apart.max() < 1.6 * inner.width + 1.0

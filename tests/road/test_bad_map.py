@@ -72,8 +72,8 @@ def test_missing_file_and_unknown_kind_are_refused(tmp_path):
         load(tmp_path / "gone.osm")
     with pytest.raises(MapError, match=r"\.osm\.gz"):
         load(written(tmp_path, "x", "map.kml"))
+    (tmp_path / "folder.osm").mkdir()
     with pytest.raises(MapError, match="cannot be read"):
-        (tmp_path / "folder.osm").mkdir()
         load(tmp_path / "folder.osm")
 
 
@@ -111,9 +111,7 @@ def test_the_second_time_it_is_read_back(small_map, own_cache, monkeypatch):
     assert [entry.suffix for entry in own_cache.iterdir()] == [".pickle"]
 
 
-@pytest.mark.parametrize(
-    "damage", [lambda body: body[: len(body) // 2], lambda body: b"", lambda body: b"\0" + body]
-)
+@pytest.mark.parametrize("damage", [lambda body: body[: len(body) // 2], lambda body: b"", lambda body: b"\0" + body])
 def test_a_damaged_cache_is_made_again(small_map, own_cache, damage):
     first = load(small_map)
     (kept,) = own_cache.iterdir()

@@ -58,14 +58,10 @@ def local(of):
 def test_a_polygon_becomes_the_circle_it_stands_for():
     angle = np.linspace(0.0, 2.0 * np.pi, 17)
     polygon = placed([70.0 * np.cos(angle), 70.0 * np.sin(angle)])
-    closed = osm.Way(
-        7, [*polygon.nodes[:-1], polygon.nodes[0]], polygon.points, {**polygon.tags, "oneway": "yes"}
-    )
+    closed = osm.Way(7, [*polygon.nodes[:-1], polygon.nodes[0]], polygon.points, {**polygon.tags, "oneway": "yes"})
     (round_way,) = bend.rounded([closed], BOX, itertools.count(1000))
     radius = np.hypot(*local(round_way))
-    corner = 70.0 * (
-        1.0 - np.cos(np.pi / 16)
-    )  # what the polygon misses of the circle in the middle of a side
+    corner = 70.0 * (1.0 - np.cos(np.pi / 16))  # what the polygon misses of the circle in the middle of a side
     assert len(radius) > 100
     assert np.abs(radius - 70.0).max() < 0.1 * corner
 
@@ -77,9 +73,7 @@ def test_mapped_nodes_stay():
     assert all(kept[node] == point for node, point in zip(mapped.nodes, mapped.points, strict=True))
 
 
-@pytest.mark.parametrize(
-    "points", [[[0.0, 50.0, 100.0], [0.0, 0.0, 0.0]], [[0.0, 50.0, 50.0], [0.0, 0.0, 50.0]]]
-)
+@pytest.mark.parametrize("points", [[[0.0, 50.0, 100.0], [0.0, 0.0, 0.0]], [[0.0, 50.0, 50.0], [0.0, 0.0, 50.0]]])
 def test_straights_and_corners_stay_as_they_are(points):
     (same,) = bend.rounded([placed(points)], BOX, itertools.count(1000))
     assert local(same) == pytest.approx(np.array(points), abs=1e-3)

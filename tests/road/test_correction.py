@@ -52,7 +52,10 @@ def test_lane_count_and_limit(draft, tmp_path):
     assert len(lanes_of(before, 9)) == 8 and {round(lane.speed * 3.6) for lane in lanes_of(before, 9)} == {50}
     assert len(lanes_of(after, 9)) == 4 and {round(lane.speed * 3.6) for lane in lanes_of(after, 9)} == {30}
     assert len(lanes_of(after, 8)) == len(lanes_of(before, 8))  # the other street stays
-    assert {(each.kind, each.key, each.element) for each in before.report.guesses} == {("lanes", "lanes", "way 9"), ("speed limit", "maxspeed", "way 9")}
+    assert {(each.kind, each.key, each.element) for each in before.report.guesses} == {
+        ("lanes", "lanes", "way 9"),
+        ("speed limit", "maxspeed", "way 9"),
+    }
     assert after.report.guesses == () and after.digest != before.digest
     (told,) = after.report.corrected
     assert told.before == {"lanes": "", "maxspeed": ""} and (told.latitude, told.longitude) == pytest.approx((52.5018, 13.4))
@@ -201,19 +204,21 @@ def test_a_failed_exchange_puts_the_old_folder_back(tmp_path):
     out, made = tmp_path / "out", tmp_path / "made"
     out.mkdir()
     (out / "report.json").write_text("{}")
-    with pytest.raises(OSError):
+    with pytest.raises(FileNotFoundError):
         folder.exchange(made, out, tmp_path / "old")  # nothing was made
     assert (out / "report.json").read_text() == "{}"
 
 
-@pytest.mark.parametrize("text", ["{", "[1]", '[{"element": "way 1"}]', '[{"element": "way 1", "tags": {"lanes": "0"}, "removed": []}]', "3"])
+@pytest.mark.parametrize(
+    "text", ["{", "[1]", '[{"element": "way 1"}]', '[{"element": "way 1", "tags": {"lanes": "0"}, "removed": []}]', "3"]
+)
 def test_corrections_that_cannot_be_read_stop_the_import(tmp_path, text):
     """They may hold a day's work: nothing is overwritten, and the file is named."""
     out = tmp_path / "place"
     intake.take(MANCHESTER, out)
     (out / "corrections.json").write_text(text)
     for act in (lambda: load(out), lambda: intake.take(MANCHESTER, out)):
-        with pytest.raises(MapError, match="corrections.json"):
+        with pytest.raises(MapError, match=r"corrections\.json"):
             act()
     assert (out / "corrections.json").read_text() == text
 

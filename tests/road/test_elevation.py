@@ -1,5 +1,6 @@
 """Heights: from OpenDRIVE's elevation as they are, from OpenStreetMap's `ele` tags as a smooth guess, and none where none is known."""
 
+import itertools
 import math
 from pathlib import Path as File
 from xml.etree import ElementTree
@@ -34,7 +35,9 @@ def test_lanes_have_the_elevation_of_the_document():
         assert lane.height.shape == (lane.centre.shape[1],)
         share = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(lane.centre)))]) / lane.length
         s = 1464.4343507055999 * (share if lane.road == "0" else 1.0 - share)
-        expected = [next(a + (x - at) * (b + (x - at) * (c + (x - at) * d)) for at, a, b, c, d in reversed(rows) if x >= at - 1e-6) for x in s]
+        expected = [
+            next(a + (x - at) * (b + (x - at) * (c + (x - at) * d)) for at, a, b, c, d in reversed(rows) if x >= at - 1e-6) for x in s
+        ]
         assert np.abs(lane.height - expected).max() < 0.02 and np.ptp(lane.height) > 0.5
 
 
@@ -128,20 +131,26 @@ def test_slips_are_left_out(draft, tmp_path, slip):
 def test_streets_that_hang_together_meet_at_one_height(draft, tmp_path):
     """A crossing on a slope: where lanes join, heights join; a street of another part without tags stays level."""
     middle = draft.node(52.5, 13.4)
-    arms = [draft.node(52.5 + 2 * STEP * math.cos(k), 13.4 + 3.3 * STEP * math.sin(k), ele=str(50 + 8 * math.cos(k))) for k in (0, math.pi / 2, math.pi, -math.pi / 2)]
+    arms = [
+        draft.node(52.5 + 2 * STEP * math.cos(k), 13.4 + 3.3 * STEP * math.sin(k), ele=str(50 + 8 * math.cos(k)))
+        for k in (0, math.pi / 2, math.pi, -math.pi / 2)
+    ]
     for number, node in enumerate(arms):
         draft.way(number + 1, [node, middle], highway="residential")
     draft.way(9, [draft.node(52.51, 13.41), draft.node(52.51, 13.412)], highway="residential")
     network = load(draft.write(tmp_path / "cross.osm"))
     for each in network.connections:
         chain = [network.lanes[lane] for lane in (each.from_lane, *each.via, each.to_lane)]
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             assert a.height[-1] == pytest.approx(b.height[0], abs=0.01)
     heights = {lane.road.removeprefix("-").split("#")[0]: lane.height for lane in network.lanes if not lane.internal}
     assert not heights["9"].any() and np.ptp(heights["1"]) > 4.0
     assert max(np.abs(h).max() for h in heights.values()) == pytest.approx(58.0, abs=1.0)
 
 
-@pytest.mark.parametrize(("text", "height"), [("34.5", 34.5), (" 12 m", 12.0), ("100 ft", 30.48), ("12,5", 12.5), ("", None), ("12 km", None), ("-500", None), ("inf", None)])
+@pytest.mark.parametrize(
+    ("text", "height"),
+    [("34.5", 34.5), (" 12 m", 12.0), ("100 ft", 30.48), ("12,5", 12.5), ("", None), ("12 km", None), ("-500", None), ("inf", None)],
+)
 def test_what_a_tag_means(text, height):
     assert elevation.metres(text) == height

@@ -12,6 +12,7 @@ from studio.errors import MapError
 from studio.road import load
 from studio.road.formats import overpass
 from studio.road.library import folder
+from tests.patience import PATIENCE
 
 MAPS = Path(__file__).parents[1] / "reference" / "maps"
 PERTH = MAPS / "perth_peanut_roundabout_lht.osm.gz"
@@ -27,7 +28,7 @@ def cache(tmp_path_factory):
 
 def studio(*arguments):
     """Runs the command; returns exit code, output, errors."""
-    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -130,7 +131,7 @@ def test_a_file_over_the_limit_is_refused(tmp_path):
 
 def test_a_disk_that_does_not_take_it(tmp_path):
     (tmp_path / "file").write_text("in the way")
-    with pytest.raises(MapError, match="cannot be written|in the way"):
+    with pytest.raises(MapError, match=r"cannot be written|in the way"):
         folder.write(load(PERTH), PERTH, tmp_path / "file" / "place", bbox=None)
 
 

@@ -98,6 +98,7 @@ def random_network(rng, count):
 
 def enumerated(graph, start, wanted):
     """The least price over all ways without a ring between two of the wanted roads, found by trying them all."""
+
     def onward(node, stage, spent, seen):
         if stage == len(wanted):
             yield spent
@@ -143,6 +144,7 @@ def test_a_bend_takes_what_its_radius_allows():
 
 def test_the_quicker_way_wins_over_the_shorter():
     """Round 400 m at 25 m/s, or 250 m at 8 m/s; slowed down, the long way loses."""
+
     def made(fast):
         x = [0.0, 100.0]
         return network(
@@ -220,7 +222,14 @@ RING = [(0, 1), (1, 2), (2, 3), (1, 4), (4, 5), (5, 2), (0, 4)]
 
 def ring():
     """From a over b to c and on to d; from b and from a also over e and f to c."""
-    ends = [([0, 100], [0, 0]), ([100, 200], [0, 0]), ([200, 300], [0, 0]), ([300, 400], [0, 0]), ([200, 250], [0, 90]), ([250, 200], [90, 0])]
+    ends = [
+        ([0, 100], [0, 0]),
+        ([100, 200], [0, 0]),
+        ([200, 300], [0, 0]),
+        ([300, 400], [0, 0]),
+        ([200, 250], [0, 90]),
+        ([250, 200], [90, 0]),
+    ]
     return network([lane(i, name, 0, end) for i, (name, end) in enumerate(zip("abcdef", ends, strict=True))], RING)
 
 
@@ -288,7 +297,15 @@ def follows(here):
 def crossing(draft, target, relation):
     """Two one-way carriageways, eastbound (1 to the west of a link, 2 behind it) and westbound (3, 4), joined by the link 5; a street
     6 goes on south from the eastbound one."""
-    points = {"a": (0.0, 0.0), "b": (0.0, 0.003), "c": (0.0, 0.006), "d": (0.0006, 0.006), "e": (0.0006, 0.003), "f": (0.0006, 0.0), "g": (-0.002, 0.003)}
+    points = {
+        "a": (0.0, 0.0),
+        "b": (0.0, 0.003),
+        "c": (0.0, 0.006),
+        "d": (0.0006, 0.006),
+        "e": (0.0006, 0.003),
+        "f": (0.0006, 0.0),
+        "g": (-0.002, 0.003),
+    }
     node = {name: draft.node(lat, lon) for name, (lat, lon) in points.items()}
     for number, ends in enumerate(("ab", "bc", "de", "ef", "be", "bg"), start=1):
         draft.way(number, [node[end] for end in ends], highway="primary", oneway="yes", lanes="1", maxspeed="50")

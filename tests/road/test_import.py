@@ -120,7 +120,7 @@ def test_outline_with_parts_is_drawn_once(draft, tmp_path, own_cache):
     corners = [(52.5010, 13.4010), (52.5010, 13.4013), (52.5012, 13.4013), (52.5012, 13.4010)]
     ring = [draft.node(*corner) for corner in corners]
     draft.way(2, [*ring, ring[0]], building="yes", height="30")
-    draft.way(3, [*ring, ring[0]], **{"building__part": "yes"}, height="20", min_height="5")
+    draft.way(3, [*ring, ring[0]], building__part="yes", height="20", min_height="5")
     loaded = load(draft.write(tmp_path / "house.osm"))
     assert [(b.height, b.base) for b in loaded.scenery.buildings] == [(20.0, 5.0)]
 
@@ -129,10 +129,7 @@ def test_height_from_levels_and_default(draft, tmp_path, own_cache):
     draft.way(1, [draft.node(52.5, 13.4), draft.node(52.502, 13.4)], highway="residential")
     for i, tags in enumerate(({"building__levels": "4"}, {"height": "12,5 m"}, {"height": "high"})):
         lon = 13.401 + 0.001 * i
-        ring = [
-            draft.node(lat, lon + d)
-            for lat, d in ((52.501, 0), (52.501, 3e-4), (52.5012, 3e-4), (52.5012, 0))
-        ]
+        ring = [draft.node(lat, lon + d) for lat, d in ((52.501, 0), (52.501, 3e-4), (52.5012, 3e-4), (52.5012, 0))]
         draft.way(10 + i, [*ring, ring[0]], building="yes", **tags)
     loaded = load(draft.write(tmp_path / "heights.osm"))
     assert sorted(b.height for b in loaded.scenery.buildings) == [9.0, 12.0, 12.5]

@@ -21,7 +21,9 @@ def test_the_sample_is_what_the_generator_writes():
     assert SAMPLE.read_text(encoding="utf-8") == motorway()
 
 
-@pytest.mark.parametrize(("length", "lanes", "radius", "grade"), [(6000.0, 3, 1000.0, 0.0), (501.5, 1, 900.0, 0.04), (20000.0, 4, 3000.0, 0.06)])
+@pytest.mark.parametrize(
+    ("length", "lanes", "radius", "grade"), [(6000.0, 3, 1000.0, 0.0), (501.5, 1, 900.0, 0.04), (20000.0, 4, 3000.0, 0.06)]
+)
 def test_elements_join_in_place_heading_curvature_and_height(length, lanes, radius, grade):
     (road,) = document(motorway(length=length, lanes=lanes, radius=radius, grade=grade).encode()).roads.values()
     line = road.line
@@ -64,7 +66,13 @@ def test_three_lanes_each_way(own_cache):
 
 @pytest.mark.parametrize(
     ("given", "says"),
-    [({"length": 10.0}, "length"), ({"lanes": 0}, "lanes"), ({"radius": 200.0}, "900 to"), ({"grade": 0.5}, "grade"), ({"length": float("nan")}, "length")],
+    [
+        ({"length": 10.0}, "length"),
+        ({"lanes": 0}, "lanes"),
+        ({"radius": 200.0}, "900 to"),
+        ({"grade": 0.5}, "grade"),
+        ({"length": float("nan")}, "length"),
+    ],
 )
 def test_what_nobody_would_build_is_refused(given, says):
     with pytest.raises(MapError, match=says):

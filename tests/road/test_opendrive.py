@@ -1,6 +1,7 @@
 """OpenDRIVE: every lane lies where the document says, lanes join as it says, and what cannot be used is told or refused."""
 
 import gzip
+import itertools
 import json
 import subprocess
 import sys
@@ -21,6 +22,7 @@ from studio.road.formats.xodr import Header, read_header
 from studio.road.library import place
 from studio.road.ways.path import PATH_CURVATURE, path
 from studio.road.ways.route import all_routes, connect
+from tests.patience import PATIENCE
 
 FILES = sorted((Path(__file__).parents[1] / "reference" / "opendrive").glob("*.xodr"))
 FOLDER = FILES[0].parent
@@ -39,7 +41,10 @@ def cache(tmp_path_factory):
 def lanes(*kinds, width=3.5, side="right", inner=""):
     """Lanes of one side, from the middle outwards."""
     sign = 1 if side == "left" else -1
-    text = "".join(f'<lane id="{sign * (i + 1)}" type="{kind}">{inner}<width sOffset="0" a="{width}" b="0" c="0" d="0"/></lane>' for i, kind in enumerate(kinds))
+    text = "".join(
+        f'<lane id="{sign * (i + 1)}" type="{kind}">{inner}<width sOffset="0" a="{width}" b="0" c="0" d="0"/></lane>'
+        for i, kind in enumerate(kinds)
+    )
     return f"<{side}>{text}</{side}>"
 
 
@@ -52,8 +57,7 @@ def road(number="1", *, length=200.0, plan=LINE, sections=None, extra="", link="
     sections = sections or f'<laneSection s="0">{lanes("driving")}</laneSection>'
     more = "".join(f' {key}="{value}"' for key, value in ({"junction": "-1"} | attributes).items())
     return (
-        f'<road id="{number}" length="{length}"{more}><link>{link}</link>{extra}<planView>{plan}</planView>'
-        f"<lanes>{sections}</lanes></road>"
+        f'<road id="{number}" length="{length}"{more}><link>{link}</link>{extra}<planView>{plan}</planView><lanes>{sections}</lanes></road>'
     )
 
 
@@ -87,10 +91,10 @@ def test_spiral_is_fresnels(k_0, k_1):
 
 def test_arc_and_line_are_circle_and_line():
     s = np.linspace(0.0, 300.0, 7)
-    x, y, heading = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.02, 0.02).at(s)
+    x, y, _ = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.02, 0.02).at(s)
     assert np.abs(x - (5.0 + (np.sin(0.3 + s / 50) - np.sin(0.3)) * 50)).max() < 1e-10
     assert np.abs(y - (-2.0 - (np.cos(0.3 + s / 50) - np.cos(0.3)) * 50)).max() < 1e-10
-    x, y, heading = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.0, 0.0).at(s)
+    x, y, _ = Bend(0.0, 5.0, -2.0, 0.3, 300.0, 0.0, 0.0).at(s)
     assert np.abs([x - 5.0 - s * np.cos(0.3), y + 2.0 - s * np.sin(0.3)]).max() < 1e-10
 
 
@@ -196,7 +200,7 @@ def test_connections_join_what_they_name(file):
     network = load(file)
     for each in network.connections:
         chain = [network.lanes[lane] for lane in (each.from_lane, *each.via, each.to_lane)]
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             assert np.hypot(*(a.centre[:, -1] - b.centre[:, 0])) < 0.05
             t, d = a.centre[:, -1] - a.centre[:, -2], b.centre[:, 1] - b.centre[:, 0]
             assert t @ d > 0.98 * np.hypot(*t) * np.hypot(*d)
@@ -211,7 +215,7 @@ def test_kerb_lanes_come_first_and_traffic_keeps_its_side(file):
         inner = [network.lanes[lane] for lane in one.lanes]
         back = network.roads.get(one.id.removeprefix("-") if one.id.startswith("-") else "-" + one.id)
         order = [*inner, network.lanes[back.lanes[-1]]] if back and not one.internal and "#" not in one.id else inner
-        for a, b in zip(order, order[1:], strict=False):
+        for a, b in itertools.pairwise(order):
             (t_x, t_y), middle = a.centre[:, 1] - a.centre[:, 0], b.centre[:, 0] if a.road == b.road else b.centre[:, -1]
             d_x, d_y = middle - a.centre[:, 0]
             assert (t_x * d_y - t_y * d_x) * network.middle > 0.0
@@ -268,7 +272,12 @@ BOTH = f'<laneSection s="0">{lanes("driving", "driving", side="left")}{lanes("dr
 )  # fmt: skip
 def test_a_light_in_the_middle_of_a_road(tmp_path, rule, orientation, validity, stopped):
     """It stops the lanes that it is valid for, where it stands; the road goes on behind it."""
-    network = load(written(tmp_path, road(sections=BOTH, rule=rule, extra="").replace("</planView>", "</planView>" + LIGHT.format("7", 80, orientation, validity))))
+    network = load(
+        written(
+            tmp_path,
+            road(sections=BOTH, rule=rule, extra="").replace("</planView>", "</planView>" + LIGHT.format("7", 80, orientation, validity)),
+        )
+    )
     ends = [network.lanes[lane] for lane in network.signals.link_lane]
     assert {(lane.road.split("#")[0], round(lane.length, 6)) for lane in ends} == stopped
     assert len(ends) == (1 if validity else 2 * len(stopped))
@@ -279,19 +288,22 @@ def crossing(*, lights="", reference=""):
     """A road that ends at a junction, where two others lead on, straight and to the left."""
     link = '<successor elementType="junction" elementId="J"/>'
     behind = '<predecessor elementType="junction" elementId="J"/>'
-    ways = '<predecessor elementType="road" elementId="in" contactPoint="end"/><successor elementType="road" elementId="{}" contactPoint="start"/>'
+    before = '<predecessor elementType="road" elementId="in" contactPoint="end"/>'
+    ways = before + '<successor elementType="road" elementId="{}" contactPoint="start"/>'
     joined = f'<laneSection s="0">{lanes("driving", inner=LINKED.format(-1))}</laneSection>'
     geometry = '<geometry s="0" x="{}" y="{}" hdg="{}" length="{}">{}</geometry>'
+    straight = geometry.format(200, 0, 0, 20, "<line/>")
+    bend = geometry.format(200, 0, 0, 10 * np.pi, '<arc curvature="0.05"/>')
+    lane = '<laneLink from="-1" to="-1"/>'
+    connection = f'<connection id="{{k}}" incomingRoad="in" connectingRoad="w{{k}}" contactPoint="start">{lane}</connection>'
     return (
         road("in", link=link, extra=lights),
         road("ahead", plan=geometry.format(220, 0, 0, 100, "<line/>"), length=100, link=behind),
         road("left", plan=geometry.format(220, 20, np.pi / 2, 100, "<line/>"), length=100, link=behind),
-        road("w1", plan=geometry.format(200, 0, 0, 20, "<line/>"), length=20, link=ways.format("ahead"), sections=joined, junction="J", extra=reference),
-        road("w2", plan=geometry.format(200, 0, 0, 10 * np.pi, '<arc curvature="0.05"/>'), length=10 * np.pi, link=ways.format("left"), sections=joined, junction="J"),
-        '<junction id="J">' + "".join(
-            f'<connection id="{k}" incomingRoad="in" connectingRoad="w{k}" contactPoint="start"><laneLink from="-1" to="-1"/></connection>' for k in (1, 2)
-        ) + "</junction>",
-    )  # fmt: skip
+        road("w1", plan=straight, length=20, link=ways.format("ahead"), sections=joined, junction="J", extra=reference),
+        road("w2", plan=bend, length=10 * np.pi, link=ways.format("left"), sections=joined, junction="J"),
+        f'<junction id="J">{connection.format(k=1)}{connection.format(k=2)}</junction>',
+    )
 
 
 def test_a_junction_joins_and_names_its_directions(tmp_path):
@@ -305,8 +317,12 @@ def test_a_junction_joins_and_names_its_directions(tmp_path):
 def test_lights_within_a_junction_stop_before_it(tmp_path):
     """A light on a connecting road, and one that another road refers to: the stop line is at the end of the road that leads there."""
     inside = written(tmp_path, *crossing(reference=LIGHT.format("7", 10, "+", "")), name="inside.xodr")
-    referred = LIGHT.format("7", 190, "+", "") + '<signals/>'
-    twice = written(tmp_path, *crossing(lights=referred, reference='<signals><signalReference id="7" s="1" orientation="+"/></signals>'), name="twice.xodr")
+    referred = LIGHT.format("7", 190, "+", "") + "<signals/>"
+    twice = written(
+        tmp_path,
+        *crossing(lights=referred, reference='<signals><signalReference id="7" s="1" orientation="+"/></signals>'),
+        name="twice.xodr",
+    )
     for file in (inside, twice):
         network = load(file)
         (lane,) = network.signals.link_lane
@@ -330,7 +346,13 @@ def test_signals_that_are_no_lights_are_told(tmp_path):
 
 @pytest.mark.parametrize(
     ("speed", "limit"),
-    [('max="50" unit="km/h"', 50.0), ('max="30" unit="mph"', 48.28032), ('max="25"', 90.0), ('max="25" unit="m/s"', 90.0), ('max="no limit"', 130.0)],
+    [
+        ('max="50" unit="km/h"', 50.0),
+        ('max="30" unit="mph"', 48.28032),
+        ('max="25"', 90.0),
+        ('max="25" unit="m/s"', 90.0),
+        ('max="no limit"', 130.0),
+    ],
 )
 def test_units_of_speed(tmp_path, speed, limit):
     network = load(written(tmp_path, road(extra=f'<type s="0" type="rural"><speed {speed}/></type>')))
@@ -340,9 +362,15 @@ def test_units_of_speed(tmp_path, speed, limit):
 
 @pytest.mark.parametrize(
     ("kind", "limit", "sure"),
-    [('type="motorway" country="DE"', 130.0, "medium"), ('type="rural" country="GBR"', 96.56064, "medium"), ('type="town" country="us"', 56.32704, "medium"),
-     ('type="rural"', 90.0, "low"), ('type="rural" country="OpenDRIVE"', 90.0, "low"), ('type="lowSpeed" country="AUT"', 10.0, "medium")],
-)  # fmt: skip
+    [
+        ('type="motorway" country="DE"', 130.0, "medium"),
+        ('type="rural" country="GBR"', 96.56064, "medium"),
+        ('type="town" country="us"', 56.32704, "medium"),
+        ('type="rural"', 90.0, "low"),
+        ('type="rural" country="OpenDRIVE"', 90.0, "low"),
+        ('type="lowSpeed" country="AUT"', 10.0, "medium"),
+    ],
+)
 def test_no_limit_given_is_a_guess_by_kind_and_country(tmp_path, kind, limit, sure):
     for number, inner in enumerate(("", '<speed max="undefined"/>')):
         network = load(written(tmp_path, road(extra=f'<type s="0" {kind}>{inner}</type>'), name=f"{number}.xodr"))
@@ -355,9 +383,14 @@ def test_limits_change_along_a_road_and_lanes_have_their_own(tmp_path):
     """80 km/h, 60 from 120 m on; the outer lane has 40 km/h of its own up to 50 m, where it gets that of the road."""
     kinds = "".join(f'<type s="{s}" type="rural"><speed max="{v}" unit="km/h"/></type>' for s, v in ((0, 80), (120, 60)))
     own = '<speed sOffset="0" max="40" unit="km/h"/><speed sOffset="50" max="undefined"/>'
-    section = f'<laneSection s="0">{lanes("driving", "driving")}</laneSection>'.replace('id="-2" type="driving">', 'id="-2" type="driving">' + own)
+    section = f'<laneSection s="0">{lanes("driving", "driving")}</laneSection>'.replace(
+        'id="-2" type="driving">', 'id="-2" type="driving">' + own
+    )
     network = load(written(tmp_path, road(extra=kinds, sections=section)))
-    found = {name: [(round(network.lanes[lane].speed * 3.6), round(network.lanes[lane].length)) for lane in one.lanes] for name, one in network.roads.items()}
+    found = {
+        name: [(round(network.lanes[lane].speed * 3.6), round(network.lanes[lane].length)) for lane in one.lanes]
+        for name, one in network.roads.items()
+    }
     assert found == {"1": [(40, 50), (80, 50)], "1#1": [(80, 70), (80, 70)], "1#2": [(60, 80), (60, 80)]}
     assert len(network.connections) == 4 and all(c.via == () for c in network.connections)
 
@@ -368,13 +401,18 @@ def test_limits_change_along_a_road_and_lanes_have_their_own(tmp_path):
 def test_borders_offsets_and_unused_lanes_place_the_lanes(tmp_path):
     """Lanes by their borders beside a lane offset: the centre of the outer one is 1 - 2 - 4.5 = -5 m from the reference line."""
     section = (
-        '<laneOffset s="0" a="1" b="0" c="0" d="0"/><laneSection s="0"><right><lane id="-1" type="median"><border sOffset="0" a="-2" b="0" c="0" d="0"/></lane>'
-        '<lane id="-2" type="driving"><border sOffset="0" a="-6" b="0" c="0" d="0"/><border sOffset="100" a="-6" b="-0.01" c="0" d="0"/></lane></right></laneSection>'
+        '<laneOffset s="0" a="1" b="0" c="0" d="0"/><laneSection s="0"><right>'
+        '<lane id="-1" type="median"><border sOffset="0" a="-2" b="0" c="0" d="0"/></lane>'
+        '<lane id="-2" type="driving"><border sOffset="0" a="-6" b="0" c="0" d="0"/>'
+        '<border sOffset="100" a="-6" b="-0.01" c="0" d="0"/></lane>'
+        "</right></laneSection>"
     )
     network = load(written(tmp_path, road(sections=section)))
     (lane,) = network.lanes
     y = lane.centre[1] + network.datum[1]
-    assert y[0] == pytest.approx(1.0 - 4.0) and y[-1] == pytest.approx(1.0 - (2.0 + 7.0) / 2.0) and lane.width == pytest.approx(4.0, abs=0.1)
+    assert (
+        y[0] == pytest.approx(1.0 - 4.0) and y[-1] == pytest.approx(1.0 - (2.0 + 7.0) / 2.0) and lane.width == pytest.approx(4.0, abs=0.1)
+    )
     (guess,) = [each for each in network.report.guesses if each.kind == "lane width"]
     assert guess.source == "4.00 to 5.00 m wide"
 
@@ -382,9 +420,14 @@ def test_borders_offsets_and_unused_lanes_place_the_lanes(tmp_path):
 def test_a_lane_opens_and_sections_join(tmp_path):
     """One lane, then two: the inner one goes on, the new one is reached by a lane change; where nothing changes the road is one."""
     one = f'<laneSection s="{{}}">{lanes("driving", inner=LINKED.format(-1))}</laneSection>'
-    two = f'<laneSection s="100">{lanes("driving", "driving")}</laneSection>'.replace('<lane id="-1" type="driving">', '<lane id="-1" type="driving">' + LINKED.format(-1))
+    two = f'<laneSection s="100">{lanes("driving", "driving")}</laneSection>'.replace(
+        '<lane id="-1" type="driving">', '<lane id="-1" type="driving">' + LINKED.format(-1)
+    )
     network = load(written(tmp_path, road(sections=one.format(0) + one.format(50) + two)))
-    assert {name: [round(network.lanes[lane].length) for lane in each.lanes] for name, each in network.roads.items()} == {"1": [100], "1#2": [100, 100]}
+    assert {name: [round(network.lanes[lane].length) for lane in each.lanes] for name, each in network.roads.items()} == {
+        "1": [100],
+        "1#2": [100, 100],
+    }
     (connection,) = network.connections
     assert network.lanes[connection.from_lane].road == "1" and network.lanes[connection.to_lane].index == 1
     way = connect(network, ["1", "1#2"])
@@ -394,18 +437,26 @@ def test_a_lane_opens_and_sections_join(tmp_path):
 def test_links_between_roads_follow_their_contact(tmp_path):
     """Two roads end to end, the second one drawn backwards: its left lane goes on where the first one's right lane ends."""
     there = '<link><successor id="{}"/></link>'
-    first = f'<laneSection s="0">{lanes("driving", side="left", inner=there.format(-1))}{lanes("driving", inner=there.format(1))}</laneSection>'
+    first = (
+        f'<laneSection s="0">{lanes("driving", side="left", inner=there.format(-1))}{lanes("driving", inner=there.format(1))}</laneSection>'
+    )
     plan = f'<geometry s="0" x="400" y="0" hdg="{np.pi}" length="200"><line/></geometry>'
-    second = f'<laneSection s="0">{lanes("driving", side="left", inner=there.format(-1))}{lanes("driving", inner=there.format(1))}</laneSection>'
+    second = (
+        f'<laneSection s="0">{lanes("driving", side="left", inner=there.format(-1))}{lanes("driving", inner=there.format(1))}</laneSection>'
+    )
     link = '<successor elementType="road" elementId="{}" contactPoint="end"/>'
-    network = load(written(tmp_path, road("a", sections=first, link=link.format("b")), road("b", sections=second, plan=plan, link=link.format("a"))))
+    network = load(
+        written(tmp_path, road("a", sections=first, link=link.format("b")), road("b", sections=second, plan=plan, link=link.format("a")))
+    )
     found = {(network.lanes[c.from_lane].road, network.lanes[c.to_lane].road) for c in network.connections}
     assert found == {("a", "-b"), ("b", "-a")}
 
 
 def test_bus_lanes_are_closed_and_narrow_lanes_left_out(tmp_path):
     access = '<access sOffset="0" rule="deny" restriction="passengerCar"/>'
-    section = f'<laneSection s="0">{lanes("driving", "driving", "bus", "biking")}</laneSection>'.replace('id="-2" type="driving">', 'id="-2" type="driving">' + access)
+    section = f'<laneSection s="0">{lanes("driving", "driving", "bus", "biking")}</laneSection>'.replace(
+        'id="-2" type="driving">', 'id="-2" type="driving">' + access
+    )
     network = load(written(tmp_path, road(sections=section)))
     assert [lane.open for lane in network.lanes] == [False, False, True]
     assert [each.what for each in network.report.skipped] == ["1 of type biking"]
@@ -422,12 +473,21 @@ def test_left_and_right_are_mirrored(tmp_path):
 
 def test_what_is_not_built_is_told_with_its_place(tmp_path):
     extra = (
-        '<lateralProfile><superelevation s="20" a="0.05" b="0" c="0" d="0"/><superelevation s="0" a="0" b="0" c="0" d="0"/></lateralProfile>'
-        '<objects><object id="5" type="tree" s="60" t="9"/><bridge id="6" s="70" length="9"/></objects><surface><CRG file="rough.crg" sStart="1" sEnd="2"/></surface>'
+        '<lateralProfile><superelevation s="20" a="0.05" b="0" c="0" d="0"/>'
+        '<superelevation s="0" a="0" b="0" c="0" d="0"/></lateralProfile>'
+        '<objects><object id="5" type="tree" s="60" t="9"/><bridge id="6" s="70" length="9"/></objects>'
+        '<surface><CRG file="rough.crg" sStart="1" sEnd="2"/></surface>'
     )
-    network = load(written(tmp_path, road(extra=extra), head='<header><geoReference><![CDATA[+proj=tmerc +lat_0=52 +lon_0=13 +k=1 +x_0=0 +y_0=0 +ellps=WGS84]]></geoReference></header>'))
+    place = "+proj=tmerc +lat_0=52 +lon_0=13 +k=1 +x_0=0 +y_0=0 +ellps=WGS84"
+    head = f"<header><geoReference><![CDATA[{place}]]></geoReference></header>"
+    network = load(written(tmp_path, road(extra=extra), head=head))
     found = {(each.kind, each.where) for each in network.report.skipped}
-    assert found == {("superelevation", "road 1, s = 20.0 m"), ("object", "road 1, s = 60.0 m"), ("bridge", "road 1, s = 70.0 m"), ("surface", "road 1, s = 1.0 m")}
+    assert found == {
+        ("superelevation", "road 1, s = 20.0 m"),
+        ("object", "road 1, s = 60.0 m"),
+        ("bridge", "road 1, s = 70.0 m"),
+        ("surface", "road 1, s = 1.0 m"),
+    }
     tree = next(each for each in network.report.skipped if each.kind == "object")
     assert tree.latitude == pytest.approx(52.0, abs=1e-6) and tree.longitude == pytest.approx(13.0 + 60.0 / 68_678.0, abs=1e-6)
 
@@ -437,7 +497,7 @@ def test_what_is_not_built_is_told_with_its_place(tmp_path):
 
 def test_the_origin_is_the_georeferences(tmp_path):
     """UTM zone 33 with its false easting; the middle of the road is (0, 0), and says where it lies in the document's plane."""
-    head = '<header><geoReference>+proj=utm +zone=33 +datum=WGS84 +units=m +no_defs</geoReference></header>'
+    head = "<header><geoReference>+proj=utm +zone=33 +datum=WGS84 +units=m +no_defs</geoReference></header>"
     far = LINE.replace('x="0" y="0"', 'x="391677" y="5819566"')
     network = load(written(tmp_path, road(plan=far), head=head))
     assert network.origin == pytest.approx((52.5145, 13.4060), abs=0.002) and network.datum == (391777.0, 5819566.0)
@@ -465,7 +525,7 @@ def test_attribution_is_the_headers():
 
 
 def studio(*arguments):
-    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -525,8 +585,10 @@ WRONG = {
                  "junction 5, <connection> 0: incomingRoad"),
     "contact": (road("7", link='<successor elementType="road" elementId="8"/>'), "road 7: <successor>"),
     "late section": (road("7", sections=f'<laneSection s="900">{lanes("driving")}</laneSection>'), "road 7: its first <laneSection>"),
-    "vast width": (road("7", sections=f'<laneSection s="0">{lanes("driving")}</laneSection>').replace('d="0"', 'd="9"'), "road 7: <lane> -1 of the <laneSection>"),
-    "stretched": (road("7", plan=LINE.replace("<line/>", '<paramPoly3 aU="0" bU="9000" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>')), "far longer"),
+    "vast width": (road("7", sections=f'<laneSection s="0">{lanes("driving")}</laneSection>').replace('d="0"', 'd="9"'),
+                   "road 7: <lane> -1 of the <laneSection>"),
+    "stretched": (road("7", plan=LINE.replace("<line/>", '<paramPoly3 aU="0" bU="9000" cU="0" dU="0" aV="0" bV="0" cV="0" dV="0"/>')),
+                  "far longer"),
     "sky": (road("7", extra='<elevationProfile><elevation s="0" a="0" b="400" c="0" d="0"/></elevationProfile>'), "road 7: <elevation>"),
     "far apart": (road("7") + road("8", plan=LINE.replace('x="0"', 'x="9e5"')), "km wide"),
 }  # fmt: skip

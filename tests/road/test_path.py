@@ -1,5 +1,7 @@
 """Paths are evenly spaced, smooth, on their lanes, and slow enough for their bends."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -44,9 +46,7 @@ def test_heading_is_continuous_and_points_ahead(paths):
 
 def test_curvature_is_the_change_of_heading(paths):
     for one in paths:
-        turned = np.concatenate(
-            [[0.0], np.cumsum((one.points[PATH_CURVATURE][1:] + one.points[PATH_CURVATURE][:-1]) / 2)]
-        )
+        turned = np.concatenate([[0.0], np.cumsum((one.points[PATH_CURVATURE][1:] + one.points[PATH_CURVATURE][:-1]) / 2)])
         assert np.abs(one.points[PATH_HEADING] - one.points[PATH_HEADING][0] - turned).max() < 0.05
 
 
@@ -71,9 +71,7 @@ def test_paths_stay_on_their_lanes(place, routes, paths):
         lanes = [place.lanes[lane] for lane in route.lanes]
         all_lines = np.array([nearest_of(one.points[:2], [lane]) for lane in lanes])
         closest = all_lines.min(axis=0)
-        changed = {
-            a.road for a, b in zip(lanes, lanes[1:], strict=False) if a.road == b.road and not a.internal
-        }
+        changed = {a.road for a, b in itertools.pairwise(lanes) if a.road == b.road and not a.internal}
         plain = np.array([lane.road not in changed for lane in lanes])
         alone = all_lines[plain].min(axis=0) == closest
         assert closest[alone].max() < CORRIDOR + 0.02
@@ -164,9 +162,7 @@ def test_smoothing_leaves_straight_lines_and_keeps_the_corridor():
         smooth = curve.smoothed(kink, spacing=0.25, wavelength=24.0, corridor=np.full(len(x), corridor))
         assert np.hypot(*(smooth - kink)).max() <= corridor
     line = np.array([x, 0.5 * x])
-    assert curve.smoothed(
-        line, spacing=0.28, wavelength=24.0, corridor=np.full(len(x), 0.3)
-    ) == pytest.approx(line)
+    assert curve.smoothed(line, spacing=0.28, wavelength=24.0, corridor=np.full(len(x), 0.3)) == pytest.approx(line)
 
 
 # -- on the path -----------------------------------------------------------------------------------
@@ -186,9 +182,7 @@ def test_projection_finds_station_and_offset(bend_points, s, lateral, error, fir
 def bend_points():
     s = np.arange(0.0, 231.0)
     angle = np.clip((s - 100.0) / 60.0, 0.0, np.pi / 3)
-    x = np.where(s < 100, s, 100.0 + 60.0 * np.sin(angle)) + np.maximum(0.0, s - 100 - 20 * np.pi) * np.cos(
-        np.pi / 3
-    )
+    x = np.where(s < 100, s, 100.0 + 60.0 * np.sin(angle)) + np.maximum(0.0, s - 100 - 20 * np.pi) * np.cos(np.pi / 3)
     y = 60.0 * (1.0 - np.cos(angle)) + np.maximum(0.0, s - 100 - 20 * np.pi) * np.sin(np.pi / 3)
     return np.array([x, y, angle, np.where(angle > 0, 1 / 60, 0.0), np.full(len(s), 10.0)])
 

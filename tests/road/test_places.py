@@ -107,8 +107,8 @@ def test_dashes_lie_between_the_lanes_of_a_road(here, name):
         lanes = here.lanes_of(road.id)
         if len(lanes) > 1 and not road.internal:
             lines = [shapely.LineString(lane.centre.T) for lane in lanes]
-            for dash in road_lines(here, road.id):
-                between.append(sum(line.distance(dash.centroid) < 0.65 * lanes[0].width for line in lines) == 2)
+            dashes = [dash.centroid for dash in road_lines(here, road.id)]
+            between += [sum(line.distance(dash) < 0.65 * lanes[0].width for line in lines) == 2 for dash in dashes]
     assert len(between) > 10 or name == "perth_peanut_roundabout_lht"  # it has short second lanes only
     assert np.mean(between or [True]) > 0.97
 
@@ -190,10 +190,6 @@ def test_buildings_are_counted_as_they_are_mapped(places):
     perth, triangle = places["perth_peanut_roundabout_lht"].report.buildings, places["seattle_triangle_small"].report.buildings
     assert perth.placed == perth.height_mapped + perth.height_guessed == 20
     assert triangle.height_mapped >= 14 and triangle.height_guessed == 2
-
-
-def test_imports_are_quick(here):
-    assert here.report.seconds < 15.0
 
 
 FINGERPRINT = """

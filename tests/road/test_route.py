@@ -10,9 +10,7 @@ from studio.road.ways.route import arms, connect
 
 def test_every_step_is_a_connection_or_a_lane_change(place, routes):
     follows = {
-        pair
-        for connection in place.connections
-        for pair in itertools.pairwise((connection.from_lane, *connection.via, connection.to_lane))
+        pair for connection in place.connections for pair in itertools.pairwise((connection.from_lane, *connection.via, connection.to_lane))
     }
     for route in routes:
         for a, b in itertools.pairwise(route.lanes):

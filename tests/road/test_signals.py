@@ -37,9 +37,7 @@ def test_states_follow_in_order(shown):
 
 def test_durations(place, shown):
     seconds = {state: (shown == state).sum(axis=1) * STEP / 2.0 for state in (RED, RED_AMBER, GREEN, AMBER)}
-    assert seconds[RED_AMBER] == pytest.approx(1.0, abs=STEP) and seconds[AMBER] == pytest.approx(
-        3.0, abs=STEP
-    )
+    assert seconds[RED_AMBER] == pytest.approx(1.0, abs=STEP) and seconds[AMBER] == pytest.approx(3.0, abs=STEP)
     crossing = ~np.isin(np.arange(len(place.signals)), place.signals.conflicts)
     assert crossing.any() and seconds[GREEN].min() >= 10.0
     alone = seconds[RED][crossing]
@@ -64,9 +62,7 @@ def test_ring_and_entries_alternate(place, shown):
     assert len(pairs) == 5
     for found in pairs:
         assert set(found) == {True, False}
-        assert (shown[found[True]] == GREEN).mean() == pytest.approx(
-            (shown[found[False]] == GREEN).mean(), abs=0.02
-        )
+        assert (shown[found[True]] == GREEN).mean() == pytest.approx((shown[found[False]] == GREEN).mean(), abs=0.02)
 
 
 def test_stop_lines_stand_across_their_lanes(place):

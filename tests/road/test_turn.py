@@ -109,7 +109,9 @@ def test_wrong_connections_are_mended_and_stay_smooth(net):
         chain = [mended.lanes[i].centre for i in (each.from_lane, *each.via, each.to_lane)]
         for before, after in itertools.pairwise(chain):
             assert before[:, -1] == pytest.approx(after[:, 0], abs=1e-9)
-            assert bend.angle(before[:, -1] - before[:, -2], after[:, 1] - after[:, 0]) < np.radians(8.0)  # a quarter circle in a dozen pieces
+            assert bend.angle(before[:, -1] - before[:, -2], after[:, 1] - after[:, 0]) < np.radians(
+                8.0
+            )  # a quarter circle in a dozen pieces
 
 
 def test_numbers_of_lanes_that_differ_are_told(draft, tmp_path, own_cache):

@@ -61,7 +61,10 @@ def test_what_is_no_assignment(text):
 
 
 def test_fields_that_depend_on_each_other_change_together(sample):
-    assert job.load(sample, {"clock.step": 0.003, "clock.tick": 0.03, "recording.period": 0.03, "radio.period": 0.09}).scenario.clock.tick == 0.03
+    assert (
+        job.load(sample, {"clock.step": 0.003, "clock.tick": 0.03, "recording.period": 0.03, "radio.period": 0.09}).scenario.clock.tick
+        == 0.03
+    )
     changed = job.load(sample, {"vehicles.leader.position.along": None, "vehicles.leader.position.road": "340498991"})
     assert changed.scenario.vehicles["leader"].position.road == "340498991"
     fewer = job.load(sample, {"applications.platoon.vehicles": ["follower_1"], "applications.platoon.listens_to": ["leader"]})

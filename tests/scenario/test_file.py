@@ -44,7 +44,7 @@ def test_the_sample_is_valid_and_complete(document):
         ("applications.platoon.parameters", {"hedway": 1}, ["parameters.hedway", "did you mean 'headway'"]),
         ("applications.platoon.listens_to", ["leader"], ["4 vehicles but 1"]),
         ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
-        ("version", 2, ["version", "2"]),
+        ("version", 1, ["version", "1"]),
         ("vehicles.leader.sped", 2, ["vehicles.leader.sped", "did you mean 'speed'"]),
     ],
 )
@@ -129,7 +129,7 @@ def test_two_applications_on_one_car(document, folder):
 
 def test_a_period_that_is_no_whole_number_of_ticks(document, folder):
     document["radio"] = {"period": 0.03}
-    with pytest.raises(ScenarioError, match="radio.period"):
+    with pytest.raises(ScenarioError, match=r"radio\.period"):
         prepared(document, folder)
 
 
@@ -170,13 +170,13 @@ def test_a_missing_map(document, folder):
 def test_a_map_that_is_none(document, tmp_path):
     (tmp_path / "place.osm").write_text("hello")
     document["map"]["file"] = "place.osm"
-    with pytest.raises(MapError, match="place.osm"):
+    with pytest.raises(MapError, match=r"place\.osm"):
         prepared(document, tmp_path)
 
 
 def test_too_much_traffic(document, folder):
     document["traffic"] = {"count": 500, "spacing": 150}
-    with pytest.raises(ScenarioError, match="traffic.count"):
+    with pytest.raises(ScenarioError, match=r"traffic\.count"):
         prepared(document, folder)
 
 
@@ -189,7 +189,7 @@ def test_too_much_traffic(document, folder):
         (b"\xff\xfe\x00", "UTF-8"),
         (b"title: a\ntitle: b\n", "twice"),
         (b"a: !!python/object/apply:os.system ['true']\n", "line 1"),
-        (b"[" * 5000, "not YAML"),
+        (b"[" * 5000, "line 1, column 66: is nested too deep"),
     ],
 )
 def test_files_that_are_no_scenario(tmp_path, content, words):
@@ -200,5 +200,5 @@ def test_files_that_are_no_scenario(tmp_path, content, words):
 
 
 def test_a_missing_file_names_its_neighbour(sample):
-    with pytest.raises(ScenarioError, match="did you mean 'grosser_stern_platoon.yaml'"):
+    with pytest.raises(ScenarioError, match=r"did you mean 'grosser_stern_platoon\.yaml'"):
         file.read(sample.with_name("grosser_stern_platon.yaml"))

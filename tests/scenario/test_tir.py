@@ -101,9 +101,7 @@ def test_sections(read, whole):
     assert sections["UNITS"]["LENGTH"] == "meter"
 
 
-@pytest.mark.parametrize(
-    "name", ["MagicFormula52_Parameters", "Sedan_Pac02Tire", "UAZBUS_Pac02Tire", "mf_185_80R14"]
-)
+@pytest.mark.parametrize("name", ["MagicFormula52_Parameters", "Sedan_Pac02Tire", "UAZBUS_Pac02Tire", "mf_185_80R14"])
 def test_files_of_others(name, root):
     assert len(tir.coefficients(tir.read(root / "tests" / "reference" / f"{name}.tir"))) == len(Tyre._fields)
 
@@ -159,9 +157,7 @@ def test_the_same_value_twice(read, whole):
     assert read(added(whole, "LATERAL_COEFFICIENTS", "PCY1 = 1.32230")).values["PCY1"] == 1.3223
 
 
-@pytest.mark.parametrize(
-    ("text", "side"), [("'RIGHT'", "right"), ("'Left'", "left"), ("SYMMETRIC", "symmetric")]
-)
+@pytest.mark.parametrize(("text", "side"), [("'RIGHT'", "right"), ("'Left'", "left"), ("SYMMETRIC", "symmetric")])
 def test_side(text, side, read, whole):
     assert read(changed(whole, "TYRESIDE", text)).side == side
 
@@ -290,9 +286,7 @@ def test_a_part_of_a_group(refused, whole):
 
 def test_numbers_that_are_wanted_but_not_there(read, whole):
     with pytest.raises(ScenarioError) as caught:
-        tir.coefficients(
-            read(without(whole, "VERTICAL_STIFFNESS")), ("VERTICAL_STIFFNESS", "VERTICAL_DAMPING", "SPEED")
-        )
+        tir.coefficients(read(without(whole, "VERTICAL_STIFFNESS")), ("VERTICAL_STIFFNESS", "VERTICAL_DAMPING", "SPEED"))
     assert [str(each) for each in caught.value.problems] == [
         "some.tir, [VERTICAL]: VERTICAL_STIFFNESS is missing; add it",
         "some.tir, [any section]: SPEED is missing; add it",
@@ -358,9 +352,7 @@ def test_other_models(family, refused, whole):
 
 @pytest.mark.parametrize("version", ["60", "61", "62"])
 def test_version_6(version, refused, whole):
-    (problem,) = refused(
-        changed(added(whole, "MODEL", f"FITTYP = {version}"), "PROPERTY_FILE_FORMAT", "'MF-TYRE'")
-    )
+    (problem,) = refused(changed(added(whole, "MODEL", f"FITTYP = {version}"), "PROPERTY_FILE_FORMAT", "'MF-TYRE'"))
     assert "MF-Tyre 6.x" in problem.what and "inflation pressure" in problem.what
     assert "5.2" in problem.remedy
 

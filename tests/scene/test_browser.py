@@ -1,6 +1,5 @@
 """The scene in a real browser: a picture, motion in it, following, views, theme, and words to the page."""
 
-import asyncio
 import io
 import shutil
 import threading
@@ -9,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Frame, Page, sync_playwright
 
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.projection import Scene
+from tests.patience import PATIENCE_MS, until
 from tests.server.stage import served
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -34,18 +34,21 @@ LOOKS = [Look("leader", "#c2281d"), Look("follower_1", "#1f5fa8"), Look("traffic
 
 
 class Drive(threading.Thread):
-    """Vehicles that go up and down the street at 50 Hz, in a slight bend so that they turn as well."""
+    """Vehicles that go up the street at 50 Hz as far as they are told, in a slight bend so that they turn as well."""
 
     def __init__(self, scene: Scene) -> None:
         super().__init__(daemon=True)
-        self.scene, self.going, self.ended = scene, threading.Event(), threading.Event()
-        self.time = 0.0
+        self.scene, self.ended = scene, threading.Event()
+        self.time = self.goal = 0.0
 
     def run(self) -> None:
         while not self.ended.wait(0.02):
-            if self.going.is_set():
-                self.time += 0.02
+            self.time = min(self.time + 0.02, self.goal)
             self.scene.update(self.poses())
+
+    def go(self, seconds: float) -> None:
+        """So much further, in the vehicles' own time."""
+        self.goal = self.time + seconds
 
     def poses(self) -> np.ndarray:
         s = (SPEED * self.time + np.array([120.0, 108.0, 90.0])) % 240.0 - 120.0
@@ -76,40 +79,93 @@ def page(drive):
     if found is None:
         pytest.skip("no browser: install one with `apt install chromium`, or put google-chrome on the PATH")
     with served(lambda: drive.scene.port) as port, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS
-        )
+        browser = playwright.chromium.launch(executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS)
         shown = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
         shown.errors = []
         shown.on("pageerror", lambda error: shown.errors.append(str(error)))
+        shown.set_default_timeout(PATIENCE_MS)
         # the frame posts to its parent; here the page is its own parent, so it stands in a frame of its own
         shown.goto(f"http://127.0.0.1:{port}/scene/?fixedDpr=1")
-        shown.wait_for_function("window.__studioBridge?.poseOf(0) != null", timeout=60_000)
+        shown.wait_for_function("window.__studioBridge?.poseOf(0) != null")
         shown.wait_for_function("window.__viserMutable.nodeRefFromName['/city/buildings'] != null")
         yield shown
         browser.close()
 
 
+# Draws so many frames, and tells whether the camera was in the same place in all of them.
+STILL = """async count => {
+    const { client } = window.__studioBridge;
+    const frame = () => window.__viserTestpoints.rendererInfo.render.frame;
+    const where = () => client().camera.matrixWorld.elements.join() + client().camera.projectionMatrix.elements.join();
+    const places = new Set();
+    for (let i = 0; i < count; i++) {
+        for (const before = frame(); frame() === before; ) {
+            client().requestRender();
+            await new Promise(requestAnimationFrame);
+        }
+        places.add(where());
+    }
+    return places.size === 1;
+}"""
+
+
+def rest(scene: Page | Frame) -> None:
+    """Until everything that was said is drawn, and the camera has come to rest."""
+    until(lambda: scene.evaluate(STILL, 6), "the camera to come to rest")
+
+
+def arrived(page: Page, drive: Drive) -> None:
+    """Until the vehicles stand where they were told to go, also in the picture."""
+    until(lambda: drive.time == drive.goal, "the end of the drive")
+    x, y = drive.poses()[[pose.X, pose.Y], 0]
+    there = "([x, y]) => Math.hypot(__studioBridge.poseOf(0).x - x, __studioBridge.poseOf(0).y - y) < 0.01"
+    page.wait_for_function(there, arg=[float(x), float(y)])
+    rest(page)
+
+
 def picture(page: Page) -> np.ndarray:
-    page.wait_for_timeout(400)
+    rest(page)
     return np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB")).astype(float)
 
 
 def say(page: Page, **message) -> None:
-    page.evaluate("message => window.postMessage(message, location.origin)", message)
+    """Tells the bridge something; it has heard it when this returns, because it listened first."""
+    page.evaluate(
+        """message => new Promise(done => {
+            const hear = ({ data }) => {
+                if (data?.studio !== message.studio) return;
+                window.removeEventListener('message', hear);
+                done();
+            };
+            window.addEventListener('message', hear);
+            window.postMessage(message, location.origin);
+        })""",
+        message,
+    )
 
 
 def seen(page: Page, vehicle: int) -> tuple[float, float]:
-    """Where a vehicle is in the picture, -1..1 from left to right and from bottom to top."""
+    """Where a vehicle is in the next frame that is drawn, -1..1 from left to right and from bottom to top."""
     return tuple(page.evaluate(
-        """vehicle => {
+        """vehicle => new Promise(done => {
             const { poseOf, toThree, client } = window.__studioBridge;
-            const pose = poseOf(vehicle);
-            const at = client().camera.position.clone().set(...toThree([pose.x, pose.y, pose.z + 0.7]));
-            return at.project(client().camera).toArray().slice(0, 2);
-        }""",
+            const { scene, camera } = client();
+            const before = scene.onAfterRender;
+            // between two frames the vehicle is further already, and the camera is not
+            scene.onAfterRender = () => {
+                scene.onAfterRender = before;
+                const { x, y, z } = poseOf(vehicle);
+                done(camera.position.clone().set(...toThree([x, y, z + 0.7])).project(camera).toArray().slice(0, 2));
+            };
+            client().requestRender();
+        })""",
         vehicle,
     ))  # fmt: skip
+
+
+def place(page: Page, vehicle: int) -> np.ndarray:
+    """Where a vehicle is in the street [m]."""
+    return np.array(page.evaluate("vehicle => { const { x, y } = __studioBridge.poseOf(vehicle); return [x, y]; }", vehicle))
 
 
 def test_the_picture_shows_something(page):
@@ -122,13 +178,12 @@ def test_the_picture_shows_something(page):
 
 def test_sky_is_above_and_ground_below(page):
     say(page, studio="view", preset="driver")
-    page.wait_for_timeout(500)
     shown = picture(page)
     sky, ground = shown[: HEIGHT // 8].mean(axis=(0, 1)), shown[-HEIGHT // 3 :].mean(axis=(0, 1))
     assert sky[2] > sky[0] + 15.0
     assert sky[2] > ground[2] + 15.0
     say(page, studio="view", preset="overview")
-    page.wait_for_timeout(800)
+    rest(page)
 
 
 def test_only_the_picture_is_left_of_the_client(page):
@@ -139,66 +194,66 @@ def test_only_the_picture_is_left_of_the_client(page):
 
 
 def test_a_narrow_frame_shows_no_sheet_either(page):
-    page.set_viewport_size({"width": 420, "height": HEIGHT})
-    page.wait_for_timeout(600)
+    narrow(page, 420)
     sheets = page.query_selector_all(".mantine-Paper-root")
     assert all(not sheet.is_visible() for sheet in sheets)
-    page.set_viewport_size({"width": WIDTH, "height": HEIGHT})
-    page.wait_for_timeout(600)
+    narrow(page, WIDTH)
+
+
+def narrow(page: Page, width: int) -> None:
+    """The window so wide, when the picture has followed."""
+    page.set_viewport_size({"width": width, "height": HEIGHT})
+    page.wait_for_function("width => document.querySelector('canvas[data-engine]').clientWidth === width", arg=width)
+    rest(page)
 
 
 def test_the_picture_stands_while_cars_stand_and_changes_when_they_move(page, drive):
     say(page, studio="view", preset="overview")
-    page.wait_for_timeout(800)
     still = np.abs(picture(page) - picture(page)).max()
     assert still < 3.0
     before = picture(page)
-    drive.going.set()
-    page.wait_for_timeout(800)
-    drive.going.clear()
+    drive.go(0.8)
+    arrived(page, drive)
     changed = np.abs(picture(page) - before).max(axis=-1) > 25.0
     # cars are small from up there, and nothing but cars has moved
     assert 20 < changed.sum() < 0.1 * changed.size
 
 
 def test_following_keeps_the_car_in_the_middle_while_it_drives(page, drive):
-    drive.going.set()
     say(page, studio="follow", vehicle=0)
-    page.wait_for_timeout(1500)
-    places = []
-    for _ in range(8):
+    rest(page)
+    start, places = place(page, 0), []
+    drive.go(4.0)
+    while drive.time < drive.goal:
         places.append(seen(page, 0))
-        page.wait_for_timeout(150)
-    drive.going.clear()
-    assert np.abs(places).max() < 0.3
+    arrived(page, drive)
+    places.append(seen(page, 0))
+    assert np.hypot(*(place(page, 0) - start)) > 40.0
+    assert len(places) > 1 and np.abs(places).max() < 0.3
     # from behind: the one ahead is seen further up than the one behind
     say(page, studio="follow", vehicle=1)
-    page.wait_for_timeout(800)
+    rest(page)
     assert seen(page, 0)[1] > seen(page, 1)[1]
     say(page, studio="follow", vehicle=None)
 
 
 def test_the_user_may_turn_and_zoom_while_following(page, drive):
     say(page, studio="follow", vehicle=0)
-    page.wait_for_timeout(800)
-    azimuth, distance = (
-        page.evaluate(f"__viserMutable.cameraControl.{name}") for name in ("azimuthAngle", "distance")
-    )
+    rest(page)
+    azimuth, distance = (page.evaluate(f"__viserMutable.cameraControl.{name}") for name in ("azimuthAngle", "distance"))
     page.mouse.move(WIDTH / 2, HEIGHT / 2)
     page.mouse.down()
     page.mouse.move(WIDTH / 2 + 120, HEIGHT / 2, steps=6)
     page.mouse.up()
     page.mouse.wheel(0, 300)
-    drive.going.set()
-    page.wait_for_timeout(1000)
-    drive.going.clear()
-    turned, zoomed = (
-        page.evaluate(f"__viserMutable.cameraControl.{name}") for name in ("azimuthAngle", "distance")
-    )
+    page.wait_for_function("before => __viserMutable.cameraControl.distance > 1.1 * before", arg=distance)
+    drive.go(1.0)
+    arrived(page, drive)
+    turned, zoomed = (page.evaluate(f"__viserMutable.cameraControl.{name}") for name in ("azimuthAngle", "distance"))
     assert abs(turned - azimuth) > 0.3 and zoomed > 1.1 * distance
     assert np.abs(seen(page, 0)).max() < 0.3
     say(page, studio="view", preset="overview")
-    page.wait_for_timeout(800)
+    rest(page)
 
 
 def test_dusk_is_darker_than_day(page):
@@ -210,7 +265,7 @@ def test_dusk_is_darker_than_day(page):
     assert picture(page).mean() == pytest.approx(day, rel=0.05)
 
 
-def framed(page: Page) -> None:
+def framed(page: Page) -> Frame:
     """Put the scene into a frame of its own origin, and note what it tells its parent."""
     page.evaluate(
         """() => {
@@ -222,21 +277,28 @@ def framed(page: Page) -> None:
             document.body.append(frame);
         }"""
     )
-    page.wait_for_function("window.heard.some(message => message.studio === 'ready')", timeout=60_000)
-    page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null", timeout=60_000)
+    page.wait_for_function("window.heard.some(message => message.studio === 'ready')")
+    page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null")
+    return page.frames[1]
+
+
+def follow_in_frame(page: Page, vehicle: int) -> None:
+    """The page tells the scene in its frame which vehicle to follow, and sees that it does."""
+    page.evaluate("vehicle => frames[0].postMessage({studio: 'follow', vehicle}, location.origin)", vehicle)
+    page.wait_for_function("vehicle => frames[0].__studioBridge.view.vehicle === vehicle", arg=vehicle)
+    rest(page.frames[1])
 
 
 def test_the_page_around_hears_ready_picks_and_keys_and_the_frame_hears_the_page(page):
     framed(page)
     assert page.evaluate("heard.find(message => message.studio === 'ready').follow") is True
-    page.evaluate("frames[0].postMessage({studio: 'follow', vehicle: 0}, location.origin)")
-    page.wait_for_timeout(1500)
+    follow_in_frame(page, 0)
     page.mouse.click(WIDTH / 2, HEIGHT / 2)
-    page.wait_for_function("heard.some(message => message.studio === 'picked')", timeout=5_000)
+    page.wait_for_function("heard.some(message => message.studio === 'picked')")
     assert page.evaluate("heard.find(message => message.studio === 'picked').vehicle") == 0
     for key in ("Space", "w", "?"):
         page.keyboard.press(key)
-    page.wait_for_function("heard.some(message => message.key === '?')", timeout=5_000)
+    page.wait_for_function("heard.some(message => message.key === '?')")
     keys = page.evaluate("heard.filter(message => message.studio === 'key').map(message => message.key)")
     # W moves the camera and is not the page's
     assert keys == [" ", "?"]
@@ -246,35 +308,37 @@ def test_the_page_around_hears_ready_picks_and_keys_and_the_frame_hears_the_page
 def test_messages_of_another_origin_are_not_heard(page):
     page.evaluate(
         """() => {
+            // the bridge listened first, so it has heard what is heard here
+            window.addEventListener('message', event => event.origin === 'null' && (window.foreign = event.data));
             const frame = document.createElement('iframe');
             frame.sandbox = 'allow-scripts';
             frame.srcdoc = "<script>parent.postMessage({studio: 'follow', vehicle: 2}, '*')<" + "/script>";
             document.body.append(frame);
         }"""
     )
-    page.wait_for_timeout(600)
+    page.wait_for_function("window.foreign?.vehicle === 2")
     assert page.evaluate("__studioBridge.view.vehicle") is None
     page.evaluate("document.querySelector('iframe').remove()")
+
+
+STREETS = "__viserSceneTree.getState()['/city/road']?.message.props.glb_data"  # another object after every connection
 
 
 def test_a_lost_connection_comes_back_without_the_focus(page, drive):
     framed(page)
     page.evaluate("document.body.append(Object.assign(document.createElement('input'), {id: 'elsewhere'}))")
     page.focus("#elsewhere")
-    page.evaluate("frames[0].postMessage({studio: 'follow', vehicle: 1}, location.origin)")
+    follow_in_frame(page, 1)
+    before = page.evaluate_handle(f"frames[0].{STREETS}")
     server = drive.scene._server._websock_server
-    lost = dict(server._live_connections)
-    assert len(lost) == 2
-    for connection in lost.values():
-        asyncio.run_coroutine_threadsafe(connection.close(), server._background_event_loop).result(5.0)
-    for _ in range(100):
-        page.wait_for_timeout(100)
-        back = set(server._live_connections) - set(lost)
-        if len(back) == 2:
-            break
-    assert len(back) == 2
-    page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null", timeout=30_000)
-    page.wait_for_timeout(600)
+    until(lambda: len(server._live_connections) == 2, "both scenes")
+    lost = set(server._live_connections)
+    server.disconnect_all_clients()
+    until(lambda: len(set(server._live_connections) - lost) == 2, "both scenes again")
+    page.wait_for_function(f"before => ![undefined, before].includes(frames[0].{STREETS})", arg=before)
+    page.wait_for_function("frames[0].__studioBridge.poseOf(0) != null")
+    # the bridge looks at the streets as often as this counts
+    page.frames[1].evaluate("() => new Promise(done => { let looks = 0; setInterval(() => ++looks === 4 && done(), 200); })")
     # the same city is no reason to let go of the vehicle
     assert page.evaluate("frames[0].__studioBridge.view.vehicle") == 1
     page.evaluate("document.querySelector('iframe').remove(); document.querySelector('#elsewhere').remove()")
@@ -282,10 +346,10 @@ def test_a_lost_connection_comes_back_without_the_focus(page, drive):
 
 def test_another_city_is_first_seen_as_a_whole(page, drive, town):
     say(page, studio="follow", vehicle=0)
-    page.wait_for_timeout(600)
+    rest(page)
     short = tuple(replace(lane, centre=lane.centre * [[0.8], [1.0]], length=240.0) for lane in town.lanes)
     drive.scene.show_city(replace(town, lanes=short))
-    page.wait_for_function("__studioBridge.view.vehicle === null", timeout=10_000)
+    page.wait_for_function("__studioBridge.view.vehicle === null")
 
 
 def test_the_client_ran_without_errors_and_with_few_draw_calls(page):

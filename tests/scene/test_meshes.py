@@ -43,9 +43,7 @@ def test_body_parts_are_closed_and_face_outward(size, part):
 def test_wheel_is_closed_round_and_as_wide_as_asked(size):
     wheel = solid(vehicle.wheel(size))
     assert wheel.is_watertight and wheel.volume > 0.0
-    assert np.hypot(wheel.vertices[:, 0], wheel.vertices[:, 2]).max() == pytest.approx(
-        size.wheel_radius, abs=1e-4
-    )
+    assert np.hypot(wheel.vertices[:, 0], wheel.vertices[:, 2]).max() == pytest.approx(size.wheel_radius, abs=1e-4)
     assert np.ptp(wheel.vertices[:, 1]) == pytest.approx(size.wheel_width, abs=1e-4)
 
 
@@ -160,7 +158,7 @@ def test_masts_stand_at_the_kerb_and_heads_hang_over_their_lanes(town):
     mesh = signal.masts(town)
     pole = mesh.vertices[mesh.vertices[:, 2] < 0.01]
     assert (pole[:, 1] < -3.5).all() and (pole[:, 0] > 150.0).all()
-    x, y = signal.head_places(town)
+    _, y = signal.head_places(town)
     np.testing.assert_allclose(y, [-1.75, 1.75])
     assert mesh.vertices[:, 1].max() > 1.75
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.broken import BROKEN
+from tests.broken import BROKEN, HANGING
 from tests.server.server import served
 
 
@@ -18,8 +18,7 @@ def server(tmp_path_factory, sample):
     (scenarios / "bad.yaml").write_text("title: bad\nclok: {}\n")
     (folder / "applications").mkdir()
     (folder / "applications" / "broken.py").write_text(BROKEN)
-    hanging = BROKEN.replace('raise RuntimeError("the idea was not so good")', "while True: pass")
-    (folder / "applications" / "hanging.py").write_text(hanging)
+    (folder / "applications" / "hanging.py").write_text(HANGING)
     with served(folder, "--applications", folder / "applications") as running:
         yield running
 

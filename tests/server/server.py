@@ -8,7 +8,8 @@ from pathlib import Path
 
 import httpx
 
-START_PATIENCE = 180.0  # [s] the first start compiles
+START_PATIENCE = 600.0  # [s] the first start compiles
+from tests.patience import PATIENCE
 
 
 @contextmanager
@@ -19,9 +20,9 @@ def served(folder: Path, *options):
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=log, text=True)
     try:
         address = re.search(r"http://\S+", process.stdout.readline()).group()
-        with httpx.Client(base_url=address, timeout=START_PATIENCE) as client:
+        with httpx.Client(base_url=address, timeout=PATIENCE) as client:
             yield client, folder / "runs.db", process
     finally:
         process.terminate()
-        process.wait(30)
+        process.wait(PATIENCE)
         log.close()

@@ -2,7 +2,6 @@
 
 import socket
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -11,6 +10,7 @@ from fastapi import FastAPI
 
 from studio.server import relay
 from studio.server.origin import SameOrigin
+from tests.patience import PATIENCE, until
 
 
 @contextmanager
@@ -24,17 +24,9 @@ def served(port: Callable[[], int]) -> Iterator[int]:
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
     thread.start()
-    _wait(lambda: server.started)
+    until(lambda: server.started, "the server")
     try:
         yield listener.getsockname()[1]
     finally:
         server.should_exit = True
-        thread.join(timeout=10.0)
-
-
-def _wait(done: Callable[[], bool], *, limit: float = 10.0) -> None:
-    end = time.monotonic() + limit
-    while not done():
-        if time.monotonic() > end:
-            raise TimeoutError("the server did not start")
-        time.sleep(0.01)
+        thread.join(timeout=PATIENCE)

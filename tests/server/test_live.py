@@ -10,7 +10,12 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
+from studio.server import live
+from tests.patience import PATIENCE
+from tests.patience import until as wait_until
+
 SCENARIO = "grosser_stern_platoon"
+LONG = {"clock.duration": 600}  # no run that is looked at ends before that
 
 
 def start(client, **options):
@@ -22,14 +27,14 @@ def start(client, **options):
 def news(client, run, **options):
     """The socket of a live run."""
     address = str(client.base_url).replace("http", "ws").rstrip("/")
-    return connect(f"{address}/api/live/{run}/socket", **options)
+    return connect(f"{address}/api/live/{run}/socket", open_timeout=PATIENCE, ping_timeout=PATIENCE, **options)
 
 
-def until(socket, wanted, patience=60.0):
+def until(socket, wanted):
     """Messages up to the first that is wanted."""
-    seen, end = [], time.monotonic() + patience
+    seen, end = [], time.monotonic() + PATIENCE
     while time.monotonic() < end:
-        seen.append(json.loads(socket.recv(timeout=patience)))
+        seen.append(json.loads(socket.recv(timeout=PATIENCE)))
         if wanted(seen[-1]):
             return seen
     raise AssertionError(f"waited in vain; last: {seen[-1:]}")
@@ -40,10 +45,10 @@ def is_state(status):
 
 
 def test_pause_step_pace_stop(client):
-    run = start(client, set={"clock.duration": 30}, paused=True)
+    run = start(client, set=LONG, paused=True)
     with news(client, run) as socket:
         paused = until(socket, is_state("paused"))[-1]
-        assert paused["time"] == 0.0 and paused["duration_s"] == 30
+        assert paused["time"] == 0.0 and paused["duration_s"] == 600
         client.post(f"/api/live/{run}/step")
         assert until(socket, lambda m: m["type"] == "state" and m["time"] > 0)[-1]["time"] == pytest.approx(0.02)
         client.post(f"/api/live/{run}/pace", json={"pace": 8})
@@ -54,21 +59,22 @@ def test_pause_step_pace_stop(client):
         end = until(socket, lambda m: m["type"] == "end")[-1]
     assert end["status"] == "stopped"
     row = client.get(f"/api/runs/{run}").json()
-    assert row["status"] == "stopped" and row["metrics"]["min_gap"]["value"] > 0 and row["sim_time_s"] < 30
+    assert row["status"] == "stopped" and row["metrics"]["min_gap"]["value"] > 0 and row["sim_time_s"] < 600
     assert client.post(f"/api/live/{run}/pause").status_code == 409
 
 
 def test_pace_is_kept(client):
-    """At pace 2 four simulated seconds take two real ones."""
-    run = start(client, set={"clock.duration": 60}, pace=2)
+    """At pace 2 nothing happens earlier than at twice the real time, and it goes on; how late depends on the machine."""
+    began = time.monotonic()
+    run = start(client, set=LONG, pace=2)
+    seen = []
     with news(client, run) as socket:
-        until(socket, lambda m: m["type"] == "state" and m["time"] > 1)
-        began = time.monotonic()
-        first = until(socket, lambda m: m["type"] == "state")[-1]["time"]
-        last = until(socket, lambda m: m["type"] == "state" and m["time"] > first + 4)[-1]["time"]
-        took = time.monotonic() - began
+        while not seen or seen[-1][1] < 5:
+            state = until(socket, lambda m: m["type"] == "state")[-1]
+            seen.append((time.monotonic() - began, state["time"]))
+            assert state["pace"] == 2
     client.post(f"/api/live/{run}/stop")
-    assert (last - first) / took == pytest.approx(2.0, rel=0.2)
+    assert all(simulated <= 2 * real for real, simulated in seen)
 
 
 def test_samples_and_events(client):
@@ -106,7 +112,7 @@ def test_an_application_that_raises_fails_its_run_only(client):
 
 
 def test_a_process_that_is_killed_ends_its_run_only(client, server):
-    run = start(client)
+    run = start(client, set=LONG)
     with news(client, run) as socket:
         until(socket, lambda m: m["type"] == "state" and m["time"] > 0.5)
         for child in psutil.Process(server[2].pid).children():
@@ -122,7 +128,7 @@ def test_the_scene_shows_a_scenario_and_a_run(client):
     cast = client.post("/api/scene", json={"scenario": SCENARIO}).json()
     assert [each["name"] for each in cast["vehicles"][:2]] == ["leader", "follower_1"] and len(cast["vehicles"]) == 25
     assert cast["attribution"] == "© OpenStreetMap contributors"
-    run = start(client, set={"clock.duration": 5})
+    run = start(client, set=LONG)
     assert len(client.post("/api/scene", json={"run": run}).json()["vehicles"]) == 25
     client.post(f"/api/live/{run}/stop")
 
@@ -131,19 +137,19 @@ def test_a_foreign_page_cannot_listen(client):
     run = start(client, set={"clock.duration": 1}, pace="fast")
     for path in (f"/api/live/{run}/socket", "/scene/"):
         address = str(client.base_url).replace("http", "ws").rstrip("/") + path
-        with pytest.raises(InvalidStatus) as refusal, connect(address, origin="http://evil.example"):
+        with pytest.raises(InvalidStatus) as refusal, connect(address, origin="http://evil.example", open_timeout=PATIENCE):
             pass
         assert refusal.value.response.status_code == 403
 
 
 def test_an_unknown_live_run(client):
     with news(client, 999) as socket:
-        assert "999" in json.loads(socket.recv(timeout=10))["message"]
+        assert "999" in json.loads(socket.recv(timeout=PATIENCE))["message"]
 
 
 def test_the_scene_may_change_while_a_run_goes_on(client):
     """Another cast on stage must not disturb a run whose frames keep coming."""
-    run = start(client)
+    run = start(client, set=LONG)
     client.post("/api/scene", json={"run": run})
     for count in (3, 20, 0):
         answer = client.post("/api/scene", json={"scenario": SCENARIO, "set": {"traffic.count": count}})
@@ -165,21 +171,58 @@ def test_steps_end_with_the_run(client):
     assert client.get(f"/api/runs/{run}").json()["sim_time_s"] == 0.04
 
 
-def test_an_application_that_hangs_can_be_stopped(client):
+def test_an_application_that_hangs_can_be_stopped(client, server):
+    hangs = server[1].parent / "applications" / "hanging.sign"
     run = start(client, set={"applications.platoon.application": "hanging"})
     with news(client, run) as socket:
-        until(socket, lambda m: m["type"] == "state" and m["time"] > 0.3)
-        time.sleep(1)
+        wait_until(hangs.exists, "the application that hangs")
         client.post(f"/api/live/{run}/stop")
         end = until(socket, lambda m: m["type"] == "end")[-1]
     assert end["status"] == "stopped" and "did not react" in end["error"]
     assert client.get(f"/api/runs/{run}").json()["status"] == "stopped"
 
 
+@pytest.mark.parametrize("says", ["running", "stopped"])
+def test_a_run_that_has_stopped_is_not_ended_while_it_saves(says, tmp_path):
+    """However long that takes; one that does not react is."""
+    process = live.spawn.Process(target=time.sleep, args=(PATIENCE,), daemon=True)
+    process.start()
+    ours, _ = live.spawn.Pipe()
+    run = live.LiveRun(1, SCENARIO, 60.0, live.Process(process, ours), lambda *news: None, None, tmp_path / "runs.db")
+    run.on_state_news(says, 3.0, 1.0, 1.0)
+    run.give_up()
+    if says == "running":
+        process.join(PATIENCE)
+        assert process.exitcode == -signal.SIGKILL and run.given_up
+    else:
+        assert process.is_alive() and not run.given_up
+        process.kill()
+
+
 def test_a_spare_process_that_died_is_replaced(client, server):
-    time.sleep(3)  # the spare of the last run is there by now
-    for child in psutil.Process(server[2].pid).children():
-        child.kill()
+    """The one that is killed is what is left when the only run is over."""
+    over = ("done", "stopped", "failed")
+    wait_until(
+        lambda: len(workers(server)) <= 1 and all(each["status"] in over for each in client.get("/api/live").json()), "the end of all"
+    )
+    run = start(client, set=LONG, paused=True)
+    wait_until(lambda: len(workers(server)) == 2, "the process that waits for the next run")
+    client.post(f"/api/live/{run}/stop")
+    (spare,) = wait_until(lambda: len(left := workers(server)) == 1 and left, "the end of the run's process")
+    spare.kill()
     run = start(client, set={"clock.duration": 0.1}, pace="fast")
     with news(client, run) as socket:
         assert until(socket, lambda m: m["type"] == "end")[-1]["status"] == "done"
+
+
+def workers(server):
+    """The processes of live runs, and the one that waits."""
+    return [each for each in psutil.Process(server[2].pid).children() if "spawn_main" in command(each)]
+
+
+def command(process):
+    """How a process was started; "" when it has just gone."""
+    try:
+        return " ".join(process.cmdline())
+    except psutil.Error:
+        return ""

@@ -5,7 +5,6 @@ import json
 import re
 import shutil
 import threading
-import time
 from pathlib import Path
 
 import psutil
@@ -15,6 +14,7 @@ import yaml
 from studio import job
 from studio.road import load
 from studio.server import maps as server_maps
+from tests.patience import PATIENCE, until
 from tests.road.test_download import RECORDED
 from tests.road.test_download import server as answering
 from tests.server.server import served
@@ -23,7 +23,6 @@ REFERENCE = Path(__file__).parents[1] / "reference" / "maps"
 PERTH = REFERENCE / "perth_peanut_roundabout_lht.osm.gz"
 MANCHESTER = REFERENCE / "manchester_kingsway_lht.osm.gz"
 STREET = "way 59876790"  # Dorset Street, Manchester: neither lanes nor maxspeed are mapped
-PATIENCE = 120.0  # [s] for an import; the first one of a machine compiles
 
 
 @pytest.fixture(scope="module")
@@ -64,21 +63,25 @@ def folder(running):
     return running[1] / "maps"
 
 
-def over(client, answer, patience=PATIENCE):
+def over(client, answer):
     """The import of an answer, when it is over."""
     assert answer.status_code == 202, answer.text
-    return until(client, answer.json()["id"], lambda row: row["status"] != "running", patience)
+    return ended(client, answer.json()["id"])
 
 
-def until(client, number, is_so, patience=PATIENCE):
-    """An import, when something is so."""
-    end = time.monotonic() + patience
-    while time.monotonic() < end:
+def ended(client, number):
+    """An import, when it is over."""
+    return once(client, number, lambda row: row["status"] != "running")
+
+
+def once(client, number, is_so):
+    """An import, as soon as something is so."""
+
+    def look():
         row = client.get(f"/api/map-jobs/{number}").json()
-        if is_so(row):
-            return row
-        time.sleep(0.05)
-    raise AssertionError(f"import {number} is still {row}")
+        return row if is_so(row) else None
+
+    return until(look, f"import {number}")
 
 
 def uploaded(client, name, content, **options):
@@ -256,10 +259,8 @@ def test_an_upload_that_breaks_off_leaves_nothing(client, folder):
 
     with pytest.raises(OSError, match="the cable"):
         client.post("/api/maps?name=half.osm", content=broken())
-    end = time.monotonic() + 10.0
-    while leftovers(folder) and time.monotonic() < end:
-        time.sleep(0.05)
-    assert not leftovers(folder) and not (folder / "half").exists()
+    until(lambda: not leftovers(folder), "a tidy folder")
+    assert not (folder / "half").exists()
 
 
 # -- downloads, cancelling, crashes ------------------------------------------------------------------
@@ -276,7 +277,7 @@ def processes(running):
 def asking(client, **wanted):
     """A download that waits for the silent server."""
     number = client.post("/api/maps/download", json={"bbox": BOX, **wanted}).json()["id"]
-    until(client, number, lambda row: row["stage"] in ASKING)
+    once(client, number, lambda row: row["stage"] in ASKING)
     return number
 
 
@@ -287,14 +288,11 @@ def test_two_at_a_time_and_none_is_left_when_cancelled(client, folder, running, 
     assert third["map"] == "place_47_6170_-122_3383_2" and third["stage"] == "waiting for other imports"
     assert [each["id"] for each in client.get("/api/map-jobs").json()[:3]] == [third["id"], second, first]
     assert client.delete(f"/api/map-jobs/{first}").json()["status"] == "cancelled"
-    until(client, third["id"], lambda row: row["stage"] in ASKING)
+    once(client, third["id"], lambda row: row["stage"] in ASKING)
     for number in (second, third["id"]):
         assert client.delete(f"/api/map-jobs/{number}").json()["status"] == "cancelled"
         assert client.delete(f"/api/map-jobs/{number}").json()["status"] == "cancelled"  # once more changes nothing
-    end = time.monotonic() + 10.0
-    while (leftovers(folder) or processes(running) - before) and time.monotonic() < end:
-        time.sleep(0.05)
-    assert not leftovers(folder) and not processes(running) - before
+    until(lambda: not leftovers(folder) and not processes(running) - before, "a tidy folder without processes")
     assert not [each for each in client.get("/api/maps").json() if "place" in each["id"] or each["id"] == "second"]
 
 
@@ -303,7 +301,7 @@ def test_a_process_that_is_killed_fails_its_import_only(client, folder, running)
     number = asking(client, name="killed")
     (pid,) = processes(running) - before
     psutil.Process(pid).kill()
-    row = until(client, number, lambda row: row["status"] != "running")
+    row = ended(client, number)
     assert row["status"] == "failed" and "ended by the system" in row["problem"]["problems"][0]["what"]
     assert not (folder / "killed").exists() and client.get("/api/info").status_code == 200
 
@@ -311,7 +309,7 @@ def test_a_process_that_is_killed_fails_its_import_only(client, folder, running)
 def test_a_download_becomes_a_map(client, overpass):
     number = asking(client, name="Dreieck")
     overpass[2].set()
-    row = until(client, number, lambda row: row["status"] != "running")
+    row = ended(client, number)
     assert row["status"] == "done" and row["share"] == 1.0, row
     found = client.get(f"/api/maps/{row['map']}").json()
     assert found["source"] == "Dreieck.json" and found["bbox"].startswith("-122.34") and found["report"]["lane_km"] > 0.5
@@ -346,7 +344,7 @@ def test_imports_end_with_the_server(tmp_path, monkeypatch):
             asking(client)
             begun = [psutil.Process(pid) for pid in processes((None, None, process))]
         silence.set()
-    psutil.wait_procs(begun, timeout=20)
+    psutil.wait_procs(begun, timeout=PATIENCE)
     assert not [each for each in begun if each.is_running() and each.status() != psutil.STATUS_ZOMBIE]
     assert not leftovers(tmp_path / "scenarios" / "maps")
 
@@ -379,7 +377,10 @@ def test_a_correction_settles_a_guess_and_is_taken_back(client, manchester):
 
 
 def test_corrections_one_after_the_other_are_all_kept(client, perth):
-    asked = [client.put(f"/api/maps/{perth}/corrections", json={"element": "way 35468318", "tags": tags}) for tags in ({"lanes": "2"}, {"width": "7"})]
+    asked = [
+        client.put(f"/api/maps/{perth}/corrections", json={"element": "way 35468318", "tags": tags})
+        for tags in ({"lanes": "2"}, {"width": "7"})
+    ]
     assert [over(client, each)["status"] for each in asked] == ["done", "done"]
     (kept,) = client.get(f"/api/maps/{perth}").json()["corrections"]
     assert kept["tags"] == {"lanes": "2", "width": "7"}
@@ -402,7 +403,9 @@ def test_corrections_one_after_the_other_are_all_kept(client, perth):
     ],
 )
 def test_a_correction_that_means_nothing_is_refused_at_once(client, manchester, correction, says):
-    refused = client.put(f"/api/maps/{manchester}/corrections", content=json.dumps(correction), headers={"Content-Type": "application/json"})
+    refused = client.put(
+        f"/api/maps/{manchester}/corrections", content=json.dumps(correction), headers={"Content-Type": "application/json"}
+    )
     assert refused.status_code == 422 and says in refused.text
 
 

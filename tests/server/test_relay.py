@@ -10,6 +10,7 @@ import viser
 import websockets
 
 from studio.scene.projection import Scene
+from tests.patience import PATIENCE, until
 from tests.server.stage import served
 
 PROTOCOL = f"viser-v{viser.__version__}"
@@ -31,14 +32,15 @@ def port(scene):
 def connect(port: int, *, protocol: str = PROTOCOL, **options):
     path = options.pop("path", "/scene")
     url = f"ws://127.0.0.1:{port}{path}"
-    return websockets.connect(url, subprotocols=[protocol], max_size=None, proxy=None, **options)
+    patience = {"open_timeout": PATIENCE, "ping_timeout": PATIENCE}
+    return websockets.connect(url, subprotocols=[protocol], max_size=None, proxy=None, **patience, **options)
 
 
 @pytest.mark.parametrize("path", ["/scene", "/scene/"])
 def test_the_whole_scene_arrives_in_binary_under_visers_protocol(port, path):
     async def first() -> tuple[str, bytes]:
         async with connect(port, path=path) as client:
-            return client.subprotocol, await asyncio.wait_for(client.recv(), 10.0)
+            return client.subprotocol, await asyncio.wait_for(client.recv(), PATIENCE)
 
     protocol, message = asyncio.run(first())
     assert protocol == PROTOCOL
@@ -48,20 +50,24 @@ def test_the_whole_scene_arrives_in_binary_under_visers_protocol(port, path):
 
 def test_what_the_browser_says_reaches_viser(scene, port):
     camera = {
-        **{"type": "ViewerCameraMessage", "wxyz": [1.0, 0.0, 0.0, 0.0], "position": [1.0, 2.0, 3.0]},
-        **{"fov": 0.7, "near": 0.1, "far": 100.0, "image_height": 90, "image_width": 160},
-        **{"look_at": [0.0, 0.0, 0.0], "up_direction": [0.0, 0.0, 1.0]},
+        "type": "ViewerCameraMessage",
+        "wxyz": [1.0, 0.0, 0.0, 0.0],
+        "position": [1.0, 2.0, 3.0],
+        "fov": 0.7,
+        "near": 0.1,
+        "far": 100.0,
+        "image_height": 90,
+        "image_width": 160,
+        "look_at": [0.0, 0.0, 0.0],
+        "up_direction": [0.0, 0.0, 1.0],
     }
 
     async def look() -> list[tuple[float, ...]]:
         async with connect(port) as client:
             await client.recv()
             await client.send(msgspec.msgpack.encode(camera))
-            for _ in range(100):
-                if scene._server.get_clients():
-                    break
-                await asyncio.sleep(0.05)
-            return [tuple(one.camera.position) for one in scene._server.get_clients().values()]
+            clients = await asyncio.to_thread(until, scene._server.get_clients, "the client's camera")
+            return [tuple(one.camera.position) for one in clients.values()]
 
     assert asyncio.run(look()) == [(1.0, 2.0, 3.0)]
 
@@ -70,22 +76,15 @@ def test_nobody_can_ask_for_a_public_tunnel(scene, port):
     heard = []
     from viser import _messages
 
-    scene._server._websock_server.register_handler(
-        _messages.ShareUrlRequest, lambda *args: heard.append("share")
-    )
-    scene._server._websock_server.register_handler(
-        _messages.ShareUrlDisconnect, lambda *args: heard.append("end")
-    )
+    scene._server._websock_server.register_handler(_messages.ShareUrlRequest, lambda *args: heard.append("share"))
+    scene._server._websock_server.register_handler(_messages.ShareUrlDisconnect, lambda *args: heard.append("end"))
 
     async def ask() -> None:
         async with connect(port) as client:
             await client.recv()
             await client.send(msgspec.msgpack.encode({"type": "ShareUrlRequest"}))
             await client.send(msgspec.msgpack.encode({"type": "ShareUrlDisconnect"}))
-            for _ in range(100):
-                if heard:
-                    break
-                await asyncio.sleep(0.05)
+            await asyncio.to_thread(until, lambda: heard, "the end of a tunnel")
 
     asyncio.run(ask())
     assert heard == ["end"]
@@ -94,28 +93,24 @@ def test_nobody_can_ask_for_a_public_tunnel(scene, port):
 def test_when_the_browser_goes_viser_forgets_it(scene, port):
     connected = scene._server._websock_server._client_state_from_id
 
-    async def count_is(expected: int) -> bool:
-        for _ in range(100):
-            if len(connected) == expected:
-                return True
-            await asyncio.sleep(0.05)
-        return False
+    async def count_is(expected: int) -> None:
+        await asyncio.to_thread(until, lambda: len(connected) == expected, f"{expected} browsers")
 
-    async def visit() -> tuple[bool, bool, bool]:
-        nobody = await count_is(0)
+    async def visit() -> None:
+        await count_is(0)
         async with connect(port) as client:
             await client.recv()
-            one = await count_is(1)
-        return nobody, one, await count_is(0)
+            await count_is(1)
+        await count_is(0)
 
-    assert asyncio.run(visit()) == (True, True, True)
+    asyncio.run(visit())
 
 
 def test_another_version_of_the_client_is_told_so(port):
     async def visit() -> int:
         async with connect(port, protocol="viser-v0.0.1") as client:
             with pytest.raises(websockets.ConnectionClosed):
-                await asyncio.wait_for(client.recv(), 10.0)
+                await asyncio.wait_for(client.recv(), PATIENCE)
             return client.close_code
 
     # 1002: viser's word for another version
@@ -130,9 +125,9 @@ def test_when_viser_stops_the_browser_is_told():
             async with connect(port) as client:
                 await client.recv()
                 await asyncio.to_thread(scene.stop)
-                with pytest.raises(websockets.ConnectionClosed):
+                with pytest.raises(websockets.ConnectionClosed):  # noqa: PT012 - whatever still comes before
                     while True:
-                        await asyncio.wait_for(client.recv(), 20.0)
+                        await asyncio.wait_for(client.recv(), PATIENCE)
                 return client.close_code
 
         assert asyncio.run(visit()) in (1000, 1001, 1006, 1011, 1012)
@@ -160,10 +155,7 @@ def test_a_foreign_page_gets_neither_page_nor_socket(port):
         return refused.value.response.status_code
 
     assert asyncio.run(visit()) == 403
-    assert (
-        httpx.get(f"http://127.0.0.1:{port}/scene/", headers={"origin": "http://evil.example"}).status_code
-        == 403
-    )
+    assert httpx.get(f"http://127.0.0.1:{port}/scene/", headers={"origin": "http://evil.example"}).status_code == 403
 
 
 def test_the_page_is_visers_client_with_our_bridge(port):

@@ -1,27 +1,25 @@
 """REST: the same functions as the command line, the same runs, refusals that say what is wrong."""
 
 import json
-import time
 
 import pytest
 
 from studio import job
 from studio.store.runs import open_runs
-from tests.server.server import START_PATIENCE
+from tests.patience import until
 
 SCENARIO = "grosser_stern_platoon"
 SHORT = {"clock.duration": 3}
 
 
-def finished(client, run, patience=START_PATIENCE):
+def finished(client, run):
     """The run when it is over."""
-    until = time.monotonic() + patience
-    while time.monotonic() < until:
+
+    def over():
         row = client.get(f"/api/runs/{run}").json()
-        if row["status"] != "running":
-            return row
-        time.sleep(0.1)
-    raise AssertionError(f"run {run} did not end")
+        return row if row["status"] != "running" else None
+
+    return until(over, f"the end of run {run}")
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +109,13 @@ def test_compare(client, pair):
         ("get", "/api/nonsense", None, 404, ["/api/nonsense"]),
         ("post", "/api/runs", {"scenario": SCENARIO, "set": {"radio.los": 1}}, 422, ["radio.los", "radio.loss"]),
         ("post", "/api/runs", {"scenario": SCENARIO, "set": {"radio.loss": 2}}, 422, ["radio.loss"]),
-        ("post", "/api/runs", {"scenario": SCENARIO, "set": {"routes.east_to_west.roads": ["206170873#1", "340498991"]}}, 422, ["206170873#1"]),
+        (
+            "post",
+            "/api/runs",
+            {"scenario": SCENARIO, "set": {"routes.east_to_west.roads": ["206170873#1", "340498991"]}},
+            422,
+            ["206170873#1"],
+        ),
         ("post", "/api/runs", {"scenario": SCENARIO, "seed": -1}, 422, ["seed"]),
         ("post", "/api/runs", {"scenario": SCENARIO, "parent": 999}, 404, ["999"]),
         ("post", "/api/runs", {"scenario": "bad"}, 422, ["clok"]),
@@ -138,7 +142,10 @@ def test_half_characters_and_zero_bytes(client):
     broken = b'{"scenario": "%s", "set": {"title": "\\ud800"}}' % SCENARIO.encode()
     answer = client.post("/api/runs", content=broken, headers={"Content-Type": "application/json"})
     assert answer.status_code == 422 and "Unicode" in answer.text
-    assert client.post("/api/runs", content=b'{"scenario": "\\ud800"}', headers={"Content-Type": "application/json"}).status_code in (404, 422)
+    assert client.post("/api/runs", content=b'{"scenario": "\\ud800"}', headers={"Content-Type": "application/json"}).status_code in (
+        404,
+        422,
+    )
     assert client.get("/%00").status_code == client.get("/assets/%00").status_code == 404
 
 

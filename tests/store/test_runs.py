@@ -5,7 +5,6 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from studio.errors import StoreError, UnknownError
 from studio.store import trace
 from studio.store.comparison import compare
 from studio.store.runs import open_runs
+from tests.patience import until
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_traces_keep_all_bits(kept):
 
 
 def test_newest_first_and_lineage(kept):
-    runs, first = kept
+    runs, _ = kept
     assert [row.run for row in runs.select()] == [2, 1]
     assert runs.find(2).parent == 1 and runs.find(2).seed == 5
 
@@ -70,7 +70,7 @@ def test_an_unknown_run(kept, wrong):
 
 
 def test_an_unknown_channel(kept):
-    with pytest.raises(UnknownError, match="did you mean 'leader.speed'"):
+    with pytest.raises(UnknownError, match=r"did you mean 'leader\.speed'"):
         kept[0].trace(1, ["leader.sped"])
 
 
@@ -98,7 +98,13 @@ def test_decimation_keeps_the_peaks():
     assert (np.diff(thin["time"]) > 0).all()
 
 
-@pytest.mark.parametrize(("content", "words"), [(b"hello, I am a text file of some length" * 10, "not a database"), (b"SQLite format 3\0" + b"x" * 200, "cannot be used|not a database")])
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"hello, I am a text file of some length" * 10, "not a database"),
+        (b"SQLite format 3\0" + b"x" * 200, "cannot be used|not a database"),
+    ],
+)
 def test_a_file_that_is_no_database(tmp_path, content, words):
     path = tmp_path / "runs.db"
     path.write_bytes(content)
@@ -131,10 +137,8 @@ def test_a_read_only_database():
         open_runs(path).close()
         path.chmod(0o444)
         Path(folder).chmod(0o555)
-        code = (
-            "import os, sqlite_utils; from studio.store.runs import open_runs;"
-            f"os.getuid() or os.setuid(65534); open_runs({str(path)!r})"
-        )
+        imports = "import importlib.metadata, os, sqlite_utils; from studio.store.runs import open_runs"
+        code = f"{imports}; os.getuid() or os.setuid(65534); open_runs({str(path)!r})"
         told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         Path(folder).chmod(0o755)
     assert "StoreError" in told.stderr and "read-only" in told.stderr, told.stderr
@@ -148,11 +152,8 @@ def test_a_killed_run_says_so(sample, tmp_path):
         f"job.run(job.load({str(sample)!r}, {{'clock.duration': 3600}}), runs=open_runs({str(db)!r}))"
     )
     process = subprocess.Popen([sys.executable, "-c", code])
-    runs = None
-    for _ in range(600):
-        time.sleep(0.1)
-        if db.exists() and (runs := open_runs(db)).select():
-            break
+    until(lambda: db.exists() and open_runs(db).select(), "the run's row")
+    runs = open_runs(db)
     assert runs.find(1).status == "running"
     process.send_signal(signal.SIGKILL)
     process.wait()
@@ -167,7 +168,7 @@ def test_only_the_wanted_channels_are_kept(sample, tmp_path):
     job.run(job.load(sample, {"clock.duration": 1, "recording.channels": ["speed"]}), runs=runs)
     assert {each["name"].partition(".")[2] for each in runs.channels(1)} == {"speed"}
     assert runs.find(1).metrics["min_gap"].value > 0  # metrics see everything
-    with pytest.raises(Exception, match="recording.channels.0.*did you mean 'speed'"):
+    with pytest.raises(Exception, match=r"recording\.channels\.0.*did you mean 'speed'"):
         job.run(job.load(sample, {"recording.channels": ["sped"]}), runs=runs)
 
 

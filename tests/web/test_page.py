@@ -77,7 +77,7 @@ def test_every_shown_control_of_the_contract_has_its_test_id():
     text = "\n".join(path.read_text() for path in (WEB / "src").rglob("*.tsx"))
     for name in (
         "run pause resume step stop pace sim-time follow scene-frame history-row nav-studio nav-runs "
-        "nav-compare compare-button compare-parameters compare-metrics runs-table theme-toggle attribution"
+        "nav-compare nav-docs compare-button compare-parameters compare-metrics runs-table theme-toggle attribution"
     ).split():
         assert re.search(rf"[\"']{name}[\"']", text), name
     assert "param-${" in text and "application-${" in text

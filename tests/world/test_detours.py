@@ -1,6 +1,5 @@
 """Lanes that are closed or shifted while a world runs: the lines around them, who takes which, and what stands there."""
 
-import copy
 from functools import partial
 
 import numpy as np
@@ -13,9 +12,13 @@ from studio.execution.simulation import simulation
 from studio.road.ways.conflict import zones
 from studio.road.ways.detour import STEEPEST, place_at, stations_on
 from studio.road.ways.path import PATH_CURVATURE, PATH_HEADING, PATH_SPEED, PATH_X, PATH_Y, ease
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.state import ACTIVE, X, Y
 from studio.world.build import build
+from studio.world.mind import OFFSET, STATION
 from studio.world.setting import pose
-from studio.world.state import ACTIVE, CONE, FRONT, LENGTH, O_KIND, OFFSET, STATION, X, Y
+from studio.world.snapshot import restore, snapshot
+from studio.world.street import CONE, O_KIND
 from studio.world.tick import tick
 from tests import changing
 from tests.changing import drive, run_for
@@ -65,7 +68,9 @@ def test_a_led_path_has_its_points_a_metre_apart(closed):
     new = closed.works.way(closed.cars[0].path).paths[1]
     steps = np.diff(new.points[[PATH_X, PATH_Y]])
     assert np.hypot(*steps) == pytest.approx(1.0, abs=2e-3)
-    turned = (np.arctan2(steps[1], steps[0]) - 0.5 * (new.points[PATH_HEADING, 1:] + new.points[PATH_HEADING, :-1]) + np.pi) % (2 * np.pi) - np.pi
+    turned = (np.arctan2(steps[1], steps[0]) - 0.5 * (new.points[PATH_HEADING, 1:] + new.points[PATH_HEADING, :-1]) + np.pi) % (
+        2 * np.pi
+    ) - np.pi
     assert np.abs(turned).max() < 0.01
     assert np.abs(np.diff(new.points[PATH_HEADING]) - 0.5 * (new.points[PATH_CURVATURE, 1:] + new.points[PATH_CURVATURE, :-1])).max() < 0.01
 
@@ -91,8 +96,7 @@ def test_led_paths_have_zones_of_their_own(sample):
     world = build([setting])
     spans = []
     for _ in range(2):
-        pairs = world.roads.zone_pair.T.tolist()
-        spans.append([span for pair, span in zip(pairs, world.roads.zone_span.T, strict=True) if pair == [0, 1]])
+        spans.append(shared(world.roads.conflicts, 0, 1))
         tick(world)
     before, after = ([(span[0], span[1]) for span in each if span[0] < 600] for each in spans)
     assert before == []
@@ -101,6 +105,14 @@ def test_led_paths_have_zones_of_their_own(sample):
     paths = [world.roads.path_first, world.roads.path_count]
     expected = zones(world.roads.points, paths[0][0], paths[1][0], paths[0][1], paths[1][1])
     assert (np.array(spans[1]) == expected).all()
+
+
+def shared(conflicts, one, other):
+    """The zones that the tracks of two cars share."""
+    own = conflicts.track[one]
+    partners = range(conflicts.partner_first[own], conflicts.partner_first[own + 1])
+    found = [p for p in partners if conflicts.partner[p] == conflicts.track[other]]
+    return [span for p in found for span in conflicts.zone_span.T[conflicts.zone_first[p] : conflicts.zone_first[p + 1]]]
 
 
 def two_lanes():
@@ -211,7 +223,10 @@ def test_traffic_and_platoon_pass_three_sites(sample, seed):
     changes = {
         "way_in": {"start": {"time": 5}, "do": CLOSED},
         "circle": {"do": {"change": "close_lane", "road": "30194726", "lane": 2, "start": 30, "end": 45, "taper": 25}},
-        "way_out": {"start": {"vehicle": "leader", "along": 700}, "do": {"change": "close_lane", "road": "206170873#1", "start": 40, "end": 90}},
+        "way_out": {
+            "start": {"vehicle": "leader", "along": 700},
+            "do": {"change": "close_lane", "road": "206170873#1", "start": 40, "end": 90},
+        },
     }
     world = build([scenario(sample, changes, alone=False, seed=seed)])
     worst = 0.0
@@ -229,20 +244,25 @@ def test_traffic_and_platoon_pass_three_sites(sample, seed):
 def test_a_closing_does_not_know_its_batch(sample):
     variants = [
         scenario(sample, changes, alone=False)
-        for changes in ({"works": {"start": {"time": 3}, "do": CLOSED}}, {}, {"works": {"start": {"vehicle": "leader", "along": 390}, "do": CLOSED}})
+        for changes in (
+            {"works": {"start": {"time": 3}, "do": CLOSED}},
+            {},
+            {"works": {"start": {"vehicle": "leader", "along": 390}, "do": CLOSED}},
+        )
     ]
-    alone = [run_for([each], 14).world_digest(0) for each in variants]
+    alone = [run_for([each], 14).digest(0) for each in variants]
     assert len(set(alone)) == 3
     for order in ([0, 1, 2], [1, 2, 0]):
         together = run_for([variants[i] for i in order], 14)
-        assert [together.world_digest(order.index(i)) for i in range(3)] == alone
+        assert [together.digest(order.index(i)) for i in range(3)] == alone
 
 
 @pytest.mark.parametrize("seconds", [1.0, 4.0, 10.0])
 def test_a_snapshot_goes_on_around_a_closing(sample, seconds):
     """Before the lane is closed, while the first cars are led, and while one has not left it."""
-    world = run_for([scenario(sample, {"works": {"start": {"time": 3}, "do": CLOSED}}, alone=False, applications={})], seconds)
-    twin = copy.deepcopy(world)
+    settings = [scenario(sample, {"works": {"start": {"time": 3}, "do": CLOSED}}, alone=False, applications={})]
+    world, twin = run_for(settings, seconds), build(settings)
+    restore(twin, snapshot(world))
     for _ in range(300):
         tick(world)
         tick(twin)
@@ -256,7 +276,7 @@ def test_an_event_on_a_led_path_is_where_it_was(sample):
     setting = scenario(sample, WORKS | after, clock={"duration": 30})
     run = simulation(setting)
     as_fast_as_possible(run)
-    (begun,) = [each.time for each in run.happenings if each.text.startswith("slow begins")]
+    (begun,) = [each.time for each in run.cases[0].happenings if each.text.startswith("slow begins")]
     at = np.searchsorted(run.record().time, begun - 1e-6)
     place = np.array([run.record().channel("x")[0, at], run.record().channel("y")[0, at]])
     assert np.hypot(*(place - pose(setting.cars[0].path, 600.0)[:2])) < 0.4
@@ -278,7 +298,11 @@ def test_an_event_on_a_led_path_is_where_it_was(sample):
         ({"a": CLOSED, "b": CLOSED | {"change": "shift_lane", "offset": 1, "lane": 2}}, "changes.b.do", "overlaps 'a'"),
         ({"a": CLOSED | {"start": 350, "end": 370}}, "vehicles.leader.position", "from the beginning"),
         ({"a": CLOSED | {"speed": 3}}, "changes.a.do.speed", "not a field"),
-        ({f"w{i}": CLOSED | {"start": 60 + 120 * i, "end": 70 + 120 * i, "taper": 20} for i in range(5)}, "vehicles.leader.route", "at most 4"),
+        (
+            {f"w{i}": CLOSED | {"start": 60 + 120 * i, "end": 70 + 120 * i, "taper": 20} for i in range(5)},
+            "vehicles.leader.route",
+            "at most 4",
+        ),
     ],
 )
 def test_bad_works_are_named(sample, changes, field, word):

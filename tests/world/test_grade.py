@@ -7,37 +7,13 @@ from studio.application.setup import complete
 from studio.conventions import GRAVITY
 from studio.scene import pose
 from studio.server.frame import poses
+from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_GEAR, U_PEDAL
+from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
+from studio.vehicle.parameter import C_D, C_ROLL, MASS, RADIUS, H
+from studio.vehicle.state import GEAR, NEXT_GEAR, NEXT_RATIO, PITCH, PITCH_RATE, PSI, RATIO, TORQUE_DRIVE, V_UP, V_X, X, Y, Z
 from studio.world.build import build
+from studio.world.mind import STATION
 from studio.world.setting import setting
-from studio.world.state import (
-    C_D,
-    C_ROLL,
-    GEAR,
-    HEIGHT,
-    MASS,
-    NEXT_GEAR,
-    NEXT_RATIO,
-    PITCH,
-    PITCH_RATE,
-    PSI,
-    RADIUS,
-    RATIO,
-    RING,
-    SLOPE_X,
-    SLOPE_Y,
-    STATION,
-    TORQUE_DRIVE,
-    U_BRAKE,
-    U_DRIVE,
-    U_GEAR,
-    U_PEDAL,
-    V_UP,
-    V_X,
-    H,
-    X,
-    Y,
-    Z,
-)  # fmt: skip
 from studio.world.tick import environment, part, tick
 from tests.proving_ground import heavier
 
@@ -47,7 +23,8 @@ ROAD = (
     '<OpenDRIVE><header/><road id="a" length="{length}" junction="-1"><type s="0" type="rural"><speed max="90" unit="km/h"/></type>'
     '<planView><geometry s="0" x="100" y="50" hdg="0.7" length="{length}"><line/></geometry></planView><elevationProfile>{profile}'
     '</elevationProfile><lanes><laneSection s="0"><left><lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>'
-    '</left><right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road></OpenDRIVE>'
+    '</left><right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right></laneSection></lanes>'
+    "</road></OpenDRIVE>"
 )
 
 

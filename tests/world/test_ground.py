@@ -7,9 +7,11 @@ import yaml
 from studio.application.setup import complete
 from studio.errors import ScenarioError
 from studio.execution.simulation import simulation
+from studio.vehicle.contact import MU
+from studio.vehicle.state import V_X
 from studio.world.build import build
+from studio.world.mind import STATION
 from studio.world.setting import setting
-from studio.world.state import MU, STATION, V_X
 from studio.world.tick import environment, tick
 
 ALONG = {"change": "friction", "route": "east_to_west"}
@@ -19,7 +21,14 @@ def scenario(sample, *, weather=1.0, **stretches):
     """The sample's leader alone, on another surface."""
     document = yaml.safe_load(sample.read_text())
     changes = {name: {"do": ALONG | stretch} for name, stretch in stretches.items()}
-    document |= {"weather": {"friction": weather}, "changes": changes, "applications": {}, "triggers": {}, "traffic": {"count": 0}, "goals": {}}
+    document |= {
+        "weather": {"friction": weather},
+        "changes": changes,
+        "applications": {},
+        "triggers": {},
+        "traffic": {"count": 0},
+        "goals": {},
+    }
     document["vehicles"] = {"leader": document["vehicles"]["leader"]}
     return setting(complete(document, "surface"), sample.parent, "surface")
 

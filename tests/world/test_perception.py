@@ -9,9 +9,12 @@ from studio import job
 from studio.application.contract import LEAVE, Command
 from studio.execution.simulation import simulation
 from studio.road.network import Building
+from studio.vehicle.command import RING
+from studio.vehicle.parameter import STEER_MAX
+from studio.vehicle.state import ACTIVE, DELTA, X, Y
 from studio.world.build import build
-from studio.world.state import ACTIVE, DELTA, DETECTED, RANGE, RING, SENT, STEER_MAX, X, Y
 from studio.world.tick import tick
+from studio.world.unit import DETECTED, RANGE, SENT
 
 
 def received(sample, ticks=500, buildings=None, shadow=True, **radio):

@@ -17,9 +17,11 @@ from studio.road.ways.path import PATH_CURVATURE, PATH_SPEED
 from studio.road.ways.route import LanePath, connect
 from studio.scenario import catalogue
 from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
+from studio.world.mind import STATION
 from studio.world.setting import Car, Setting
-from studio.world.state import ACTIVE, FRONT, STATION, V_X, X, Y
 from studio.world.tick import tick
 from studio.world.way import Works
 
@@ -39,7 +41,7 @@ NEARBY = 40.0  # [m] along the way, by which its parts may be longer or shorter 
 
 @dataclass
 class Driven:
-    """One way with what its car did: place and station now and then, largest speed over what is permitted, lateral acceleration, red lights."""
+    """One way with what its car did: where it was now and then, the most over the limit, lateral acceleration, red lights."""
 
     lanes: LanePath
     path: road_path.Path
@@ -139,7 +141,8 @@ def test_random_ways_are_driven_as_the_road_is_built(place):
     assert len(drivable) >= 0.95 * ROUTES  # the rest has a turn that the map draws narrower than a car's lock
     offsets = np.array([offset(network, way) for way in drivable])
     print(f"{name}: {len(drivable)} of {ROUTES} ways, {sum(way.path.length for way in drivable) / 1000:.0f} km; "
-          f"offset {np.median(offsets):.2f} m, at most {offsets.max():.2f} m; over the limit at most {max(way.over for way in drivable):.2f} m/s; "
+          f"offset {np.median(offsets):.2f} m, at most {offsets.max():.2f} m; over the limit at most "
+          f"{max(way.over for way in drivable):.2f} m/s; "
           f"lateral acceleration at most {max(way.lateral for way in drivable):.2f} m/s²")  # fmt: skip
     assert all(way.arrived for way in drivable)
     assert sum(way.red for way in drivable) == 0

@@ -10,12 +10,13 @@ from studio.application.host import observation_rows
 from studio.model import satellite
 from studio.model.random import GPS_NOISE, normal, normal_pair
 from studio.road.network import Building, shadow
+from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
 from studio.world import perception
 from studio.world.build import build
 from studio.world.channel import CHANNELS
 from studio.world.channel import sample as channels
-from studio.world.state import (
-    ACTIVE,
+from studio.world.tick import meet, tick
+from studio.world.unit import (
     CANYON,
     DRIFT_SIGMA,
     DRIFT_TIME,
@@ -29,11 +30,7 @@ from studio.world.state import (
     M_Y,
     SENSOR,
     SENT,
-    VEHICLE,
-    X,
-    Y,
 )  # fmt: skip
-from studio.world.tick import meet, tick
 
 TICK = 0.02
 COURT = Building(np.array([[-50.0, 50.0, 50.0, -50.0], [-50.0, -50.0, 50.0, 50.0]]), (), 10.0, 0.0, "")
@@ -44,7 +41,9 @@ def wandered(ticks, *, n=2000, seeds=(1,), buildings=(), **values):
     cars = n * len(seeds)
     state, sensors, gps = np.zeros((len(VEHICLE), cars)), np.zeros((len(SENSOR), cars)), np.zeros((len(GPS_SET), cars))
     state[ACTIVE] = 1.0
-    gps[:] = np.array([{"drift": 2.0, "correlation_time": 1.0, "noise": 0.0, "canyon_factor": 5.0, **values}[row.name] for row in GPS_SET])[:, None]
+    gps[:] = np.array([{"drift": 2.0, "correlation_time": 1.0, "noise": 0.0, "canyon_factor": 5.0, **values}[row.name] for row in GPS_SET])[
+        :, None
+    ]
     hidden = shadow.shadow(buildings)
     worlds, entity = np.repeat(np.arange(len(seeds)), n), np.tile(np.arange(n), len(seeds))
     errors = []
@@ -162,7 +161,8 @@ def test_settings_reach_their_cars(world):
 def test_errors_are_recorded(world):
     tick(world)
     names = [channel.name for channel in CHANNELS]
-    values = channels(world, np.arange(5), 0)
+    values = np.zeros((len(CHANNELS), 5))
+    channels(world, np.arange(5), 0, values)
     for name, row in (("gps_error_east", GPS_EAST), ("gps_error_north", GPS_NORTH)):
         assert np.array_equal(values[names.index(name)], world.units.sensors[row, :5])
 
@@ -175,5 +175,5 @@ def test_positions_do_not_touch_who_drives_by_range(sample):
         ran = build([job.prepare(job.load(sample, {**cars, "traffic.count": 0}))])
         for _ in range(250):
             tick(ran)
-        ends.append(ran.world_digest(0))
+        ends.append(ran.vehicles.state.tobytes() + ran.vehicles.wheels.tobytes())
     assert ends[0] == ends[1]

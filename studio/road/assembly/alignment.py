@@ -148,7 +148,9 @@ def set_back_once(net: Net, onward: dict[int, Connection]) -> Net:
     return redrawn(net, lines)
 
 
-def lacking(start: np.ndarray, direction: np.ndarray, end: np.ndarray, after: np.ndarray, *, curvature: float | None = None) -> tuple[float, float]:
+def lacking(
+    start: np.ndarray, direction: np.ndarray, end: np.ndarray, after: np.ndarray, *, curvature: float | None = None
+) -> tuple[float, float]:
     """How much room a turn lacks before it and behind it [m], for this curvature [1/m] or the gentlest that suits it.
 
     Aside by d within a length L along 10 u³ - 15 u⁴ + 6 u⁵, the curvature reaches 5.77 d / L² and grows by 60 d / L³.

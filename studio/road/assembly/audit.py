@@ -137,11 +137,7 @@ def count_buildings(network: Network, found: Survey, box: Box, notes: Notes) -> 
 
 def count_parking(network: Network, found: Survey, box: Box) -> ParkingCount:
     """Parking areas and spaces in the box."""
-    inside = [
-        kind
-        for kind, (longitude, latitude) in found.parking
-        if box.west < longitude < box.east and box.south < latitude < box.north
-    ]
+    inside = [kind for kind, (longitude, latitude) in found.parking if box.west < longitude < box.east and box.south < latitude < box.north]
     return ParkingCount(inside.count("parking"), inside.count("parking_space"), network.scenery.along_kerbs)
 
 

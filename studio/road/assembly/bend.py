@@ -91,8 +91,7 @@ def turn(a: Point, b: Point, c: Point) -> float:
 
 def tangents_of(line: list[Point], before: Point | None, after: Point | None) -> list[tuple[Point, Point]]:
     """At every point the directions of the curve that arrives and of the one that leaves; they differ at corners."""
-    extended = [before, *line, after]
-    found = [tangent(*extended[i : i + 3]) for i in range(len(line))]
+    found = [tangent(a, b, c) for a, b, c in zip([before, *line[:-1]], line, [*line[1:], after], strict=True)]
     lone = [is_straight(line, i - 1) and is_straight(line, i + 1) for i in range(len(line))]
     return [edge(line, i) if alone and 0 < i < len(line) - 1 else both for i, (both, alone) in enumerate(zip(found, lone, strict=True))]
 
@@ -109,11 +108,10 @@ def edge(line: list[Point], i: int) -> tuple[Point, Point]:
 
 def tangent(a: Point | None, b: Point, c: Point | None) -> tuple[Point, Point]:
     """Directions in which the curve arrives at b and leaves it."""
-    arriving = unit(b - a) if a is not None else None
-    leaving = unit(c - b) if c is not None else None
-    if arriving is None or leaving is None:
-        only = arriving if leaving is None else leaving
+    if a is None or c is None:
+        only = unit(b - a) if a is not None else unit(c - b)
         return only, only
+    arriving, leaving = unit(b - a), unit(c - b)
     if turn(a, b, c) >= CORNER:
         return arriving, leaving
     # the circle through three points: the shorter side bends away from the tangent less, so it counts more

@@ -91,7 +91,9 @@ def without_slips(tags: Heights, grid: Grid, box: Box, notes: Notes) -> Heights:
         worst = max(cliffs, key=lambda node: (cliffs[node], deviation(node, left, near), node), default=None)
         if worst is None or not cliffs[worst]:
             return left
-        notes.skip("elevation", f"ele={left[worst]:g}", spot(worst, grid, box), f"the road to its neighbours would be steeper than {STEEPEST:.0%}")
+        notes.skip(
+            "elevation", f"ele={left[worst]:g}", spot(worst, grid, box), f"the road to its neighbours would be steeper than {STEEPEST:.0%}"
+        )
         del left[worst]
 
 
@@ -163,7 +165,11 @@ def spline(tags: Heights, part: list[int], grid: Grid, ways: list[Way]) -> Heigh
     number = {node: i for i, node in enumerate(part)}
     rows: list[tuple[list[int], list[float]]] = []
     for a, others in grid.neighbours.items():
-        rows += [([number[a], number[b]], [math.sqrt(SLACK / far), -math.sqrt(SLACK / far)]) for b, far in others.items() if a in number and a < b]
+        rows += [
+            ([number[a], number[b]], [math.sqrt(SLACK / far), -math.sqrt(SLACK / far)])
+            for b, far in others.items()
+            if a in number and a < b
+        ]
     for a, b, c in triples(grid, ways):
         if b in number:
             before, behind = grid.neighbours[a][b], grid.neighbours[b][c]
@@ -218,8 +224,10 @@ def height_along(centre: np.ndarray, lines: list[tuple[np.ndarray, np.ndarray]])
     points = shapely.points(centre.T)
     forms = [shapely.LineString(line.T) for line, _ in lines]
     away = np.array([shapely.distance(form, points) for form in forms])
-    at = np.array([np.interp(shapely.line_locate_point(form, points), curve.stations(line), z) for form, (line, z) in zip(forms, lines, strict=True)])
-    return at[away.argmin(axis=0), np.arange(points.size)]
+    at = np.array(
+        [np.interp(shapely.line_locate_point(form, points), curve.stations(line), z) for form, (line, z) in zip(forms, lines, strict=True)]
+    )
+    return at[away.argmin(axis=0), np.arange(centre.shape[1])]
 
 
 def bridge(lanes: list[Lane], start: int, via: tuple[int, ...], end: int) -> None:

@@ -84,9 +84,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
         attribution=DRAWN if found.drawn_here else ATTRIBUTION,
         licence="MIT" if found.drawn_here else LICENCE,
         law=mapped_law(net, ways, found.nodes, box, country=country.name, left_hand=left_hand),
-        report=lambda network: audit.report(
-            network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name
-        ),
+        report=lambda network: audit.report(network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name),
         bans=bans,
     )
 
@@ -103,9 +101,7 @@ def cut_ways(path: Path, found, box, ids) -> list:
     """The ways within that part; raises MapError when there is none."""
     ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
     if not ways:
-        raise MapError(
-            f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox"
-        )
+        raise MapError(f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox")
     return ways
 
 

@@ -12,6 +12,7 @@ import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 import shapely
@@ -95,7 +96,9 @@ def cut(road: XRoad, limit: Limit) -> Iterator[Piece]:
         cuts |= {section.s + s for strip in section.strips.values() for s, _ in strip.speeds}
         inside = sorted(s for s in cuts if section.s <= s < end - AT_END and (s == section.s or s > section.s + AT_END))
         for a, b in zip(inside, [*inside[1:], end], strict=True):
-            speeds = {name: speed_of(road, section, strip, a, limit) for name, strip in section.strips.items() if is_used(section, strip, end)}
+            speeds = {
+                name: speed_of(road, section, strip, a, limit) for name, strip in section.strips.items() if is_used(section, strip, end)
+            }
             yield Piece(a, b, section, speeds)
 
 
@@ -135,7 +138,7 @@ def join(graph: Graph, spot, notes: Notes) -> None:
 def join_pieces(graph: Graph, road: XRoad) -> None:
     """The lanes of a road from piece to piece."""
     pieces = graph.pieces[road.id]
-    for k, (a, b) in enumerate(zip(pieces, pieces[1:], strict=False)):
+    for k, (a, b) in enumerate(pairwise(pieces)):
         if a.section is b.section:
             pairs = {(lane, lane) for lane in a.speeds}
         else:
@@ -215,7 +218,7 @@ def place(graph: Graph, road: XRoad, light: Light, spot, notes: Notes) -> None:
     """The stop lines of one light: where it stands, or, within a junction, before it."""
     x, y, _ = road.line.at(np.array([light.s]))[:, 0]
     graph.places.append(np.array([x, y]))
-    stopped = {atom for atom in guarded(graph, road, light)}
+    stopped = set(guarded(graph, road, light))
     if road.junction != "-1":
         stopped = {atom for lane in stopped for atom in led_from(graph, lane)}
     graph.stops |= stopped
@@ -436,7 +439,9 @@ def strip_line(road: str, piece: Piece, lane: int, along: Samples) -> tuple[np.n
     width = np.maximum(piece.section.strips[lane].width.at(s), 0.0)
     t = along.offset[within] + sign * (inner + 0.5 * width)
     if not (np.abs(t) <= FARTHEST).all():
-        raise MapError(f"road {road}: <lane> {lane} of the <laneSection> at s = {piece.section.s:g} lies more than {FARTHEST:g} m beside its road")
+        raise MapError(
+            f"road {road}: <lane> {lane} of the <laneSection> at s = {piece.section.s:g} lies more than {FARTHEST:g} m beside its road"
+        )
     return np.array([x - t * np.sin(heading), y + t * np.cos(heading)]), along.height[within], width
 
 
@@ -474,7 +479,9 @@ def junctions(graph: Graph, lanes: list[Lane], origin: dict[int, str]) -> Iterat
     for lane in lanes:
         junction = graph.document.roads[origin[lane.id]].junction
         if lane.internal and junction != "-1":
-            ways[junction].append(shapely.LineString(lane.centre.T).buffer(lane.width / 2.0, cap_style="flat", join_style="mitre", mitre_limit=2.0))
+            ways[junction].append(
+                shapely.LineString(lane.centre.T).buffer(lane.width / 2.0, cap_style="flat", join_style="mitre", mitre_limit=2.0)
+            )
     for junction in sorted(ways):
         form = shapely.union_all(ways[junction]).buffer(SEAM, quad_segs=2).buffer(-SEAM, quad_segs=2)
         for part in shapely.get_parts(form):

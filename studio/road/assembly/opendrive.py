@@ -30,14 +30,48 @@ LEAST_EASTING = 100_000.0  # [m] of a place in a UTM zone
 TRUE_SCALE = "+k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m"
 NEAR = 25.0  # [m] from a light to its stop line
 PLACES = {  # kinds of road, as OpenDRIVE names them, as `limit.Rules` names them
-    **{"motorway": "motorway", "rural": "rural", "townExpressway": "town", "town": "town", "townCollector": "town"},
-    **{"townArterial": "town", "townLocal": "town", "townPrivate": "living_street", "townPlayStreet": "living_street"},
-    **{"lowSpeed": "living_street", "pedestrian": "living_street", "bicycle": "living_street", "unknown": "town"},
+    "motorway": "motorway",
+    "rural": "rural",
+    "townExpressway": "town",
+    "town": "town",
+    "townCollector": "town",
+    "townArterial": "town",
+    "townLocal": "town",
+    "townPrivate": "living_street",
+    "townPlayStreet": "living_street",
+    "lowSpeed": "living_street",
+    "pedestrian": "living_street",
+    "bicycle": "living_street",
+    "unknown": "town",
 }
 ALPHA_3 = {  # ISO 3166-1, of the countries whose rules are known
-    **{"DEU": "DE", "AUT": "AT", "CHE": "CH", "FRA": "FR", "ITA": "IT", "ESP": "ES", "PRT": "PT", "NLD": "NL", "BEL": "BE"},
-    **{"POL": "PL", "CZE": "CZ", "DNK": "DK", "SWE": "SE", "NOR": "NO", "FIN": "FI", "IRL": "IE", "GBR": "GB", "USA": "US"},
-    **{"CAN": "CA", "AUS": "AU", "NZL": "NZ", "JPN": "JP", "KOR": "KR", "CHN": "CN", "IND": "IN", "SGP": "SG", "ZAF": "ZA"},
+    "DEU": "DE",
+    "AUT": "AT",
+    "CHE": "CH",
+    "FRA": "FR",
+    "ITA": "IT",
+    "ESP": "ES",
+    "PRT": "PT",
+    "NLD": "NL",
+    "BEL": "BE",
+    "POL": "PL",
+    "CZE": "CZ",
+    "DNK": "DK",
+    "SWE": "SE",
+    "NOR": "NO",
+    "FIN": "FI",
+    "IRL": "IE",
+    "GBR": "GB",
+    "USA": "US",
+    "CAN": "CA",
+    "AUS": "AU",
+    "NZL": "NZ",
+    "JPN": "JP",
+    "KOR": "KR",
+    "CHN": "CN",
+    "IND": "IN",
+    "SGP": "SG",
+    "ZAF": "ZA",
 }
 
 
@@ -119,7 +153,13 @@ def planned(found: Document) -> Plan:
     rules = Limits(found.roads, country, spot, notes)
     net, places = network_of(found, rules.of, spot, notes)
     if net.junctions:
-        notes.guess("right of way", "the higher limit first, equal ones by side", spot(next(iter(found.roads)), 0.0), source="limits of the roads", sure="low")
+        notes.guess(
+            "right of way",
+            "the higher limit first, equal ones by side",
+            spot(next(iter(found.roads)), 0.0),
+            source="limits of the roads",
+            sure="low",
+        )
     for each in found.remarks:
         notes.skip(each.kind, each.what, spot(each.road, each.s), each.reason)
     net, places = shifted(net, middle), [place - middle for place in places]
@@ -174,7 +214,8 @@ class Earth:
 
     def __init__(self, header: Header, middle: np.ndarray) -> None:
         self.shift, text, self.guess, self.known = header.shift, header.projection, "", bool(header.projection)
-        named = dict(part.lstrip("+").partition("=")[::2] for part in text.split()) if text.startswith("+") else {}
+        parts = [part.lstrip("+").partition("=") for part in text.split()] if text.startswith("+") else []
+        named = {name: value for name, _, value in parts}
         if {"lat_0", "lon_0"} <= set(named) and named.get("proj") == "utm" and middle[0] + self.shift[0] < LEAST_EASTING:
             text = f"+proj=tmerc +lat_0={named['lat_0']} +lon_0={named['lon_0']} {TRUE_SCALE}"
             self.guess = "lat_0 and lon_0 in the <geoReference> of a UTM zone"

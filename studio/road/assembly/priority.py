@@ -75,9 +75,7 @@ def ruled(net: Net, law: Law, connections: tuple[Connection, ...], lights: Signa
     """The connections with their right of way."""
     ground = Ground(net, law, connections, foes_of(net, connections, lights))
     first = [frozenset(j for j in ground.foes[i] if goes_first(ground, j, i)) for i in range(len(connections))]
-    return tuple(
-        replace(c, right_of_way=right_of(ground, i, first[i]), yields=tuple(sorted(first[i]))) for i, c in enumerate(connections)
-    )
+    return tuple(replace(c, right_of_way=right_of(ground, i, first[i]), yields=tuple(sorted(first[i]))) for i, c in enumerate(connections))
 
 
 def foes_of(net: Net, connections: tuple[Connection, ...], lights: Signals) -> list[frozenset[int]]:

@@ -59,13 +59,15 @@ def restrictions(relations, ways: Sequence[Way], box: Box) -> Iterator[Restricti
         named = {role: [(form, ref) for form, ref, part in members if part == role] for role in ("from", "via", "to")}
         over = tuple(ref for form, ref in named["via"] if form == "w")
         lone = len(named["from"]) == len(named["to"]) == 1 and named["via"]
-        if not (lone and kind.startswith(("no_", "only_")) and all(ref in by_id for ref in (named["from"][0][1], *over, named["to"][0][1]))):
+        if not (
+            lone and kind.startswith(("no_", "only_")) and all(ref in by_id for ref in (named["from"][0][1], *over, named["to"][0][1]))
+        ):
             continue
         chain = [by_id[named["from"][0][1]], *(by_id[way] for way in over), by_id[named["to"][0][1]]]
         nodes = [shared(chain[0], chain[1]), shared(chain[-2], chain[-1])] if over else [ref for _, ref in named["via"][:1]] * 2
-        places = [place_of(node, chain, box) for node in nodes]
-        if all(place is not None for place in places):
-            yield Restriction(number, kind, chain[0].id, over, chain[-1].id, *places)
+        entry, exit = (place_of(node, chain, box) for node in nodes)
+        if entry is not None and exit is not None:
+            yield Restriction(number, kind, chain[0].id, over, chain[-1].id, entry, exit)
 
 
 def shared(one: Way, other: Way) -> int | None:

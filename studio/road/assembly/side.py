@@ -7,14 +7,15 @@ import numpy as np
 from studio.portable import arctan2
 from studio.road.formats.country import Country
 from studio.road.formats.osm import Way
-from studio.road.network.report import DriveSide
+from studio.road.network.report import DriveSide, Side
 
+SIDES: tuple[Side, Side] = ("left", "right")
 ROUND = np.radians(60.0)  # [rad] a way that turns less tells nothing
 
 
 def drive_side(ways: list[Way], country: Country) -> DriveSide:
     """The side for a whole map: netconvert builds one side only."""
-    tagged = Counter(side for way in ways if (side := way.tags.get("driving_side")) in ("left", "right"))
+    tagged = Counter(side for way in ways for side in SIDES if way.tags.get("driving_side") == side)
     if tagged:
         side, count = tagged.most_common(1)[0]
         return DriveSide(side, f"driving_side={side} on {count} of {tagged.total()} ways that have the tag")
@@ -27,14 +28,14 @@ def drive_side(ways: list[Way], country: Country) -> DriveSide:
     return DriveSide(country.drives, country.name)
 
 
-def around(way: Way) -> str:
+def around(way: Way) -> Side | None:
     """The side that a roundabout's direction tells of: the island lies on the driver's left where one drives right."""
     if way.tags.get("junction") not in ("roundabout", "circular"):
-        return ""
+        return None
     turned = turning(way)
     if way.tags.get("oneway") == "-1":
         turned = -turned
-    return "" if abs(turned) < ROUND else "right" if turned > 0.0 else "left"
+    return None if abs(turned) < ROUND else "right" if turned > 0.0 else "left"
 
 
 def turning(way: Way) -> float:

@@ -27,8 +27,16 @@ from studio.road.network.report import Notes, TurnCount
 
 # [deg] to the left
 ANGLE = {
-    **{"reverse": 180.0, "sharp_left": 135.0, "left": 90.0, "slight_left": 45.0, "merge_to_left": 0.0, "through": 0.0},
-    **{"merge_to_right": 0.0, "slight_right": -45.0, "right": -90.0, "sharp_right": -135.0},
+    "reverse": 180.0,
+    "sharp_left": 135.0,
+    "left": 90.0,
+    "slight_left": 45.0,
+    "merge_to_left": 0.0,
+    "through": 0.0,
+    "merge_to_right": 0.0,
+    "slight_right": -45.0,
+    "right": -90.0,
+    "sharp_right": -135.0,
 }
 UNLIKE = 75.0  # [deg] an arrow and a turn that differ more do not belong together
 SHARED = 40.0  # [deg] what it costs that two arrows lead to one road
@@ -59,7 +67,10 @@ class Fork:
 def arrows(way: Way, *, forward: bool, left_hand: bool) -> Arrows | None:
     """The arrows of a way in one direction, the kerb lane first; None without a tag.
 
-    >>> arrows(Way(1, [], [], {"oneway": "yes", "turn:lanes": "left|through;right"}), forward=True, left_hand=False)[0] == {"through", "right"}
+    >>> arrows(Way(1, [], [], {"oneway": "yes", "turn:lanes": "left|through;right"}), forward=True, left_hand=False)[0] == {
+    ...     "through",
+    ...     "right",
+    ... }
     True
     """
     text = per_lane(way, "turn", forward=forward)
@@ -177,7 +188,7 @@ def besides(meant: dict[str, str], turns: dict[str, float]) -> dict[str, set[str
     also = defaultdict(set)
     for road, turn in turns.items():
         likeness = {arrow: abs(ANGLE[arrow] - turn) for arrow in meant}
-        nearest = min(likeness, key=likeness.get, default=None)
+        nearest = min(likeness, key=likeness.__getitem__, default=None)
         if road not in meant.values() and nearest is not None and likeness[nearest] < UNLIKE:
             also[nearest].add(road)
     return also
@@ -194,11 +205,11 @@ def turn_to(net: Net, road: str, following: str) -> float:
 
 def matched(names: set[str], turns: dict[str, float]) -> dict[str, str]:
     """The road that each arrow means: in order from left to right, with the least difference of angles."""
-    names = sorted(names, key=lambda name: (-ANGLE[name], name))
+    arrows = sorted(names, key=lambda name: (-ANGLE[name], name))
     roads = sorted(turns, key=lambda road: -turns[road])
-    options = itertools.combinations_with_replacement(range(len(roads)), len(names))
-    best = min(options, key=lambda option: unlikeness(names, [roads[i] for i in option], turns), default=())
-    pairs = zip(names, (roads[i] for i in best), strict=True)
+    options = itertools.combinations_with_replacement(range(len(roads)), len(arrows))
+    best = min(options, key=lambda option: unlikeness(arrows, [roads[i] for i in option], turns), default=())
+    pairs = zip(arrows, (roads[i] for i in best), strict=True)
     return {name: road for name, road in pairs if abs(ANGLE[name] - turns[road]) < UNLIKE}
 
 

@@ -5,6 +5,8 @@ then out again or round once more. The slab above is left out, so that one sees 
 recommendations for parking places (EAR 05): spaces of 5.00 m by 2.50 m, aisles of 6.00 m.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from studio.road.drawn.drawing import Drawing
@@ -40,7 +42,7 @@ def deck() -> Drawing:
 def ways(plan: Drawing) -> None:
     """The street, the ways in and out, and the loop."""
     corners = [(STREET, y) for y in (-ARM, -RADIUS, RADIUS, ARM)]
-    for start, end in zip(corners, corners[1:], strict=False):
+    for start, end in pairwise(corners):
         plan.way([start, end], highway="residential", maxspeed="30", lanes="2", name="Deckstraße")
     start, end = -ROW / 2.0, ROW / 2.0
     plan.way([(STREET, -RADIUS), (-END, -RADIUS), (start, -RADIUS)], **WALKING, service="driveway")

@@ -14,6 +14,7 @@ from studio.errors import MapError
 from studio.road.formats.osm import GENERATOR, Box, element, tags
 
 Point = tuple[float, float]
+Place = Sequence[float] | np.ndarray
 MIDDLE = (52.0, 10.0)  # [deg] where drawn places lie: in Germany, where one drives on the right
 
 
@@ -27,18 +28,18 @@ class Drawing:
         self.numbers: dict[Point, int] = {}
         self.ways: list[tuple[list[Point], dict[str, str]]] = []
 
-    def node(self, place: Sequence[float], **text: str) -> Point:
+    def node(self, place: Place, **text: str) -> Point:
         """A point with these tags; a point that is there already gets them too."""
         key = (round(float(place[0]), 3) + 0.0, round(float(place[1]), 3) + 0.0)
         self.numbers.setdefault(key, len(self.numbers) + 1)
         self.nodes.setdefault(key, {}).update(named(text))
         return key
 
-    def way(self, places: Sequence[Sequence[float]], **text: str) -> None:
+    def way(self, places: Sequence[Place], **text: str) -> None:
         """A line through places."""
         self.ways.append(([self.node(place) for place in places], named(text)))
 
-    def area(self, places: Sequence[Sequence[float]], **text: str) -> None:
+    def area(self, places: Sequence[Place], **text: str) -> None:
         """The area within a ring of places."""
         self.way([*places, places[0]], **text)
 
@@ -53,9 +54,13 @@ class Drawing:
         box = {"minlat": self.box.south, "minlon": self.box.west, "maxlat": self.box.north, "maxlon": self.box.east}
         lines += element("bounds", {name: f"{value:.7f}" for name, value in box.items()}, [])
         for (place, text), (longitude, latitude) in zip(self.nodes.items(), degrees, strict=True):
-            lines += element("node", {"id": self.numbers[place], "version": 1, "lat": f"{latitude:.9f}", "lon": f"{longitude:.9f}"}, tags(text))
+            lines += element(
+                "node", {"id": self.numbers[place], "version": 1, "lat": f"{latitude:.9f}", "lon": f"{longitude:.9f}"}, tags(text)
+            )
         for number, (places, text) in enumerate(self.ways, start=1):
-            lines += element("way", {"id": number, "version": 1}, [*(f'<nd ref="{self.numbers[place]}"/>' for place in places), *tags(text)])
+            lines += element(
+                "way", {"id": number, "version": 1}, [*(f'<nd ref="{self.numbers[place]}"/>' for place in places), *tags(text)]
+            )
         return "\n".join([*lines, "</osm>", ""])
 
     def write(self, path: Path) -> None:
@@ -74,4 +79,4 @@ class Drawing:
 
 def named(text: dict[str, str]) -> dict[str, str]:
     """Tags with their real names."""
-    return {key.replace("__", ":"): str(value) for key, value in text.items()}
+    return {key.replace("__", ":"): value for key, value in text.items()}

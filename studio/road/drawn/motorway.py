@@ -8,6 +8,8 @@ v²/R = 1.45 m/s². Crests and sags are parabolas of its least radii, 13 000 and
 import itertools
 from collections.abc import Iterator
 
+import numpy as np
+
 from studio.errors import MapError, Problem
 from studio.road.formats.reference_line import Bend
 
@@ -104,7 +106,7 @@ def cut(shapes: Iterator[tuple[float, float, float]], length: float) -> Iterator
         s += left
         if s >= length - 1e-6:
             return
-        x, y, heading = bend.at([left])[:, 0].tolist()
+        x, y, heading = bend.at(np.array([left]))[:, 0].tolist()
         x, y = round(x, PLACES), round(y, PLACES)
 
 

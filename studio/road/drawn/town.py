@@ -9,6 +9,7 @@ Columns count from west to east, rows from south to north. Nothing is left to ch
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -93,21 +94,30 @@ class Crossing:
         return "|".join([*["left"] * left, *through, *["right"] * right])
 
 
+End = tuple[np.ndarray, Crossing | None]  # of a stretch: its place, and the crossing there
+
+
+def heading_of(way: np.ndarray) -> tuple[int, int]:
+    """The direction of a way along an axis, as one step."""
+    x, y = np.sign(way)
+    return int(x), int(y)
+
+
 def street(plan: Drawing, kind: str, name: str, stations: list[tuple[int, int]]) -> None:
     """One street from end to end, with its arms beyond the last crossings."""
     first, last = place(*stations[0]), place(*stations[-1])
-    ahead = tuple(int(step) for step in np.sign(last - first))
+    ahead = heading_of(last - first)
     step = np.array(ahead)
-    ends = [(place(*station), Crossing(*station)) for station in stations]
+    ends: list[End] = [(place(*station), Crossing(*station)) for station in stations]
     if kind != "quiet" or stations[0] == ROUNDABOUT:
         ends.insert(0, (first - ARM * step, None))
     if kind != "quiet":
         ends.append((last + ARM * step, None))
-    for (a, start), (b, end) in zip(ends, ends[1:], strict=False):
-        stretch(plan, kind, name, (a, start), (b, end), ahead)
+    for start, end in pairwise(ends):
+        stretch(plan, kind, name, start, end, ahead)
 
 
-def stretch(plan: Drawing, kind: str, name: str, start, end, ahead: tuple[int, int]) -> None:
+def stretch(plan: Drawing, kind: str, name: str, start: End, end: End, ahead: tuple[int, int]) -> None:
     """A street from one crossing to the next; a main street has lanes for turns before the lights."""
     (a, at_start), (b, at_end) = start, end
     length, step = float(np.abs(b - a).sum()), np.array(ahead)
@@ -118,7 +128,7 @@ def stretch(plan: Drawing, kind: str, name: str, start, end, ahead: tuple[int, i
     stops ^= {0.0, RING} if at_start and (at_start.column, at_start.row) == ROUNDABOUT else set()
     stops ^= {length, length - RING} if at_end and (at_end.column, at_end.row) == ROUNDABOUT else set()
     cuts = sorted(stops & {0.0, length, RING, length - RING, *((POCKET, length - POCKET) if kind == "main" else ())})
-    for low, high in zip(cuts, cuts[1:], strict=False):
+    for low, high in pairwise(cuts):
         places = [a + s * step for s in sorted(stops) if low <= s <= high]
         arriving = at_end.turns(ahead) if kind == "main" and at_end and at_end.signalled and high == length else ""
         back = (-ahead[0], -ahead[1])
@@ -161,7 +171,7 @@ def signals(plan: Drawing, kind: str, crossing: Crossing | None, at: np.ndarray,
     if crossing is None or not crossing.signalled:
         return
     plan.node(at, highway="traffic_signals")
-    walked = at + (crossing.half(tuple(int(step) for step in inward)) + 2.0) * inward
+    walked = at + (crossing.half(heading_of(inward)) + 2.0) * inward
     plan.node(walked, highway="crossing", crossing="traffic_signals")
 
 

@@ -81,7 +81,9 @@ class Corrector:
         for element, one in self.wanted.items():
             if element not in self.met:
                 spot = Spot(element, place[1], place[0], element)
-                self.notes.skip("correction", text(one.tags, one.removed), spot, "the map has no such element; a bare node must lie on a road")
+                self.notes.skip(
+                    "correction", text(one.tags, one.removed), spot, "the map has no such element; a bare node must lie on a road"
+                )
 
 
 class Retagged:
@@ -120,5 +122,3 @@ def text(tags: dict[str, str], removed: Iterable[str]) -> str:
     'lanes=2, no width'
     """
     return ", ".join([*(f"{key}={value}" for key, value in tags.items()), *(f"no {key}" for key in removed)])
-
-

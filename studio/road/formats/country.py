@@ -12,6 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
+
+from studio.road.network.report import Side
 
 BORDERS = Path(__file__).with_name("countries.json.gz")
 NEAR_BORDER = 0.3  # [deg] about 30 km: twice what simplifying moves a border
@@ -20,15 +23,15 @@ AT_SEA = 2.0  # [deg] farther from all land than this, a place belongs to nobody
 
 @dataclass(frozen=True)
 class Country:
-    """The country of a place: its name, "left" or "right", and whether no border to the other side is near."""
+    """The country of a place: its name, the side one drives on, and whether no border to the other side is near."""
 
     name: str
-    drives: str
+    drives: Side
     certain: bool
 
 
 @cache
-def borders() -> tuple[list[str], list[str], np.ndarray]:
+def borders() -> tuple[list[str], list[Side], np.ndarray]:
     """Names, sides and areas (longitude, latitude) [deg] of all countries."""
     with gzip.open(BORDERS) as file:
         countries = json.load(file)["countries"]
@@ -36,7 +39,7 @@ def borders() -> tuple[list[str], list[str], np.ndarray]:
     return [each["name"] for each in countries], [each["drives"] for each in countries], np.array(areas)
 
 
-def area(rings: list) -> shapely.Geometry:
+def area(rings: list) -> BaseGeometry:
     """One area with its holes; simplifying can have made a ring cross itself."""
     return shapely.make_valid(shapely.Polygon(rings[0], rings[1:]))
 

@@ -14,13 +14,23 @@ GREEN = {
 INSIDE = {"underground", "multi-storey", "rooftop", "garage_boxes", "sheds", "carports"}  # of something; no ground to see
 # height and thickness [m] of what stands along a line, where no height is mapped
 BARRIERS = {
-    **{"wall": (1.8, 0.25), "city_wall": (5.0, 1.0), "retaining_wall": (1.0, 0.3), "fence": (1.4, 0.06)},
-    **{"hedge": (1.3, 0.7), "guard_rail": (0.75, 0.2), "jersey_barrier": (0.8, 0.5), "handrail": (1.0, 0.05)},
+    "wall": (1.8, 0.25),
+    "city_wall": (5.0, 1.0),
+    "retaining_wall": (1.0, 0.3),
+    "fence": (1.4, 0.06),
+    "hedge": (1.3, 0.7),
+    "guard_rail": (0.75, 0.2),
+    "jersey_barrier": (0.8, 0.5),
+    "handrail": (1.0, 0.05),
 }
 # height and thickness [m] of what stands at a point
 POSTS = {
-    **{"bollard": (0.9, 0.16), "block": (0.5, 0.6), "lamp": (6.5, 0.14), "flagpole": (8.0, 0.12), "mast": (12.0, 0.3)},
-    **{"pole": (9.0, 0.25)},
+    "bollard": (0.9, 0.16),
+    "block": (0.5, 0.6),
+    "lamp": (6.5, 0.14),
+    "flagpole": (8.0, 0.12),
+    "mast": (12.0, 0.3),
+    "pole": (9.0, 0.25),
 }
 OPENINGS = {"gate", "lift_gate", "swing_gate", "entrance", "cycle_barrier", "toll_booth", "sally_port", "height_restrictor"}
 STRIPED, RULED = ("zebra", "ladder"), ("lines", "dashes", "dots")  # how values of crossing:markings begin

@@ -65,15 +65,44 @@ RULES = {
 }
 # the two letters before a zone's name, as in maxspeed=DE:urban
 CODES = {
-    **{"DE": "Germany", "AT": "Austria", "CH": "Switzerland", "FR": "France", "IT": "Italy", "ES": "Spain"},
-    **{"PT": "Portugal", "NL": "Netherlands", "BE": "Belgium", "PL": "Poland", "CZ": "Czechia", "DK": "Denmark"},
-    **{"SE": "Sweden", "NO": "Norway", "FI": "Finland", "IE": "Ireland", "GB": "United Kingdom", "UK": "United Kingdom"},
-    **{"US": "United States of America", "CA": "Canada", "AU": "Australia", "NZ": "New Zealand", "JP": "Japan"},
-    **{"KR": "South Korea", "CN": "China", "IN": "India", "SG": "Singapore", "ZA": "South Africa"},
+    "DE": "Germany",
+    "AT": "Austria",
+    "CH": "Switzerland",
+    "FR": "France",
+    "IT": "Italy",
+    "ES": "Spain",
+    "PT": "Portugal",
+    "NL": "Netherlands",
+    "BE": "Belgium",
+    "PL": "Poland",
+    "CZ": "Czechia",
+    "DK": "Denmark",
+    "SE": "Sweden",
+    "NO": "Norway",
+    "FI": "Finland",
+    "IE": "Ireland",
+    "GB": "United Kingdom",
+    "UK": "United Kingdom",
+    "US": "United States of America",
+    "CA": "Canada",
+    "AU": "Australia",
+    "NZ": "New Zealand",
+    "JP": "Japan",
+    "KR": "South Korea",
+    "CN": "China",
+    "IN": "India",
+    "SG": "Singapore",
+    "ZA": "South Africa",
 }
 ZONES = {
-    **{"urban": "town", "rural": "rural", "trunk": "rural", "motorway": "motorway"},
-    **{"living_street": "living_street", "nsl_restricted": "town", "nsl_single": "rural", "nsl_dual": "motorway"},
+    "urban": "town",
+    "rural": "rural",
+    "trunk": "rural",
+    "motorway": "motorway",
+    "living_street": "living_street",
+    "nsl_restricted": "town",
+    "nsl_single": "rural",
+    "nsl_dual": "motorway",
 }
 ZONE_KEYS = ("maxspeed:type", "source:maxspeed", "zone:maxspeed", "zone:traffic")
 KEYS = ("maxspeed", "maxspeed:forward", "maxspeed:backward")
@@ -125,7 +154,9 @@ def limited(way: Way, country: str, notes: Notes) -> Way:
     others = {key: value for key, value in way.tags.items() if key not in KEYS}
     mapped = dict(readable(way, notes))
     if "maxspeed:conditional" in way.tags:
-        notes.skip("limit at times", f"maxspeed:conditional={way.tags['maxspeed:conditional']}", spot_of(way), "limits do not change with time")
+        notes.skip(
+            "limit at times", f"maxspeed:conditional={way.tags['maxspeed:conditional']}", spot_of(way), "limits do not change with time"
+        )
     zone = next((limit for key in ZONE_KEYS if (limit := kilometres_per_hour(way.tags.get(key, "")))), None)
     if "maxspeed" not in mapped and zone is not None:
         mapped["maxspeed"] = zone

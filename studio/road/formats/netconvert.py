@@ -34,8 +34,13 @@ OPTIONS = (
     *("--offset.disable-normalization", "true", "--xml-validation", "never", "--precision", "3"),
 )
 DIRECTIONS = {
-    **{"s": "straight", "l": "left", "r": "right", "L": "slight_left", "R": "slight_right"},
-    **{"t": "turn", "T": "turn"},
+    "s": "straight",
+    "l": "left",
+    "r": "right",
+    "L": "slight_left",
+    "R": "slight_right",
+    "t": "turn",
+    "T": "turn",
 }
 
 
@@ -65,13 +70,9 @@ def run(source: Path, target: Path, projection: str, *, left_hand: bool) -> None
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=PATIENCE)
     except subprocess.TimeoutExpired:
-        raise MapError(
-            f"the map took longer than {PATIENCE:.0f} s to import; cut out a smaller place"
-        ) from None
+        raise MapError(f"the map took longer than {PATIENCE:.0f} s to import; cut out a smaller place") from None
     if done.returncode or not target.exists():
-        reason = next(
-            (line for line in done.stderr.splitlines() if line.startswith("Error")), "no reason given"
-        )
+        reason = next((line for line in done.stderr.splitlines() if line.startswith("Error")), "no reason given")
         raise MapError(f"the roads of the map cannot be built: {reason}")
 
 
@@ -83,9 +84,9 @@ def parse(root: ElementTree.Element) -> Net:
     named = {(lane.road, lane.index): lane.id for lane in lanes}
     steps = [Step.read(element, named, roads) for element in root.iter("connection")]
     signalled = frozenset(step.start for step in steps if step.signalled)
-    junctions = tuple(shape(element.get("shape")) for element in root.iter("junction") if is_surface(element))
+    junctions = tuple(shape(element.attrib["shape"]) for element in root.iter("junction") if is_surface(element))
     made = connections(steps, lanes)
-    equal = frozenset(junction.get("id") for junction in root.iter("junction") if junction.get("type") == "right_before_left")
+    equal = frozenset(junction.attrib["id"] for junction in root.iter("junction") if junction.get("type") == "right_before_left")
     rings = frozenset(road for ring in root.iter("roundabout") for road in ring.get("edges", "").split())
     return Net(tuple(lanes), roads, made, junctions, signalled, origins(root), yields(root, named, made, lanes), equal, rings)
 
@@ -96,10 +97,10 @@ def yields(root: ElementTree.Element, named: dict, made: tuple[Connection, ...],
     over = {via: (lanes[c.from_lane].road, lanes[c.to_lane].road) for c in made for via in c.via}
     found = defaultdict(frozenset)
     for junction in root.iter("junction"):
-        pairs = [over.get(named.get(tuple_of(lane))) for lane in (junction.get("intLanes") or "").split()]
+        pairs = [over.get(named.get(tuple_of(lane), -1)) for lane in (junction.get("intLanes") or "").split()]
         for request in junction.iter("request"):
-            own = pairs[int(request.get("index"))]
-            first = {pair for pair, bit in zip(pairs, reversed(request.get("response")), strict=False) if bit == "1" and pair}
+            own = pairs[int(request.attrib["index"])]
+            first = {pair for pair, bit in zip(pairs, reversed(request.attrib["response"]), strict=False) if bit == "1" and pair}
             if own is not None:
                 found[own] |= first - {own}
     return dict(found)
@@ -110,7 +111,7 @@ def origins(root: ElementTree.Element) -> dict[str, tuple[int, ...]]:
     found = {}
     for edge in root.iter("edge"):
         names = [param.get("value", "") for param in edge.iter("param") if param.get("key") == "origId"]
-        found[edge.get("id")] = tuple(dict.fromkeys(int(name) for text in names for name in text.split()))
+        found[edge.attrib["id"]] = tuple(dict.fromkeys(int(name) for text in names for name in text.split()))
     return found
 
 
@@ -119,7 +120,7 @@ def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Roa
     if edge.get("function") not in (None, "normal", "internal"):
         return
     internal = edge.get("function") == "internal"
-    name, first = edge.get("id"), len(lanes)
+    name, first = edge.attrib["id"], len(lanes)
     for element in edge.iter("lane"):
         lanes.append(read_lane(element, len(lanes), name, internal=internal))
     own = lanes[first:]
@@ -138,13 +139,13 @@ def read_edge(edge: ElementTree.Element, lanes: list[Lane], roads: dict[str, Roa
 
 def read_lane(element: ElementTree.Element, number: int, road: str, *, internal: bool) -> Lane:
     """The lane of one `<lane>`."""
-    centre = shape(element.get("shape"))
+    centre = shape(element.attrib["shape"])
     return Lane(
         id=number,
         road=road,
-        index=int(element.get("index")),
+        index=int(element.attrib["index"]),
         width=float(element.get("width", DEFAULT_LANE_WIDTH)),
-        speed=float(element.get("speed")),
+        speed=float(element.attrib["speed"]),
         centre=centre,
         internal=internal,
         length=curve.length(centre),
@@ -154,8 +155,9 @@ def read_lane(element: ElementTree.Element, number: int, road: str, *, internal:
 
 def is_open(lane: ElementTree.Element) -> bool:
     """Whether cars may use a lane; `allow` and `disallow` name classes of vehicles."""
-    if lane.get("allow") is not None:
-        return bool({"passenger", "all"} & set(lane.get("allow").split()))
+    allowed = lane.get("allow")
+    if allowed is not None:
+        return bool({"passenger", "all"} & set(allowed.split()))
     return not {"passenger", "all"} & set(lane.get("disallow", "").split())
 
 
@@ -187,11 +189,11 @@ class Step:
         """The step that one `<connection>` tells of."""
         via = element.get("via")
         return cls(
-            start=named[element.get("from"), int(element.get("fromLane"))],
-            end=named[element.get("to"), int(element.get("toLane"))],
+            start=named[element.attrib["from"], int(element.attrib["fromLane"])],
+            end=named[element.attrib["to"], int(element.attrib["toLane"])],
             via=-1 if via is None else named[tuple_of(via)],
             signalled=element.get("tl") is not None,
-            direction=DIRECTIONS.get(element.get("dir"), "straight"),
+            direction=DIRECTIONS.get(element.get("dir", ""), "straight"),
         )
 
 
@@ -205,16 +207,14 @@ def connections(steps: list[Step], lanes: list[Lane]) -> tuple[Connection, ...]:
     """One connection for every way from a road's lane to the next road's lane; `link` is filled in by the signals."""
     onward = {step.start: step for step in steps if lanes[step.start].internal}
     return tuple(
-        Connection(step.start, step.end, chain(step, onward), -1, step.direction)
-        for step in steps
-        if not lanes[step.start].internal
+        Connection(step.start, step.end, chain(step, onward), -1, step.direction) for step in steps if not lanes[step.start].internal
     )
 
 
 def chain(step: Step, onward: dict[int, Step]) -> tuple[int, ...]:
     """The internal lanes of a connection in order; netconvert cuts them where a waiting car stops."""
-    via = []
-    while step is not None and step.via >= 0:
-        via.append(step.via)
-        step = onward.get(step.via)
+    via, here = [], step
+    while here is not None and here.via >= 0:
+        via.append(here.via)
+        here = onward.get(here.via)
     return tuple(via)

@@ -10,9 +10,10 @@ import tempfile
 import threading
 import zlib
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -243,9 +244,7 @@ def check_xml(path: Path, data: bytes) -> None:
     if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         raise MapError(f"{path}: this is not an OpenStreetMap XML file")
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
-        raise MapError(
-            f"{path}: XML with a document type or entities is refused; export the map again without them"
-        )
+        raise MapError(f"{path}: XML with a document type or entities is refused; export the map again without them")
 
 
 # -- the survey ------------------------------------------------------------------------------------
@@ -407,7 +406,7 @@ def note_way(found: Survey, way) -> None:
 def way_of(way, nodes: list, known: list[int]) -> Way:
     """A way with those of its nodes that are known."""
     points = [(nodes[i].lon, nodes[i].lat) for i in known]
-    gaps = frozenset(k for k, (i, j) in enumerate(zip(known, known[1:], strict=False)) if j > i + 1)
+    gaps = frozenset(k for k, (i, j) in enumerate(pairwise(known)) if j > i + 1)
     return Way(way.id, [nodes[i].ref for i in known], points, dict(way.tags), gaps)
 
 
@@ -505,7 +504,7 @@ def core_box(places: list[tuple[float, float]]) -> Box:
     return Box(float(south), float(west), float(north), float(east))
 
 
-def cut(way: Way, box: Box, new_id: Iterable[int]) -> list[Way]:
+def cut(way: Way, box: Box, new_id: Iterator[int]) -> list[Way]:
     """The pieces of a way inside the box; where it crosses the border, a new node ends it."""
     pieces, nodes, points = [], [], []
     for i in range(len(way.nodes) - 1):
@@ -527,7 +526,7 @@ def cut(way: Way, box: Box, new_id: Iterable[int]) -> list[Way]:
         pieces.append((nodes, points))
     ids = [way.id, *(next(new_id) for _ in pieces[1:])]
     parts = [way.part_of, *(way.mapped for _ in pieces[1:])]
-    return [Way(name, *piece, way.tags, part_of=part) for name, part, piece in zip(ids, parts, pieces, strict=False)]
+    return [Way(name, nodes, points, way.tags, part_of=part) for name, part, (nodes, points) in zip(ids, parts, pieces, strict=False)]
 
 
 def visible(a: tuple[float, float], b: tuple[float, float], box: Box) -> tuple[float, float] | None:

@@ -72,9 +72,7 @@ def relation_element(relation: dict) -> ElementTree.Element:
     """A `<relation>`."""
     element = ElementTree.Element("relation", id=str(int(relation["id"])), version="1")
     for member in relation.get("members", []):
-        ElementTree.SubElement(
-            element, "member", type=str(member["type"]), ref=str(int(member["ref"])), role=str(member.get("role", ""))
-        )
+        ElementTree.SubElement(element, "member", type=str(member["type"]), ref=str(int(member["ref"])), role=str(member.get("role", "")))
     return tagged(element, relation)
 
 

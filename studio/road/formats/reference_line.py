@@ -103,7 +103,7 @@ class Cubic:
 
 def weighted(values: np.ndarray) -> np.ndarray:
     """Mean over the places of Gauss, float64[place, n]; their sum is written out, since BLAS sums in another order elsewhere."""
-    return sum(weight * value for weight, value in zip(WEIGHTS, values, strict=True))
+    return sum((weight * value for weight, value in zip(WEIGHTS, values, strict=True)), start=np.zeros(values.shape[1:]))
 
 
 def cubic(k, p):

@@ -191,7 +191,8 @@ def document(data: bytes) -> Document:
     root = parse(data)
     if root.tag != "OpenDRIVE":
         raise MapError(f"this is not OpenDRIVE: its root element is <{root.tag}>, not <OpenDRIVE>")
-    version = root.find("header").get("revMajor", "1") if root.find("header") is not None else "1"
+    head = root.find("header")
+    version = "1" if head is None else head.get("revMajor", "1")
     if version != "1":
         raise MapError(f"<header>: revMajor {version!r} cannot be read; allowed: 1")
     lights = frozenset(each.get("id") or "" for each in root.iter("signal") if is_car_light(each))
@@ -226,8 +227,8 @@ def number(element: Element, name: str, where: str, default: float | None = None
     if text is None and default is not None:
         return default
     try:
-        value = float(text)
-    except (TypeError, ValueError):
+        value = math.nan if text is None else float(text)
+    except ValueError:
         value = math.nan
     if not abs(value) <= LARGEST:
         what = "is missing" if text is None else f"is no number that a road has (got {text[:40]!r})"
@@ -292,25 +293,28 @@ def read_line(element: Element, where: str) -> ReferenceLine:
 
 def read_geometry(element: Element, where: str) -> Bend | Cubic:
     """One element of a plan view."""
-    at = [number(element, name, where) for name in ("s", "x", "y", "hdg", "length")]
-    where = f"{where}, <geometry> at s = {at[0]:g}"
-    if not 0.0 < at[4] <= LONGEST_ROAD:
-        raise MapError(f"{where}: length is {at[4]:g} m; allowed: above 0, up to {LONGEST_ROAD:g} m")
+    s, x, y, heading, length = (number(element, name, where) for name in ("s", "x", "y", "hdg", "length"))
+    at = (s, x, y, heading, length)
+    where = f"{where}, <geometry> at s = {s:g}"
+    if not 0.0 < length <= LONGEST_ROAD:
+        raise MapError(f"{where}: length is {length:g} m; allowed: above 0, up to {LONGEST_ROAD:g} m")
     shapes = [each for each in element if each.tag != "userData"]
     shape = shapes[0] if shapes else Element("none")
     if shape.tag == "line":
         return Bend(*at, 0.0, 0.0)
     if shape.tag == "arc":
-        return Bend(*at, *[turning(number(shape, "curvature", where), at[4], where)] * 2)
+        bent = turning(number(shape, "curvature", where), length, where)
+        return Bend(*at, bent, bent)
     if shape.tag == "spiral":
-        return Bend(*at, *(turning(number(shape, name, where), at[4], where) for name in ("curvStart", "curvEnd")))
+        start, end = (turning(number(shape, name, where), length, where) for name in ("curvStart", "curvEnd"))
+        return Bend(*at, start, end)
     if shape.tag == "poly3":
         return Cubic(*at, (0.0, 1.0, 0.0, 0.0), coefficients(shape, "abcd", where), by_arc=True)
     if shape.tag == "paramPoly3":
         u, v = (coefficients(shape, [f"{letter}{axis}" for letter in "abcd"], where) for axis in "UV")
         if not any(u[1:]) and not any(v[1:]):
             raise MapError(f"{where}: <paramPoly3> is a point")
-        return Cubic(*at, u, v, rate=1.0 if shape.get("pRange") == "arcLength" else 1.0 / at[4])
+        return Cubic(*at, u, v, rate=1.0 if shape.get("pRange") == "arcLength" else 1.0 / length)
     raise MapError(f"{where}: <{shape.tag}> is no known geometry; allowed: line, arc, spiral, poly3, paramPoly3")
 
 
@@ -354,7 +358,7 @@ def read_link(element: Element | None, where: str) -> Link | None:
     if element is None:
         return None
     kind, contact = element.get("elementType") or "road", element.get("contactPoint") or ""
-    if kind not in ("road", "junction") or kind == "road" and contact not in ("start", "end"):
+    if kind not in ("road", "junction") or (kind == "road" and contact not in ("start", "end")):
         raise MapError(f"{where}: <{element.tag}> names no road with contactPoint start or end, and no junction")
     return Link(kind, element.get("elementId") or "", contact)
 
@@ -412,7 +416,7 @@ def read_sections(element: Element, length: float, road: str, found: Document) -
     for each in sections:
         s = number(each, "s", f"road {road}")
         where = f"road {road}, <laneSection> at s = {s:g}"
-        if s <= last or not 0.0 <= s:
+        if s <= last or not s >= 0.0:
             raise MapError(f"{where}: lane sections must begin one behind another, from s = 0 on")
         last = s
         if s < length - 1e-6:

@@ -69,9 +69,7 @@ Told = Callable[[str], None]
 
 def servers(overpass: str | None = None, search: str | None = None) -> Servers:
     """The servers that are named, else those of STUDIO_OVERPASS and STUDIO_NOMINATIM, else the public ones; raises MapError."""
-    chosen = Servers(
-        overpass or os.environ.get("STUDIO_OVERPASS") or OVERPASS, search or os.environ.get("STUDIO_NOMINATIM") or SEARCH
-    )
+    chosen = Servers(overpass or os.environ.get("STUDIO_OVERPASS") or OVERPASS, search or os.environ.get("STUDIO_NOMINATIM") or SEARCH)
     for address in (chosen.overpass, chosen.search):
         if urlsplit(address).scheme not in ("http", "https") or not urlsplit(address).hostname:
             problem = Problem("address", "is none", address, "http:// or https://", "see --overpass, --search and the environment")
@@ -82,9 +80,7 @@ def servers(overpass: str | None = None, search: str | None = None) -> Servers:
 # -- a map for a box -------------------------------------------------------------------------------
 
 
-def download(
-    box: Box, target: Path, *, by: Servers, patience: Patience = Patience(), progress: Told = lambda text: None
-) -> None:
+def download(box: Box, target: Path, *, by: Servers, patience: Patience = Patience(), progress: Told = lambda text: None) -> None:
     """Writes what an Overpass server has of a box into a file, as the server's JSON.
 
     Raises:

@@ -1,9 +1,9 @@
 """An imported place as a folder: the map it was made of, the network as plain JSON, and the report.
 
-    map.osm, map.osm.gz, map.osm.pbf, map.json, map.xodr   the map as it came; `load` of the folder starts from it
-    network.json.gz     lanes, roads, connections and signals in local metres, for other programs
-    report.json         what was found, guessed and skipped, the part that was kept, the attribution
-    corrections.json    what a user knows better than the map; outlives every import into this folder
+map.osm, map.osm.gz, map.osm.pbf, map.json, map.xodr   the map as it came; `load` of the folder starts from it
+network.json.gz     lanes, roads, connections and signals in local metres, for other programs
+report.json         what was found, guessed and skipped, the part that was kept, the attribution
+corrections.json    what a user knows better than the map; outlives every import into this folder
 """
 
 import gzip
@@ -121,7 +121,8 @@ def network_json(network: Network) -> dict[str, Any]:
         "datum": list(network.datum),
         "lanes": [
             {"id": each.id, "road": each.road, "index": each.index, "width": each.width, "speed": each.speed,
-             "internal": each.internal, "centre": points(each.centre), "height": np.round(each.height, 3).tolist()} for each in network.lanes
+             "internal": each.internal, "centre": points(each.centre), "height": np.round(each.height, 3).tolist()}
+            for each in network.lanes
         ],
         "roads": [
             {"id": each.id, "name": each.name, "lanes": list(each.lanes), "internal": each.internal, "ways": list(each.ways)}

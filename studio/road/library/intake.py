@@ -127,7 +127,5 @@ def again(
     check(network)
     progress("writing the folder")
     commit()
-    folder.write(
-        network, found.map, out, bbox=found.bbox, parking_aisles=found.parking_aisles, corrections=corrections, made_of=found
-    )
+    folder.write(network, found.map, out, bbox=found.bbox, parking_aisles=found.parking_aisles, corrections=corrections, made_of=found)
     return replace(network, name=found.name)

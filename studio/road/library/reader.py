@@ -1,10 +1,10 @@
 """The readers: every kind of map has one, a file of this room with
 
-    ENDINGS                            of its files
-    attribution(path), licence(path)   who made the map, and what others may do with it
-    read(path)                         the content of a file, checked
-    part(path, wish)                   the part that is asked for, by its value
-    plan(path, data, part, progress)   lanes, scenery and signals of that part
+ENDINGS                            of its files
+attribution(path), licence(path)   who made the map, and what others may do with it
+read(path)                         the content of a file, checked
+part(path, wish)                   the part that is asked for, by its value
+plan(path, data, part, progress)   lanes, scenery and signals of that part
 """
 
 from pathlib import Path

@@ -40,14 +40,12 @@ def correction(element: str, tags: dict[str, str], removed: Iterable[str] = ()) 
 
 def from_json(value: Any) -> Correction:
     """A correction as it stands in corrections.json; raises MapError."""
-    try:
-        tags, removed = value["tags"], value["removed"]
-        is_sound = isinstance(tags, dict) and isinstance(removed, list) and isinstance(value["element"], str)
-    except (KeyError, TypeError):
-        is_sound = False
+    given = value if isinstance(value, dict) else {}
+    element, tags, removed = given.get("element"), given.get("tags"), given.get("removed")
+    is_sound = isinstance(element, str) and isinstance(tags, dict) and isinstance(removed, list)
     if not is_sound or not all(isinstance(each, str) for each in (*tags, *tags.values(), *removed)):
         raise MapError("The correction cannot be made.", [Problem("correction", "is none", repr(value)[:80], "element, tags, removed")])
-    return correction(value["element"], tags, removed)
+    return correction(element, tags, removed)
 
 
 # -- what is wrong -----------------------------------------------------------------------------------
@@ -142,6 +140,8 @@ CHECKS: dict[str, Check] = {
     **dict.fromkeys(("maxspeed", "maxspeed:forward", "maxspeed:backward"), LIMIT),
     **dict.fromkeys(("turn:lanes", "turn:lanes:forward", "turn:lanes:backward"), ARROWS),
     **dict.fromkeys(("height", "min_height"), HEIGHT),
-    **{"width": WIDTH, "building:levels": (lambda text: re.fullmatch(r"\d{1,3}", text) is not None, "a whole number up to 999")},
-    **{"oneway": one_of("yes", "no", "-1"), "driving_side": one_of("left", "right")},
+    "width": WIDTH,
+    "building:levels": (lambda text: re.fullmatch(r"\d{1,3}", text) is not None, "a whole number up to 999"),
+    "oneway": one_of("yes", "no", "-1"),
+    "driving_side": one_of("left", "right"),
 }

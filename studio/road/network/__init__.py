@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.road.network.report import Report
+from studio.road.network.report import Report, Side
 from studio.road.network.signals import Signals
 
 RIGHTS = ("signal", "priority", "yield", "stop", "all_way_stop", "right_before_left", "left_before_right", "roundabout", "zipper")
@@ -194,14 +194,14 @@ class Network:
     junctions: tuple[np.ndarray, ...]
     signals: Signals
     scenery: Scenery
-    report: Report = Report()
+    report: Report = field(default_factory=Report)
     licence: str = ""
     datum: tuple[float, float] = (0.0, 0.0)
     bans: tuple[tuple[str, ...], ...] = ()
 
     @property
-    def drive_side(self) -> str:
-        """The side that is driven on: "left" or "right"."""
+    def drive_side(self) -> Side:
+        """The side that is driven on."""
         return self.report.drive_side.side
 
     @property

@@ -90,7 +90,7 @@ def search(graph: Graph, roads: tuple[str, ...], starts: tuple[int, ...], *, tur
     wanted = np.array([graph.number[road] for road in roads], dtype=np.int64)
     first_lanes = np.array(starts, dtype=np.int64)
     edges, start, reached = cheapest(graph.first, graph.to, graph.price, graph.back, graph.road, first_lanes, wanted, turn_back)
-    return (() if start < 0 else (int(start), *(lane for edge in edges for lane in graph.ways[edge]))), int(reached)
+    return (() if start < 0 else (int(start), *(lane for edge in edges for lane in graph.ways[edge]))), reached
 
 
 @compiled
@@ -197,7 +197,9 @@ def edges_of(network: Network) -> list[list[Edge]]:
                     if each.direction == "turn" and not is_dead_end(network, lane, exits):
                         continue
                     through = price + times[lane.id] + times[list(each.via)].sum() + wait(each, waits) + unwanted(network, each)
-                    found[lane.id].append(Edge(each.to_lane, float(through), (*used[1:], *each.via, each.to_lane), each.direction == "turn"))
+                    found[lane.id].append(
+                        Edge(each.to_lane, float(through), (*used[1:], *each.via, each.to_lane), each.direction == "turn")
+                    )
     return found
 
 

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 
-def polygons(form: shapely.Geometry) -> Iterator[shapely.Polygon]:
+def polygons(form: BaseGeometry) -> Iterator[shapely.Polygon]:
     """The polygons of a geometry, whatever it has become, outline counter-clockwise."""
     for part in shapely.get_parts(form):
         if part.geom_type == "Polygon" and part.area > 0.01:
@@ -15,7 +16,7 @@ def polygons(form: shapely.Geometry) -> Iterator[shapely.Polygon]:
             yield from polygons(part)
 
 
-def lines(form: shapely.Geometry) -> Iterator[np.ndarray]:
+def lines(form: BaseGeometry) -> Iterator[np.ndarray]:
     """The lines of a geometry, float64[2, n]."""
     for part in shapely.get_parts(form):
         if part.geom_type == "LineString" and part.length > 0.0:
@@ -34,7 +35,7 @@ def rings(form: shapely.Polygon) -> tuple[np.ndarray, tuple[np.ndarray, ...]]:
     return ring(form.exterior.coords), tuple(ring(hole.coords) for hole in form.interiors)
 
 
-def polygon(thing) -> shapely.Geometry:
+def polygon(thing) -> BaseGeometry:
     """The plane shape of something with `outline` and `holes`, mended if a ring crosses itself."""
     return shapely.make_valid(shapely.Polygon(thing.outline.T, [hole.T for hole in thing.holes]))
 
@@ -44,4 +45,4 @@ def rectangles(x, y, heading, length, width) -> np.ndarray:
     c, s = np.cos(heading), np.sin(heading)
     along, left = np.array([-1, 1, 1, -1])[:, None] * length / 2.0, np.array([-1, -1, 1, 1])[:, None] * width / 2.0
     corners = np.stack([x + along * c - left * s, y + along * s + left * c], axis=-1)
-    return shapely.polygons(corners.transpose(1, 0, 2))
+    return np.asarray(shapely.polygons(corners.transpose(1, 0, 2)))

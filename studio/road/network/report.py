@@ -1,13 +1,13 @@
 """What an import found, placed, guessed and left out.
 
-    guess      what the map does not say and a road needs all the same: what was taken, where, from what, how sure it is
-    skipped    what the map says and the network does not have, with the reason
-    corrected  what a user knew better than the map (correction.py), and what the map says
+guess      what the map does not say and a road needs all the same: what was taken, where, from what, how sure it is
+skipped    what the map says and the network does not have, with the reason
+corrected  what a user knew better than the map (correction.py), and what the map says
 """
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 
 @dataclass(frozen=True)
@@ -54,11 +54,14 @@ class Corrected:
     before: dict[str, str]
 
 
+Side = Literal["left", "right"]
+
+
 @dataclass(frozen=True)
 class DriveSide:
-    """The side of the road that is driven on: "left" or "right", and what tells so."""
+    """The side of the road that is driven on, and what tells so."""
 
-    side: str
+    side: Side
     why: str
 
 
@@ -195,11 +198,19 @@ def rows(report: Report) -> list[list[str]]:
         ["lanes", f"{report.lane_km:.3f} km", ""],
         ["junctions", str(report.junctions), ""],
         ["signals", f"{signals.placed} of {signals.in_map}", f"have a stop line; {signals.groups} programmes"],
-        ["right of way", f"{sum(report.right_of_way.values())} ways", ", ".join(f"{right} {count}" for right, count in report.right_of_way.items())],
+        [
+            "right of way",
+            f"{sum(report.right_of_way.values())} ways",
+            ", ".join(f"{right} {count}" for right, count in report.right_of_way.items()),
+        ],
         ["turn lanes", f"{turns.matching} of {turns.tagged_lanes}", "lanes lead where their tag says"],
         ["speed limits", f"{limits.mapped_ways} ways", f"{limits.guessed_ways} more guessed; {by_limit(limits)}"],
         ["buildings", str(report.buildings.placed), f"{report.buildings.height_guessed} heights guessed"],
-        ["parking", f"{report.parking.areas} areas", f"{report.parking.spaces} single spaces; {report.parking.along_kerbs} more along kerbs"],
+        [
+            "parking",
+            f"{report.parking.areas} areas",
+            f"{report.parking.spaces} single spaces; {report.parking.along_kerbs} more along kerbs",
+        ],
         ["crossings", str(crossings.placed), f"{crossings.zebra} zebra, {crossings.signalled} with lights, {crossings.unmarked} unmarked"],
         ["upright", f"{uprights.walls} walls", f"{uprights.posts} posts and poles, {uprights.trees} trees"],
         *counted("guessed", report.guesses, lambda guess: f"from {guess.source}"),

@@ -5,8 +5,8 @@
     conflict    two approaches whose traffic crosses or merges within `SIGHT` behind the stop lines
     programme   approaches that conflict, directly or by way of others; each gets a phase, phases follow one another
 
-A stop line without conflict guards a pedestrian crossing; it shows what the others of its junction show. Programmes share one cycle; their offsets let the traffic that
-starts at one stop line reach the next one at green.
+A stop line without conflict guards a pedestrian crossing; it shows what the others of its junction show. Programmes share
+one cycle; their offsets let the traffic that starts at one stop line reach the next one at green.
 """
 
 from collections import defaultdict
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.portable import arctan2
 
 RED, RED_AMBER, GREEN, AMBER = range(4)
@@ -67,7 +67,7 @@ class Signals:
         )
 
 
-@compiled
+@lean
 def signal_state(t, cycle, offset, first, count, phase_end, phase_state):
     """What a link shows at time t [s]: RED, RED_AMBER, GREEN or AMBER."""
     within = (t - offset) % cycle
@@ -175,7 +175,7 @@ def conflicts(approaches: dict[str, Approach], lanes) -> dict[str, set[str]]:
         here = a.crossing.union(*(crossed[lane] for lane in a.crossing))
         for b in approaches.values():
             serial = any(road == b.road for road, _ in a.next) or any(road == a.road for road, _ in b.next)
-            if a.road < b.road and (here & b.crossing or not serial and over & b.reached):
+            if a.road < b.road and (here & b.crossing or (not serial and over & b.reached)):
                 against[a.road].add(b.road)
                 against[b.road].add(a.road)
     return against
@@ -287,18 +287,9 @@ def arrays(approaches, against, phases, offset, cycle: float, lanes) -> Signals:
     """The programmes as the arrays that the simulation reads."""
     links = [(road, lane) for road, approach in approaches.items() for lane in approach.lanes]
     ends = np.array([lanes[lane].centre[:, -1] for _, lane in links]).reshape(-1, 2).T
-    steps = (
-        np.array([lanes[lane].centre[:, -1] - lanes[lane].centre[:, -2] for _, lane in links])
-        .reshape(-1, 2)
-        .T
-    )
+    steps = np.array([lanes[lane].centre[:, -1] - lanes[lane].centre[:, -2] for _, lane in links]).reshape(-1, 2).T
     own = [phases[road] for road, _ in links]
-    pairs = [
-        (i, j)
-        for i, (a, _) in enumerate(links)
-        for j, (b, _) in enumerate(links)
-        if i < j and b in against[a]
-    ]
+    pairs = [(i, j) for i, (a, _) in enumerate(links) for j, (b, _) in enumerate(links) if i < j and b in against[a]]
     return Signals(
         link_lane=np.array([lane for _, lane in links], dtype=np.int64),
         link_x=ends[0].copy(),

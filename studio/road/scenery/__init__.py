@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.formats.kind import BARRIERS, POSTS, area_kind, metres
 from studio.road.formats.osm import Box, Shape, Survey
@@ -25,9 +26,21 @@ PASSAGE = 4.5  # [m] clear height over a road (StVZO § 32: vehicles are 4.00 m 
 TOUCH = 0.5  # [m²] of a building on the road is a matter of the mapper's pencil
 LARGEST_HEIGHT = 900.0  # [m] above this the tag is a slip
 COLOURS = {
-    **{"white": "#f4f4f2", "grey": "#9a9a98", "gray": "#9a9a98", "black": "#303030", "brown": "#8a6a4f"},
-    **{"red": "#a8483c", "yellow": "#d9c27a", "beige": "#d8cbb0", "green": "#6f8a62", "blue": "#5f7d9c"},
-    **{"silver": "#b8bcc0", "gold": "#d4af37", "orange": "#cf8a4a", "pink": "#d9a8a4", "tan": "#c9ad86"},
+    "white": "#f4f4f2",
+    "grey": "#9a9a98",
+    "gray": "#9a9a98",
+    "black": "#303030",
+    "brown": "#8a6a4f",
+    "red": "#a8483c",
+    "yellow": "#d9c27a",
+    "beige": "#d8cbb0",
+    "green": "#6f8a62",
+    "blue": "#5f7d9c",
+    "silver": "#b8bcc0",
+    "gold": "#d4af37",
+    "orange": "#cf8a4a",
+    "pink": "#d9a8a4",
+    "tan": "#c9ad86",
 }
 
 
@@ -50,14 +63,10 @@ def scenery(found: Survey, site: Site) -> Scenery:
     )
 
 
-def shape_form(shape: Shape, box: Box) -> shapely.Geometry:
+def shape_form(shape: Shape, box: Box) -> BaseGeometry:
     """A mapped shape in local metres, mended if its ring crosses itself."""
     rings = [box.local(*np.array(ring).T[::-1]).T for ring in shape.rings]
-    form = (
-        shapely.Polygon(rings[0], [ring for ring in rings[1:] if len(ring) > 3])
-        if len(rings[0]) > 3
-        else None
-    )
+    form = shapely.Polygon(rings[0], [ring for ring in rings[1:] if len(ring) > 3]) if len(rings[0]) > 3 else None
     return shapely.make_valid(form) if form is not None else shapely.Polygon()
 
 
@@ -75,7 +84,7 @@ def buildings(shapes, bounds) -> Iterator[Building]:
             yield from prisms(shape, form)
 
 
-def passable(standing: Iterator[Building], road: shapely.Geometry) -> Iterator[Building]:
+def passable(standing: Iterator[Building], road: BaseGeometry) -> Iterator[Building]:
     """The buildings with a passage where one stands over the road; what is too low for one ends at the kerb."""
     for building in standing:
         form = polygon(building)
@@ -84,19 +93,25 @@ def passable(standing: Iterator[Building], road: shapely.Geometry) -> Iterator[B
             yield building
             continue
         for one in polygons(form.difference(over.buffer(KERB, join_style="mitre"))):
-            yield replace(building, **dict(zip(("outline", "holes"), rings(one), strict=True)))
+            yield cut_to(building, one)
         if building.height > PASSAGE + 1.0:
             for one in polygons(form.intersection(over.buffer(KERB, join_style="mitre"))):
-                yield replace(building, **dict(zip(("outline", "holes"), rings(one), strict=True)), base=PASSAGE)
+                yield replace(cut_to(building, one), base=PASSAGE)
 
 
-def is_told_by_parts(form: shapely.Geometry, tree: shapely.STRtree) -> bool:
+def cut_to(building: Building, form: shapely.Polygon) -> Building:
+    """The building, cut to a plane shape."""
+    outline, holes = rings(form)
+    return replace(building, outline=outline, holes=holes)
+
+
+def is_told_by_parts(form: BaseGeometry, tree: shapely.STRtree) -> bool:
     """Whether building parts stand on most of an outline: then they are the building, and the outline is not drawn."""
     near = tree.geometries[tree.query(form, predicate="intersects")]
     return len(near) > 0 and shapely.union_all(near).intersection(form).area > 0.5 * form.area
 
 
-def prisms(shape: Shape, form: shapely.Geometry) -> Iterator[Building]:
+def prisms(shape: Shape, form: BaseGeometry) -> Iterator[Building]:
     """The solids of one mapped building or part."""
     height, base = extent(shape.tags)
     for one in polygons(form):

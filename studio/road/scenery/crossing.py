@@ -26,7 +26,7 @@ USUAL_LANES = 2
 def crossings(found: Survey, site: Site) -> Iterator[Crossing]:
     """The crossings over the roads of a site; those that lead over no road are noted."""
     points = [thing for thing in found.points if thing.kind == "crossing" and site.bounds.contains(shapely.Point(site.place(thing)))]
-    places = shapely.points(np.array([site.place(thing) for thing in points]).reshape(-1, 2))
+    places = np.asarray(shapely.points(np.array([site.place(thing) for thing in points]).reshape(-1, 2)))
     drawn = []
     for thing in found.lines:
         for line in over(thing, site) if thing.kind == "crossing" else ():

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.portable import arctan2, cross, dot, wrapped
 from studio.road.formats.kind import area_kind
@@ -72,11 +73,11 @@ class Aisles:
         return foot, (b - a) / max(1e-9, np.hypot(*(b - a))), bool(self.one_way[found[0]])
 
 
-def in_area(tags: dict[str, str], form: shapely.Geometry, aisles: Aisles, site: Site) -> Iterator[tuple[float, ...]]:
+def in_area(tags: dict[str, str], form: BaseGeometry, aisles: Aisles, site: Site) -> Iterator[tuple[float, ...]]:
     """The spaces of a mapped outline: one, or as many side by side as its capacity says."""
     if form.area < SMALLEST:
         return
-    corners = np.array(shapely.minimum_rotated_rectangle(form).exterior.coords)
+    corners = shapely.get_coordinates(shapely.minimum_rotated_rectangle(form))
     sides = np.diff(corners[:3], axis=0)
     long, short = sorted(sides, key=lambda side: -np.hypot(*side))
     text = tags.get("capacity", "")
@@ -136,7 +137,7 @@ def kerbs(tags: dict[str, str]) -> dict[str, str]:
     return found
 
 
-def along_kerbs(found: Survey, site: Site, taken: list[shapely.Geometry]) -> np.ndarray:
+def along_kerbs(found: Survey, site: Site, taken: list[BaseGeometry]) -> np.ndarray:
     """The spaces beside the lanes of ways that allow parking, float64[SPACE_ROWS, n]; none on the road, a driveway or what is `taken`."""
     by_id = {way.id: way for way in site.ways if kerbs(way.tags)}
     note_kerbs(found, list(by_id.values()))
@@ -147,7 +148,8 @@ def along_kerbs(found: Survey, site: Site, taken: list[shapely.Geometry]) -> np.
             rows += rows_beside(road, ways, site)
     table = np.concatenate(rows, axis=1)
     table = table[:, shapely.contains_xy(site.bounds, *table[:2])]
-    forms = rectangles(*table[:3], table[3] + 0.2, table[4] - 0.2)
+    x, y, heading, length, width = table
+    forms = rectangles(x, y, heading, length + 0.2, width - 0.2)
     driveways = [shapely.LineString(site.line(way).T).buffer(DRIVEWAY) for way in found.service]
     struck, _ = shapely.STRtree([*taken, *driveways]).query(forms, predicate="intersects")
     free = ~shapely.intersects(site.road, forms)
@@ -164,7 +166,7 @@ def note_kerbs(found: Survey, ways: list[Way]) -> None:
 
 def taken_by(
     areas: tuple[Area, ...], buildings: tuple[Building, ...], crossings: tuple[Crossing, ...], spaces: np.ndarray, trees: np.ndarray
-) -> list[shapely.Geometry]:
+) -> list[BaseGeometry]:
     """The plane shapes on which no space is laid."""
     forms = [polygon(area) for area in areas if area.kind in ("parking", "water")]
     forms += [shapely.Polygon(building.outline.T) for building in buildings if building.base < OVERHEAD]
@@ -182,7 +184,7 @@ def without_overlap(table: np.ndarray, forms: np.ndarray) -> np.ndarray:
     return table[:, keep]
 
 
-def reach(crossing: Crossing) -> shapely.Geometry:
+def reach(crossing: Crossing) -> BaseGeometry:
     """The ground about a crossing on which nobody parks, beyond both edges of the road too."""
     start, end = crossing.line.T
     beyond = (end - start) * KERB_DEPTH / max(1e-9, np.hypot(*(end - start)))

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.formats.osm import Box, Thing, Way
 from studio.road.network import Net
@@ -21,14 +22,14 @@ class Site:
     left_hand: bool
 
     @cached_property
-    def bounds(self) -> shapely.Geometry:
+    def bounds(self) -> BaseGeometry:
         """The box as a plane shape [m]."""
         form = shapely.box(*self.box.bounds())
         shapely.prepare(form)
         return form
 
     @cached_property
-    def road(self) -> shapely.Geometry:
+    def road(self) -> BaseGeometry:
         """The carriageway as a plane shape [m]."""
         form = road_form(self.net)
         shapely.prepare(form)

@@ -43,10 +43,7 @@ def zones(points, first_i, count_i, first_j, count_j, width=2.4):
                     j += max(1, int((gap - width) / PATH_SPACING))
                     continue
                 start = j
-                while (
-                    j < high
-                    and hypotenuse(points[PATH_X, first_j + j] - x, points[PATH_Y, first_j + j] - y) < width
-                ):
+                while j < high and hypotenuse(points[PATH_X, first_j + j] - x, points[PATH_Y, first_j + j] - y) < width:
                     j += 1
                 total = extend(found, open_from, open_to, open_row, total, i, start, j - 1)
     for zone in range(total):

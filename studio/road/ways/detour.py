@@ -59,6 +59,7 @@ class Work:
 
     def reach(self, stations: np.ndarray) -> np.ndarray:
         """Distance [m] of the target from the line."""
+        assert self.target is not None  # nothing is asked of a shifted lane's
         return np.abs(aside(self.line, stations, self.target))
 
     def edge(self, stations: np.ndarray) -> np.ndarray:

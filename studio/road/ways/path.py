@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.portable import arctan2
 from studio.road import kept
 from studio.road.network import Lane, Network, curve
@@ -67,7 +67,7 @@ class Mark:
 
 @dataclass
 class Draft:
-    """The rough line while it is put together: pieces, their heights [m], where each starts, how far it may be left [m], its limit [m/s]."""
+    """The rough line while it is put together: pieces, their heights [m], where each starts, the room beside it [m], its limit [m/s]."""
 
     pieces: list[np.ndarray] = field(default_factory=list)
     heights: list[np.ndarray] = field(default_factory=list)
@@ -116,9 +116,7 @@ def made(network: Network, lane_path: LanePath, lateral_acceleration: float, dec
     return Path(
         points=points,
         stop_lines=tuple((s, link) for s, (_, link) in zip(stops, draft.stop_lines, strict=True)),
-        stations=tuple(
-            Station(lane.road, lane.index, s) for s, (_, lane) in zip(starts, draft.stations, strict=True)
-        ),
+        stations=tuple(Station(lane.road, lane.index, s) for s, (_, lane) in zip(starts, draft.stations, strict=True)),
     )
 
 
@@ -204,11 +202,10 @@ def smooth(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
     for room in (*ROOM, np.inf):
         line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
         sharp = np.abs(curvature_of(line)) > curve.LOCK
-        if room == np.inf or not sharp.any():
-            return line, height
-        corridor = np.where(
-            curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor
-        )
+        if not sharp.any():
+            break
+        corridor = np.where(curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor)
+    return line, height
 
 
 def without_kinks(height: np.ndarray) -> np.ndarray:
@@ -270,9 +267,7 @@ def limits(draft: Draft, points: np.ndarray) -> np.ndarray:
     return np.array(draft.limits)[np.clip(np.searchsorted(starts, at, side="right") - 1, 0, None)]
 
 
-def speeds(
-    curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float
-) -> np.ndarray:
+def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float) -> np.ndarray:
     """The speed for every point: the limit, what the bend allows, and what can be slowed down from in time [m/s]."""
     bend = np.sqrt(lateral_acceleration / np.maximum(np.abs(curvature), 1e-6))
     speed = np.maximum(np.minimum(limit, bend), LOWEST_SPEED)
@@ -284,7 +279,7 @@ def speeds(
 # -- on the path -----------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def interpolate(points, first, row, s):
     """The value of a row at arc length s [m] of the path that starts at column `first`; s is within the path."""
     i = int(s)
@@ -294,23 +289,22 @@ def interpolate(points, first, row, s):
     return (1.0 - f) * points[row, first + i] + f * points[row, first + i + 1]
 
 
-@compiled
+@lean
 def project(points, first, count, x, y, s_guess):
     """Arc length s [m] and lateral offset [m] (left positive) of a position, looked for within 5 m of `s_guess`."""
     middle = int(s_guess)
     low = max(0, min(middle - PROJECTION_REACH, count - 2))
     high = min(count - 2, max(middle + PROJECTION_REACH, 0))
-    best, best_s, best_lateral = np.inf, 0.0, 0.0
+    best, best_s, side = np.inf, 0.0, 0.0
     for i in range(low, high + 1):
         column = first + i
         a_x, a_y = points[PATH_X, column], points[PATH_Y, column]
         t_x, t_y = points[PATH_X, column + 1] - a_x, points[PATH_Y, column + 1] - a_y
         d_x, d_y = x - a_x, y - a_y
-        squared = t_x * t_x + t_y * t_y
-        u = min(1.0, max(0.0, (d_x * t_x + d_y * t_y) / squared))
+        along, squared = d_x * t_x + d_y * t_y, t_x * t_x + t_y * t_y
+        u = 0.0 if along <= 0.0 else 1.0 if along >= squared else along / squared
         r_x, r_y = d_x - u * t_x, d_y - u * t_y
         distance = r_x * r_x + r_y * r_y
         if distance < best:
-            best, best_s = distance, i + u
-            best_lateral = np.copysign(np.sqrt(distance), t_x * d_y - t_y * d_x)
-    return best_s * PATH_SPACING, best_lateral
+            best, best_s, side = distance, i + u, t_x * d_y - t_y * d_x
+    return best_s * PATH_SPACING, np.copysign(np.sqrt(best), side)

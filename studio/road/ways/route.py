@@ -101,20 +101,13 @@ def check(network: Network, roads: Sequence[str], start_lane: int | None) -> Non
         known = [road.id for road in network.roads.values() if not road.internal]
         raise RouteError(
             f"{network.name}: the route names a road that is not on the map",
-            [
-                Problem(f"roads[{i}]", "no such road", repr(road), remedy=nearest(road, known))
-                for i, road in unknown
-            ],
+            [Problem(f"roads[{i}]", "no such road", repr(road), remedy=nearest(road, known)) for i, road in unknown],
         )
     count = len(network.roads[roads[0]].lanes)
     if start_lane is not None and start_lane not in range(count):
         raise RouteError(
             f"{network.name}: the route cannot start there",
-            [
-                Problem(
-                    "start_lane", f"no such lane of road {roads[0]!r}", repr(start_lane), f"0 to {count - 1}"
-                )
-            ],
+            [Problem("start_lane", f"no such lane of road {roads[0]!r}", repr(start_lane), f"0 to {count - 1}")],
         )
 
 
@@ -124,11 +117,7 @@ def no_way(network: Network, roads: tuple[str, ...], reached: int) -> RouteError
     lanes = set(network.roads[start].lanes)
     ahead = [c for c in network.connections if c.from_lane in lanes and c.direction != "turn"]
     following = {network.lanes[c.to_lane].road for c in ahead}
-    remedy = (
-        f"after {start!r} come: {', '.join(sorted(following))}"
-        if following
-        else f"{start!r} leads out of the map"
-    )
+    remedy = f"after {start!r} come: {', '.join(sorted(following))}" if following else f"{start!r} leads out of the map"
     return RouteError(
         f"{network.name}: there is no way from road {start!r} to road {end!r}",
         [Problem(f"roads[{reached}]", "cannot be reached from the road before it", repr(end), remedy=remedy)],

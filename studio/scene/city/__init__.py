@@ -88,9 +88,7 @@ def ground(*, radius: float = SKY_RADIUS) -> Surface:
     """A disc out to the horizon."""
     angle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
     reach = np.array([0.0, 0.3, 1.0]) * radius * 0.99
-    vertices = np.concatenate(
-        [np.column_stack([r * np.cos(angle), r * np.sin(angle), 0 * angle]) for r in reach]
-    )
+    vertices = np.concatenate([np.column_stack([r * np.cos(angle), r * np.sin(angle), 0 * angle]) for r in reach])
     here = np.arange(48)
     after = (here + 1) % 48
     faces = [np.stack([i + here, o + here, o + after], 1) for i, o in ((0, 48), (48, 96))]
@@ -104,7 +102,7 @@ def _flat(name: str, mesh: Mesh, height: float) -> Layer:
 
 def _level(mesh: Mesh, name: str, height: float = 0.0) -> Surface:
     # the layers' heights are ours: shadows must lie low, or they climb up the wheels
-    vertices = mesh.vertices * np.float32([1.0, 1.0, 0.0]) + np.float32([0.0, 0.0, height])
+    vertices = mesh.vertices * np.array([1.0, 1.0, 0.0], np.float32) + np.array([0.0, 0.0, height], np.float32)
     return surface(vertices, mesh.faces, on_level_ground(COLOURS[name]))
 
 
@@ -131,7 +129,7 @@ def _buildings(network: Network) -> list[Layer]:
 def shade(network: Network) -> Surface:
     """The shadow of all buildings on the ground, one see-through sheet."""
     mesh = shadow_mesh(network, sun=tuple(-SUN))
-    level = mesh.vertices * np.float32([1.0, 1.0, 0.0])
+    level = mesh.vertices * np.array([1.0, 1.0, 0.0], np.float32)
     return surface(level, mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
 
 

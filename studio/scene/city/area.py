@@ -4,6 +4,7 @@ from collections import defaultdict
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.network import Network
 from studio.road.network.plane import polygon
@@ -16,8 +17,7 @@ def area_meshes(network: Network) -> dict[str, Mesh]:
     return {kind: flat(form) for kind, form in forms.items()}
 
 
-
-def area_forms(network: Network) -> dict[str, shapely.Geometry]:
+def area_forms(network: Network) -> dict[str, BaseGeometry]:
     """All areas by kind, cut where they overlap: the smaller one lies on the larger one, a pond in its park."""
     areas = network.scenery.areas
     forms = np.array([polygon(area) for area in areas])

@@ -69,10 +69,7 @@ def _walls(ring: np.ndarray, base: float, top: float, colour: np.ndarray) -> tup
 def _wall_uv(length: np.ndarray, height: float) -> np.ndarray:
     bays = np.maximum(1, np.round(length / BAY))
     floors = max(1, round(height / FLOOR))
-    uv = (
-        np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-        * np.stack([bays, np.full(len(bays), floors)], 1)[:, None, :]
-    )
+    uv = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * np.stack([bays, np.full(len(bays), floors)], 1)[:, None, :]
     uv[length < NARROWEST] = BLANK
     return uv.reshape(-1, 2)
 

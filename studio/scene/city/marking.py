@@ -5,12 +5,13 @@ lines of a crossing with lights 0.50 m on and 0.20 m off, arrows 5 m long.
 """
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
-from studio.road.network import SPACE_LENGTH, SPACE_WIDTH, Crossing, Lane, Network, curve
+from studio.road.network import Crossing, Lane, Network, curve
 from studio.road.network.outline import junction_form, strip
 from studio.road.network.plane import polygons
 from studio.scene.city.line import LINE_WIDTH, MIDDLE_INSET, edge_lines, middle_line, road_lines, stop_line
@@ -26,7 +27,7 @@ SPACE_LINE = 0.1  # [m]
 TURNS = {"straight": "straight", "left": "left", "right": "right", "slight_left": "left", "slight_right": "right"}
 
 
-def marking_mesh(network: Network, form: shapely.Geometry) -> Mesh:
+def marking_mesh(network: Network, form: BaseGeometry) -> Mesh:
     """Everything that is painted on a road of this plane shape, and the lines of parking spaces beside it."""
     pieces = painted(network, form)
     quick = is_quad(pieces)
@@ -34,7 +35,7 @@ def marking_mesh(network: Network, form: shapely.Geometry) -> Mesh:
     return merged([quad_mesh(pieces[quick]), *others, space_mesh(network.scenery.spaces), *arrow_mesh(network)])
 
 
-def painted(network: Network, form: shapely.Geometry) -> np.ndarray:
+def painted(network: Network, form: BaseGeometry) -> np.ndarray:
     """All lines and crossings as plane shapes; lane markings keep off junctions and painted crossings."""
     roads = [road.id for road in network.roads.values() if not road.internal]
     middles = shapely.union_all([middle_line(network, road) for road in roads])
@@ -49,14 +50,14 @@ def painted(network: Network, form: shapely.Geometry) -> np.ndarray:
     return np.concatenate([lines, within(crossed, form)])
 
 
-def outside(pieces: list[shapely.Geometry], form: shapely.Geometry) -> np.ndarray:
+def outside(pieces: list[BaseGeometry], form: BaseGeometry) -> np.ndarray:
     """The pieces whose middle does not lie on a plane shape."""
     shapely.prepare(form)
     known = np.array(pieces, dtype=object)
     return known[~shapely.contains(form, shapely.centroid(known))]
 
 
-def without(pieces: np.ndarray, covered: list[shapely.Geometry]) -> np.ndarray:
+def without(pieces: np.ndarray, covered: Sequence[BaseGeometry]) -> np.ndarray:
     """The pieces cut where something covers them."""
     piece, cover = shapely.STRtree(covered).query(pieces, predicate="intersects")
     for i in np.unique(piece):
@@ -64,7 +65,7 @@ def without(pieces: np.ndarray, covered: list[shapely.Geometry]) -> np.ndarray:
     return pieces[~shapely.is_empty(pieces)]
 
 
-def within(pieces: np.ndarray, form: shapely.Geometry) -> np.ndarray:
+def within(pieces: np.ndarray, form: BaseGeometry) -> np.ndarray:
     """The parts of the pieces that lie on this plane shape."""
     shapely.prepare(form)
     over = ~shapely.contains(form, pieces)
@@ -89,12 +90,12 @@ def quad_mesh(pieces: np.ndarray) -> Mesh:
 # -- crossings -------------------------------------------------------------------------------------
 
 
-def ground_of(crossing: Crossing) -> shapely.Geometry:
+def ground_of(crossing: Crossing) -> BaseGeometry:
     """The strip from edge to edge that walkers use."""
     return strip(crossing.line, crossing.width)
 
 
-def crossing_pieces(crossing: Crossing) -> Iterator[shapely.Geometry]:
+def crossing_pieces(crossing: Crossing) -> Iterator[BaseGeometry]:
     """The stripes of a zebra, or the two broken lines of a crossing with lights."""
     length = float(np.hypot(*(crossing.line[:, 1] - crossing.line[:, 0])))
     if crossing.marking == "zebra":
@@ -178,7 +179,8 @@ def space_mesh(spaces: np.ndarray) -> Mesh:
 
 def space_ground(spaces: np.ndarray, *, margin: float) -> Mesh:
     """The ground of all spaces, wider by a margin [m] on every side."""
-    return quads(*spaces[:3], spaces[SPACE_LENGTH] + 2.0 * margin, spaces[SPACE_WIDTH] + 2.0 * margin)
+    x, y, heading, length, width = spaces
+    return quads(x, y, heading, length + 2.0 * margin, width + 2.0 * margin)
 
 
 def quads(x, y, heading, length, width) -> Mesh:
@@ -192,5 +194,5 @@ def quads(x, y, heading, length, width) -> Mesh:
 def quads_of(corners: np.ndarray) -> Mesh:
     """Convex quads [n, 4, 3], counter-clockwise, as a mesh."""
     first = 4 * np.arange(len(corners), dtype=np.uint32)[:, None]
-    faces = np.concatenate([first + np.uint32([0, 1, 2]), first + np.uint32([0, 2, 3])])
+    faces = np.concatenate([first + np.array(corner, dtype=np.uint32) for corner in ((0, 1, 2), (0, 2, 3))])
     return Mesh(corners.reshape(-1, 3).astype(np.float32), faces.astype(np.uint32))

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import mapbox_earcut
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.network.plane import polygons
 
@@ -17,11 +18,9 @@ class Mesh:
     faces: np.ndarray
 
 
-
 def empty() -> Mesh:
     """No triangles."""
     return Mesh(np.empty((0, 3), np.float32), np.empty((0, 3), np.uint32))
-
 
 
 def merged(meshes: list[Mesh]) -> Mesh:
@@ -33,11 +32,9 @@ def merged(meshes: list[Mesh]) -> Mesh:
     return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces))
 
 
-
-def flat(form: shapely.Geometry) -> Mesh:
+def flat(form: BaseGeometry) -> Mesh:
     """A plane shape as triangles that face up."""
     return merged([triangulated(polygon) for polygon in polygons(form)])
-
 
 
 def triangulated(polygon: shapely.Polygon) -> Mesh:
@@ -48,7 +45,6 @@ def triangulated(polygon: shapely.Polygon) -> Mesh:
     faces = mapbox_earcut.triangulate_float64(points, ends).reshape(-1, 3)
     vertices = np.column_stack([points, np.zeros(len(points))]).astype(np.float32)
     return Mesh(vertices, facing_up(points, faces.astype(np.uint32)))
-
 
 
 def facing_up(points: np.ndarray, faces: np.ndarray) -> np.ndarray:

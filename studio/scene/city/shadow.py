@@ -2,6 +2,7 @@
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.network import Building, Network
 from studio.scene.city.mesh import Mesh, flat
@@ -22,23 +23,20 @@ def shadow_mesh(network: Network, *, sun: tuple[float, float, float]) -> Mesh:
     return flat(shapely.union_all(pieces).difference(shapely.union_all(standing)))
 
 
-
-def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> shapely.Geometry:
+def cast(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> BaseGeometry:
     """The shadow of a prism."""
     return shapely.union_all(cast_pieces(form, building, sun))
 
 
-
-def cast_pieces(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> list[shapely.Geometry]:
+def cast_pieces(form: shapely.Polygon, building: Building, sun: tuple[float, float, float]) -> list[BaseGeometry]:
     """The shadow of a prism: its footprint swept from the underside's shadow to the roof's, edge by edge."""
     length = np.array([sun[0], sun[1]]) / -sun[2]
     length *= min(1.0, LONGEST_SHADOW / max(1e-9, building.height * np.hypot(*length)))
     near, far = building.base * length, building.height * length
     a = np.array(form.exterior.coords)
-    swept = shapely.polygons(np.stack([a[:-1] + near, a[1:] + near, a[1:] + far, a[:-1] + far], axis=1))
+    swept = np.asarray(shapely.polygons(np.stack([a[:-1] + near, a[1:] + near, a[1:] + far, a[:-1] + far], axis=1)))
     ends = [shapely.affinity.translate(form, *near), shapely.affinity.translate(form, *far)]
     return [*ends, *swept[shapely.area(swept) > 0.0]]
-
 
 
 def footprint(building: Building) -> shapely.Polygon:

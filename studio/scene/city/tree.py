@@ -1,8 +1,11 @@
 """Trees: those that are mapped, and as many as a park needs to look like one."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 import viser
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.network import Network
 from studio.road.network.outline import strip
@@ -49,7 +52,7 @@ def places(network: Network) -> np.ndarray:
     return np.concatenate([mapped, planted[:, _clear(planted, [shapely.Point(at) for at in mapped.T], 0.5 * SPACING)]], axis=1)
 
 
-def _planted(network: Network, lanes: list[shapely.Geometry]) -> np.ndarray:
+def _planted(network: Network, lanes: list[BaseGeometry]) -> np.ndarray:
     """The trees of the green, clear of lanes, junctions, houses, and of other ground."""
     forms = area_forms(network)
     spots = _grid(forms.pop("green", shapely.Polygon()))
@@ -64,7 +67,7 @@ def _planted(network: Network, lanes: list[shapely.Geometry]) -> np.ndarray:
     return spots
 
 
-def _clear(spots: np.ndarray, things: list[shapely.Geometry], distance: float) -> np.ndarray:
+def _clear(spots: np.ndarray, things: Sequence[BaseGeometry], distance: float) -> np.ndarray:
     """Which spots lie farther than this [m] from all things."""
     clear = np.ones(spots.shape[1], dtype=bool)
     near, _ = shapely.STRtree(things).query(shapely.points(spots.T), predicate="dwithin", distance=distance)
@@ -72,11 +75,11 @@ def _clear(spots: np.ndarray, things: list[shapely.Geometry], distance: float) -
     return clear
 
 
-def _lanes(network: Network) -> list[shapely.Geometry]:
+def _lanes(network: Network) -> list[BaseGeometry]:
     return [strip(lane.centre, lane.width) for lane in network.lanes]
 
 
-def _grid(region: shapely.Geometry) -> np.ndarray:
+def _grid(region: BaseGeometry) -> np.ndarray:
     if region.is_empty:
         return np.zeros((2, 0))
     spacing = max(SPACING, np.sqrt(region.area / MOST))
@@ -99,9 +102,7 @@ def sizes(count: int) -> tuple[np.ndarray, np.ndarray]:
     return scale.astype(np.float32), turns.astype(np.float32)
 
 
-def plant(
-    server: viser.ViserServer, places: np.ndarray, *, foot: float, shade: float
-) -> list[viser.SceneNodeHandle]:
+def plant(server: viser.ViserServer, places: np.ndarray, *, foot: float, shade: float) -> list[viser.SceneNodeHandle]:
     """Put trees at these places, float64[2, n], and their shadows on the server, at the heights `foot` and `shade` [m]."""
     spots = places.T
     if len(spots) == 0:
@@ -110,7 +111,7 @@ def plant(
     thrown = spots - CROWN_HEIGHT * scales[:, 2:] * SUN[:2] / SUN[2]
     crowns = glb(tree(), Material())
     patches = glb(shadow(), Material(unlit=True, blend=True))
-    level = np.tile(np.float32([1.0, 0.0, 0.0, 0.0]), (len(spots), 1))
+    level = np.tile(np.array([1.0, 0.0, 0.0, 0.0], np.float32), (len(spots), 1))
     options = {"batched_scales": scales, "cast_shadow": False, "receive_shadow": False}
     add = server.scene.add_batched_glb
     return [

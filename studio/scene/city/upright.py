@@ -9,8 +9,14 @@ from studio.scene.colour import linear
 from studio.scene.shape import Surface, box, cylinder, edged, joined, surface
 
 WALLS = {
-    **{"wall": "#b4aba0", "city_wall": "#a8937c", "retaining_wall": "#a7a39b", "fence": "#8d928e", "hedge": "#5b7a45"},
-    **{"guard_rail": "#b9bec2", "jersey_barrier": "#c2bfb8", "handrail": "#8a9096"},
+    "wall": "#b4aba0",
+    "city_wall": "#a8937c",
+    "retaining_wall": "#a7a39b",
+    "fence": "#8d928e",
+    "hedge": "#5b7a45",
+    "guard_rail": "#b9bec2",
+    "jersey_barrier": "#c2bfb8",
+    "handrail": "#8a9096",
 }
 POSTS = {"bollard": "#5d5f62", "block": "#b5b0a8", "lamp": "#70767b", "flagpole": "#d4d7d9", "mast": "#9aa0a5", "pole": "#7a6a58"}
 FOOT_SHADE = 0.78  # the foot sees less of the sky

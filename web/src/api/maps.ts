@@ -1,6 +1,6 @@
 /** The maps: what the page reads of them, and what it asks the server to do with them. */
 
-import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
+import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import type { MapDetail, MapJob, MapRow, Plan, Tags } from "../model/map";
 import { answer, client, refusal, Unreachable } from "./client";
 
@@ -77,10 +77,19 @@ function parsed(text: string): unknown {
   }
 }
 
+/** Put a job into the list as it began, so that its end is seen, however soon that is. */
+export function noteJob(kept: QueryClient, job: MapJob): void {
+  kept.setQueryData(mapJobs.queryKey, (jobs) => [job, ...(jobs ?? []).filter(({ id }) => id !== job.id)]);
+}
+
 /** What changes maps starts a job; the list of jobs is to know it at once. */
 function useJob<What>(start: (what: What) => Promise<MapJob>) {
   const kept = useQueryClient();
-  return useMutation({ mutationFn: start, onSuccess: () => kept.invalidateQueries({ queryKey: ["map jobs"] }) });
+  const onSuccess = (job: MapJob) => {
+    noteJob(kept, job);
+    return kept.invalidateQueries({ queryKey: ["map jobs"] });
+  };
+  return useMutation({ mutationFn: start, onSuccess });
 }
 
 export interface Download {

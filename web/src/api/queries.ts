@@ -119,10 +119,10 @@ export function usePace() {
   });
 }
 
-/** Asks now and then whether the server still answers. */
+/** Asks now and then whether the server still answers, and often while it compiles. */
 export const heartbeat = queryOptions({
   queryKey: ["heartbeat"],
   queryFn: () => answer<Info>(client.GET("/api/info")),
-  refetchInterval: ({ state }) => (state.status === "error" ? 2000 : 10000),
+  refetchInterval: ({ state }) => (state.status === "error" ? 2000 : state.data?.compiling ? 1000 : 10000),
   retry: false,
 });

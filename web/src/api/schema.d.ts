@@ -61,7 +61,11 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Patch Scenario
+         * @description Changes a scenario file by a JSON patch (RFC 6902): all of it if the result is valid, else nothing. Undo: send the inverse.
+         */
+        patch: operations["patch_scenario_api_scenarios__scenario__patch"];
         trace?: never;
     };
     "/api/scenarios/{scenario}/check": {
@@ -78,6 +82,26 @@ export interface paths {
          * @description Whether changes make a valid scenario.
          */
         post: operations["check_api_scenarios__scenario__check_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/text": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Text
+         * @description A scenario file as it stands, in the present version of the format; its ETag is the digest of the text.
+         */
+        get: operations["text_api_scenarios__scenario__text_get"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -630,6 +654,32 @@ export interface components {
             metrics: components["schemas"]["MetricDifference"][];
         };
         /**
+         * Compiling
+         * @description How far the first compilation on this machine is.
+         */
+        Compiling: {
+            /**
+             * Done
+             * @description functions that are compiled
+             */
+            done: number;
+            /**
+             * Of
+             * @description functions in all
+             */
+            of: number;
+            /**
+             * Seconds
+             * @description since it began [s]
+             */
+            seconds: number;
+            /**
+             * Latest
+             * @description the function that was compiled last
+             */
+            latest: string;
+        };
+        /**
          * Driven
          * @description The scenario that was written.
          */
@@ -662,6 +712,30 @@ export interface components {
             db: string;
             /** Scenarios Folder */
             scenarios_folder: string;
+            /** @description what is compiled before the first run; null when that is done */
+            compiling: components["schemas"]["Compiling"] | null;
+        };
+        /**
+         * Layout
+         * @description How a value was written, so that an inverse is exact to the letter.
+         */
+        Layout: {
+            /**
+             * Source
+             * @description the text of the value or of the entry
+             */
+            source: string;
+            /**
+             * After
+             * @description the key that it stands behind in its mapping; null: it is the first
+             */
+            after?: string | null;
+            /**
+             * Lines
+             * @description lines between that key's entry and this one
+             * @default 0
+             */
+            lines: number;
         };
         /**
          * LimitCount
@@ -1259,6 +1333,34 @@ export interface components {
             run?: number | null;
         };
         /**
+         * Operation
+         * @description One operation of a JSON patch; members that the standard does not know are ignored, `layout` is that of an inverse.
+         */
+        Operation: {
+            /**
+             * Op
+             * @enum {string}
+             */
+            op: "add" | "remove" | "replace" | "move" | "copy" | "test";
+            /**
+             * Path
+             * @description JSON pointer (RFC 6901)
+             * @example /clock/duration
+             */
+            path: string;
+            /**
+             * From
+             * @description JSON pointer, of move and copy
+             */
+            from?: string | null;
+            /**
+             * Value
+             * @description of add, replace and test
+             */
+            value?: unknown;
+            layout?: components["schemas"]["Layout"] | null;
+        };
+        /**
          * ParameterDifference
          * @description A parameter that differs between two runs.
          */
@@ -1283,6 +1385,20 @@ export interface components {
             spaces: number;
         } & {
             [key: string]: unknown;
+        };
+        /**
+         * Patched
+         * @description A scenario after a patch: the patch that takes it back, the digest of its text (its ETag), and the document as it stands in it.
+         */
+        Patched: {
+            /** Inverse */
+            inverse: components["schemas"]["Operation"][];
+            /** Digest */
+            digest: string;
+            /** Document */
+            document: {
+                [key: string]: unknown;
+            };
         };
         /**
          * PlanArea
@@ -1821,6 +1937,80 @@ export interface operations {
             };
         };
     };
+    patch_scenario_api_scenarios__scenario__patch: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the text that the patch is for; without it, any */
+                "if-match"?: string | null;
+            };
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json-patch+json": components["schemas"]["Operation"][];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Patched"];
+                };
+            };
+            /** @description Forbidden */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Precondition Failed */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
     check_api_scenarios__scenario__check_post: {
         parameters: {
             query?: never;
@@ -1843,6 +2033,55 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Check"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    text_api_scenarios__scenario__text_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description YAML (RFC 9512) */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/yaml": string;
                 };
             };
             /** @description Not Found */

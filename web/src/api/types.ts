@@ -12,6 +12,15 @@ export interface Info {
   code_version: string;
   db: string;
   scenarios_folder: string;
+  compiling: Compiling | null;
+}
+
+/** How far the first compilation on a machine is. */
+export interface Compiling {
+  done: number;
+  of: number;
+  seconds: number;
+  latest: string;
 }
 
 export interface ScenarioRow {

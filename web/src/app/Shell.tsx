@@ -5,6 +5,7 @@ import {
   Alert,
   Kbd,
   Modal,
+  Progress,
   Table,
   Tooltip,
   useComputedColorScheme,
@@ -37,6 +38,7 @@ export function Shell() {
     <div className={classes.shell}>
       <Head onHelp={() => setHelp(true)} />
       <Connection />
+      <Compiling />
       <main className={classes.main}>
         <Places />
       </main>
@@ -124,6 +126,9 @@ function Navigation() {
       {place("/runs", "nav-runs", "Runs")}
       {place("/compare", "nav-compare", "Compare")}
       {place("/maps", "nav-maps", "Maps")}
+      <a href="/docs/" className={classes.nav} data-testid="nav-docs">
+        Docs
+      </a>
     </nav>
   );
 }
@@ -173,6 +178,26 @@ function Connection() {
     >
       The studio server does not answer. Trying again … If it was stopped, start it again with{" "}
       <code>uv run studio</code>.
+    </Alert>
+  );
+}
+
+/** Says how far the first compilation on this machine is; a run that is started waits for it. */
+function Compiling() {
+  const now = useQuery(heartbeat).data?.compiling;
+  if (!now) return null;
+  return (
+    <Alert
+      color="blue"
+      radius={0}
+      py={6}
+      icon={<Icon name="compiling" />}
+      role="status"
+      data-testid="compiling"
+    >
+      Compiling once for this machine: {now.done} of {now.of} functions, {Math.round(now.seconds)} s
+      {now.latest ? <>, last {now.latest}</> : null}. A run that is started waits for it.
+      <Progress mt={4} size="xs" value={(100 * now.done) / now.of} aria-label="Functions that are compiled" />
     </Alert>
   );
 }

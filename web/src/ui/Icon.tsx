@@ -25,6 +25,7 @@ const PATHS = {
   check: "M5 13l4 4L19 7",
   branch: "M6 4v16M6 14c8 0 12-2 12-9M15 7l3-3 3 3",
   columns: "M4 5h16v14H4zM9.5 5v14M14.5 5v14",
+  compiling: "M6 3h12M6 21h12M7 3c0 6 10 12 10 18M17 3c0 6-10 12-10 18",
   unlinked: "M9 15l-3 3a3 3 0 0 1-4-4l3-3M15 9l3-3a3 3 0 0 1 4 4l-3 3M4 4l16 16",
   upload: "M12 16V5M7 9.5L12 4.5l5 5M4 16v4h16v-4",
   map: "M9 5L3 7.5v12L9 17l6 2.5 6-2.5V5l-6 2.5zM9 5v12M15 7.5v12",

@@ -1,9 +1,10 @@
 /** The findings as a table: sortable, moved through with the keyboard, drawn only where it is seen. */
 
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useRef } from "react";
+import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
 import { type Finding, MARK_NAMES, type SortKey } from "../../model/finding";
 import { Icon } from "../../ui/Icon";
+import { useRowFocus } from "../../ui/row";
 import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Maps.module.css";
 import { MarkIcon } from "./MarkIcon";
@@ -44,8 +45,14 @@ export function FindingsTable({ findings, selected, sort, onSort, onSelect }: Pr
   useEffect(() => {
     if (at >= 0) virtual.scrollToIndex(at, { align: "auto" });
   }, [at, height, virtual]);
-  const { onKey, focusFirst } = useRowKeys(scroller, findings, at, onSelect);
-  useShortcuts({ j: focusFirst, k: focusFirst, ArrowDown: focusFirst, ArrowUp: focusFirst });
+  const keys = useMemo(() => findings.map(({ id }) => id), [findings]);
+  const { enter, step } = useRowFocus(scroller, keys, (index) => virtual.scrollToIndex(index));
+  const onKey = (event: KeyboardEvent) => {
+    const finding = findings[step(event) ?? -1];
+    if (finding) onSelect(finding);
+  };
+  const come = () => enter(Math.max(0, at));
+  useShortcuts({ j: come, k: come, ArrowDown: come, ArrowUp: come });
 
   const items = virtual.getVirtualItems();
   const above = items[0]?.start ?? 0;
@@ -104,50 +111,6 @@ function Gap({ height }: { height: number }) {
   ) : null;
 }
 
-/** Where a key leads, from one row of so many. */
-const STEPS: Record<string, (at: number, count: number) => number> = {
-  ArrowDown: (at) => at + 1,
-  j: (at) => at + 1,
-  ArrowUp: (at) => at - 1,
-  k: (at) => at - 1,
-  PageDown: (at) => at + 10,
-  PageUp: (at) => at - 10,
-  Home: () => 0,
-  End: (_at, count) => count - 1,
-};
-
-/** The keys select rows, and the focus goes with the selection as soon as the row is drawn. */
-function useRowKeys(
-  scroller: React.RefObject<HTMLDivElement | null>,
-  findings: readonly Finding[],
-  at: number,
-  onSelect: (finding: Finding) => void,
-) {
-  const wanted = useRef(false);
-  const rowAt = (index: number) => scroller.current?.querySelector<HTMLElement>(`tr[data-index="${index}"]`);
-  // Without dependencies: a row far away is drawn only after the table was scrolled to it.
-  useEffect(() => {
-    const row = wanted.current ? rowAt(at) : null;
-    if (!row) return;
-    wanted.current = false;
-    row.focus({ preventScroll: true });
-  });
-  const onKey = (event: KeyboardEvent) => {
-    const step = STEPS[event.key];
-    const from = Number((event.target as HTMLElement).closest("tr")?.dataset.index);
-    const enter = event.key === "Enter" && Number.isInteger(from);
-    if ((!step && !enter) || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.preventDefault();
-    const to = step ? Math.min(findings.length - 1, Math.max(0, step(from, findings.length))) : from;
-    const finding = findings[to];
-    if (!finding) return;
-    wanted.current = true;
-    onSelect(finding);
-  };
-  const focusFirst = () => (rowAt(at) ?? rowAt(0))?.focus();
-  return { onKey, focusFirst };
-}
-
 interface RowProps {
   finding: Finding;
   index: number;
@@ -167,6 +130,7 @@ function Row({ finding, index, selected, reachable, onSelect }: RowProps) {
       aria-selected={selected}
       tabIndex={reachable ? 0 : -1}
       onClick={() => onSelect(finding)}
+      onKeyDown={({ key }) => key === "Enter" && onSelect(finding)}
     >
       <td data-column="mark">
         <MarkIcon mark={mark} title={MARK_NAMES[mark]} />

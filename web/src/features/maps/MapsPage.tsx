@@ -4,7 +4,7 @@ import { ActionIcon, Badge, Group, Table, Text, Title, Tooltip } from "@mantine/
 import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { useRef, useState } from "react";
-import { maps, mapJobs } from "../../api/maps";
+import { maps, noteJob } from "../../api/maps";
 import type { MapJob, MapRow } from "../../model/map";
 import { formatBytes, formatNumber } from "../../model/units";
 import { Icon } from "../../ui/Icon";
@@ -62,8 +62,7 @@ function useOpening(onTaken: () => void) {
   const started = (job: MapJob) => {
     waiting.current.push(job.id);
     onTaken();
-    // So that its end is seen, however soon that is.
-    kept.setQueryData(mapJobs.queryKey, (jobs) => [job, ...(jobs ?? []).filter(({ id }) => id !== job.id)]);
+    noteJob(kept, job);
   };
   const send = async (files: readonly File[], wishes: Wishes) => {
     for (const job of await sendFiles(files, wishes)) started(job);

@@ -2,7 +2,7 @@
 
 import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useRef, useSyncExternalStore } from "react";
-import { Cancelled, mapJobs, upload } from "../../api/maps";
+import { Cancelled, mapJobs, noteJob, upload } from "../../api/maps";
 import type { MapJob } from "../../model/map";
 import { nameFor } from "../../model/place";
 import type { Problem } from "../../model/run";
@@ -94,17 +94,17 @@ export function useJobs(): readonly MapJob[] {
   return useQuery(mapJobs).data ?? NONE;
 }
 
-/** Call this once for each import that comes to its end while it is watched. */
+/** Call this once for each import that comes to its end meanwhile, also for one that was never seen going on. */
 export function useEnds(onEnd: (job: MapJob) => void): void {
-  const jobs = useJobs();
-  const going = useRef(new Set<number>());
+  const { data: jobs } = useQuery(mapJobs);
+  const over = useRef<Set<number>>(undefined);
   const latest = useRef(onEnd);
   latest.current = onEnd;
   useEffect(() => {
-    for (const job of jobs) {
-      if (job.status === "running") going.current.add(job.id);
-      else if (going.current.delete(job.id)) latest.current(job);
-    }
+    if (!jobs) return;
+    const [before, ended] = [over.current, jobs.filter(({ status }) => status !== "running")];
+    over.current = new Set(ended.map(({ id }) => id));
+    if (before) for (const job of ended) if (!before.has(job.id)) latest.current(job);
   }, [jobs]);
 }
 
@@ -124,9 +124,10 @@ export function useSend() {
   return useCallback(
     async (files: readonly File[], { name = "", bbox = "", replace = false } = {}) => {
       const sent = files.map((file) => store.send({ file, name: nameFor(file, files.length === 1 ? name : ""), bbox, replace }));
-      const jobs = await Promise.all(sent);
+      const jobs = (await Promise.all(sent)).filter((job) => job !== undefined);
+      for (const job of jobs) noteJob(kept, job);
       await kept.invalidateQueries({ queryKey: ["map jobs"] });
-      return jobs.filter((job) => job !== undefined);
+      return jobs;
     },
     [kept],
   );

@@ -11,12 +11,13 @@ import {
   useTable,
 } from "@tanstack/react-table";
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, type RefObject, useEffect, useMemo, useRef } from "react";
+import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
 import { useUnits } from "../../api/units";
 import type { Json, Run } from "../../model/run";
 import { type Column, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
 import { formatMoment, formatNumber, formatValue, withUnit } from "../../model/units";
 import { Icon } from "../../ui/Icon";
+import { useRowFocus } from "../../ui/row";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Runs.module.css";
@@ -139,7 +140,9 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
   const above = items[0]?.start ?? 0;
   const below = virtual.getTotalSize() - (items.at(-1)?.end ?? 0);
   const width = table.getVisibleLeafColumns().length + 1;
-  useRowKeys(scroller, items.length > 0);
+  const keys = useMemo(() => rows.map(({ id }) => id), [rows]);
+  const { enter, step } = useRowFocus(scroller, keys, (index) => virtual.scrollToIndex(index));
+  useRowKeys(() => enter(virtual.range?.startIndex ?? 0), items.length > 0);
 
   return (
     <div ref={scroller} className={classes.scroller}>
@@ -173,7 +176,7 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
             </tr>
           ))}
         </thead>
-        <tbody>
+        <tbody onKeyDown={step}>
           <Gap height={above} width={width} />
           {items.map(({ index }) => {
             const row = rows[index];
@@ -181,6 +184,7 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
               <RunRow
                 key={row.id}
                 run={row.original}
+                index={index}
                 columns={row.getVisibleCells().map((cell) => byId(columns, cell.column.id))}
                 selected={selected.includes(row.original.run)}
                 onToggle={() => onToggle(row.original.run)}
@@ -194,10 +198,8 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
   );
 }
 
-/** The keyboard works at once: the first row has the focus, and gets it back from nowhere. */
-function useRowKeys(scroller: RefObject<HTMLDivElement | null>, filled: boolean) {
-  const first = () =>
-    scroller.current?.querySelector<HTMLElement>("tr[data-run]")?.focus({ preventScroll: true });
+/** The keyboard works at once: the first row in sight has the focus, and gets it back from nowhere. */
+function useRowKeys(first: () => void, filled: boolean) {
   useEffect(() => {
     if (filled && !document.activeElement?.matches("input, textarea, select")) first();
   }, [filled]);
@@ -287,22 +289,15 @@ function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
   );
 }
 
-/** Where a key leads from a row. */
-const STEPS: Record<string, "nextElementSibling" | "previousElementSibling"> = {
-  arrowdown: "nextElementSibling",
-  j: "nextElementSibling",
-  arrowup: "previousElementSibling",
-  k: "previousElementSibling",
-};
-
 interface RowProps {
   run: Run;
+  index: number;
   columns: readonly Column[];
   selected: boolean;
   onToggle: () => void;
 }
 
-function RunRow({ run, columns, selected, onToggle }: RowProps) {
+function RunRow({ run, index, columns, selected, onToggle }: RowProps) {
   const navigate = useNavigate();
   const open = (event?: { target: EventTarget }) => {
     // Picking a run is not opening it.
@@ -312,15 +307,12 @@ function RunRow({ run, columns, selected, onToggle }: RowProps) {
   const onKey = (event: KeyboardEvent) => {
     if (event.key === "Enter" && event.target === event.currentTarget) open();
     if (/^x$/i.test(event.key) && event.target === event.currentTarget) onToggle();
-    const step = STEPS[event.key.toLowerCase()];
-    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.preventDefault();
-    (event.currentTarget[step] as HTMLElement | null)?.focus();
   };
   return (
     <tr
       tabIndex={0}
       data-run={run.run}
+      data-index={index}
       data-selected={selected || undefined}
       onClick={open}
       onKeyDown={onKey}

@@ -1,0 +1,1 @@
+"""What makes the documentation of the pages, the schemas and the docstrings."""

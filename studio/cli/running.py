@@ -1,0 +1,198 @@
+"""Commands about runs: make one, list, show and compare them, check what is to be run."""
+
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from studio.cli.option import DEFAULT_DB, Applications, AsJson, Db, ScenarioFile, Sets, changes, load_applications
+from studio.cli.output import print_json, print_table, signed, text
+from studio.cli.progress import compile_first, progress
+from studio.errors import Problem, UnknownError
+
+commands = typer.Typer()
+
+
+@commands.command()
+def run(
+    scenario: ScenarioFile,
+    set_: Sets = None,
+    seed: Annotated[int | None, typer.Option(help="Seed of every random number; default: the scenario's.")] = None,
+    parent: Annotated[int | None, typer.Option(help="The run that this one refines.")] = None,
+    db: Db = DEFAULT_DB,
+    applications: Applications = None,
+    as_json: AsJson = False,
+) -> None:
+    """Runs a scenario as fast as possible and saves the run."""
+    from studio import job
+    from studio.store.runs import open_runs
+
+    load_applications(applications)
+    loaded = job.load(scenario, changes(set_))
+    tell_migrated(loaded)
+    compile_first()
+    with progress("starting") as report:
+        result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
+    if as_json:
+        print_json(run_json(result.row))
+    else:
+        print_run(result.row)
+    if result.status == "failed":
+        raise typer.Exit(1)
+
+
+@commands.command()
+def runs(
+    db: Db = DEFAULT_DB,
+    limit: Annotated[int, typer.Option(help="How many, newest first.", min=1, max=1_000_000)] = 50,
+    as_json: AsJson = False,
+) -> None:
+    """Lists the runs of the database."""
+    rows = existing(db).select(limit=limit)
+    if as_json:
+        print_json([run_json(row) for row in rows])
+        return
+    if not rows:
+        print(f"No run in {db} yet. Try: studio run scenarios/grosser_stern_platoon.yaml")
+        return
+    print_table(
+        ["run", "scenario", "status", "parent", "seed", "set", "min TTC [s]", "worst hop gain [1]"],
+        [[str(row.run), row.scenario, row.status, str(row.parent or ""), str(row.seed), settings(row.parameters),
+          metric_text(row, "min_ttc"), metric_text(row, "worst_hop_gain")] for row in rows],
+    )  # fmt: skip
+
+
+@commands.command()
+def show(run: Annotated[int, typer.Argument(help="Number of the run.")], db: Db = DEFAULT_DB, as_json: AsJson = False) -> None:  # fmt: skip
+    """Shows one run: what was set, and every metric."""
+    row = existing(db).find(run)
+    print_json(run_json(row)) if as_json else print_run(row)
+
+
+@commands.command()
+def compare(
+    a: Annotated[int, typer.Argument(help="Number of a run.")],
+    b: Annotated[int, typer.Argument(help="Number of another run.")],
+    db: Db = DEFAULT_DB,
+    as_json: AsJson = False,
+) -> None:
+    """Compares two runs: the parameters that differ, and every metric."""
+    from studio.store.comparison import compare as compared
+
+    result = compared(existing(db), a, b)
+    if as_json:
+        print_json(result)
+        return
+    print_table(
+        ["parameter", f"run {a}", f"run {b}"],
+        [[each["path"], text(each["a"]), text(each["b"])] for each in result["parameters"]],
+    )
+    print_table(
+        ["metric", f"run {a}", f"run {b}", "difference", "better"],
+        [[f"{each['name']} [{each['unit']}]", text(each["a"]), text(each["b"]), signed(each["difference"]),
+          {"a": f"run {a}", "b": f"run {b}"}.get(each["better"], each["better"] or "")] for each in result["metrics"]],
+    )  # fmt: skip
+
+
+@commands.command()
+def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications = None) -> None:
+    """Checks a scenario file: fields, names, map, routes and starts."""
+    with progress("checking"):
+        from studio import job
+
+        load_applications(applications)
+        loaded = job.load(scenario, changes(set_))
+        prepared = job.prepare(loaded)
+    tell_migrated(loaded)
+    print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
+
+
+@commands.command()
+def migrate(scenario: ScenarioFile) -> None:
+    """Rewrites an old scenario file in place as the present version of the format has it; comments and order stay."""
+    from studio.scenario import file
+    from studio.scenario.migration import migrated
+    from studio.scenario.schema import VERSION
+
+    source = file.opened(scenario)
+    now, changed = migrated(source)
+    if now.text != source.text:
+        file.write(scenario, now.text)
+    for each in changed:
+        print(f"{scenario}: {each}")
+    print(f"{scenario} is of version {VERSION}" + (" already" if now.text == source.text else " now"))
+
+
+def tell_migrated(loaded) -> None:
+    """What an old file says in another way now, on standard error."""
+    for each in loaded.migrated:
+        print(f"{loaded.path}: {each}", file=sys.stderr)
+    if loaded.migrated:
+        print(f"{loaded.path} is of an older version; `studio migrate {loaded.path}` rewrites it", file=sys.stderr)
+
+
+@commands.command()
+def schema() -> None:
+    """Prints the JSON schema of scenario files."""
+    from studio.scenario.schema import Scenario
+
+    print_json(Scenario.model_json_schema())
+
+
+# -- the runs, and how they are shown ----------------------------------------------------------------
+
+
+def existing(db: Path):
+    """The runs of a database that must exist; reading makes no file."""
+    from studio.store.runs import open_runs
+
+    if not db.exists():
+        raise UnknownError(
+            f"There is no run database {db}.",
+            [Problem("--db", "does not exist", str(db), remedy="run a scenario first, or name another file")],
+        )
+    return open_runs(db)
+
+
+def run_json(row) -> dict[str, Any]:
+    """A run as the one object that scripts read."""
+    plain = asdict(row)
+    plain["metrics"] = {name: asdict(each) for name, each in row.metrics.items()}
+    return plain
+
+
+def print_run(row) -> None:
+    """A run for people."""
+    lines = {
+        "run": f"{row.run} ({row.status})",
+        "scenario": f"{row.scenario}  {row.scenario_hash[:12]}",
+        "set": settings(row.parameters) or "nothing, as in the file",
+        "parent": str(row.parent or "none"),
+        "seed": str(row.seed),
+        "time": f"{text(row.sim_time_s)} s simulated in {text(row.wall_time_s)} s",
+        "state": (row.state_hash or "none")[:16],
+        "code": row.code_version,
+    }
+    for name, value in lines.items():
+        print(f"{name:9} {value}")
+    if row.error:
+        print(f"\n{row.error}")
+    for each in row.unmet:
+        print(f"goal not met: {each}")
+    if row.metrics:
+        print_table(
+            ["metric", "value", "better"],
+            [[f"{name} [{each.unit}]", text(each.value), each.goal or ""] for name, each in row.metrics.items()],
+        )
+
+
+def settings(parameters: dict[str, Any]) -> str:
+    """What was set, in one line."""
+    return ", ".join(f"{path}={value}" for path, value in parameters.items())
+
+
+def metric_text(row, name: str) -> str:
+    """A metric of a row."""
+    return text(row.metrics[name].value) if name in row.metrics else ""

@@ -1,0 +1,1 @@
+"""Maps that the studio draws: a town, a parking deck, a motorway."""

@@ -1,0 +1,1 @@
+"""What map files say, and what their words mean: OpenStreetMap, OpenDRIVE, countries, limits."""

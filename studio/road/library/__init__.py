@@ -1,0 +1,1 @@
+"""Maps from where they come to where they are kept: files, downloads, corrections, the folders of imports."""

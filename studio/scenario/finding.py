@@ -1,0 +1,50 @@
+"""What pydantic finds wrong, told as ours: the field's path, what is wrong, the value, what is allowed, the nearest name."""
+
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from studio.errors import Problem, nearest
+from studio.scenario.schema import located
+
+
+def problems(error: ValidationError, where: str, model: type, *, under: str = "") -> list[Problem]:
+    """Pydantic's findings as ours; `under` is the path of the model within its document, with a dot."""
+    return [problem(finding, where, model, under) for finding in error.errors(include_url=False)]
+
+
+def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Problem:
+    """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
+    path = under + located(model.model_json_schema(), finding["loc"])[0] or "the scenario"
+    what = finding["msg"].removeprefix("Value error, ")
+    value, remedy = short(finding["input"]), ""
+    if finding["type"] == "extra_forbidden":
+        what, value = "is not a field that exists here", ""
+        remedy = nearest(str(finding["loc"][-1]), fields_at(model, finding["loc"][:-1]))
+    elif finding["type"] == "missing":
+        what, value, remedy = "is missing", "", "add it"
+    return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
+
+
+def lower(text: str) -> str:
+    """Pydantic's sentence as a clause."""
+    return text[:1].lower() + text[1:]
+
+
+def short(value: Any, limit: int = 60) -> str:
+    """A value that fits into a message."""
+    text = repr(value)
+    return text if len(text) <= limit else text[: limit - 1] + "…"
+
+
+def allowed(finding: ErrorDetails) -> str:
+    """Bounds that a finding names."""
+    signs = {"ge": "≥", "gt": ">", "le": "≤", "lt": "<", "pattern": "pattern", "expected": ""}
+    context = finding.get("ctx", {})
+    return " ".join(f"{sign} {context[key]}".strip() for key, sign in signs.items() if key in context)
+
+
+def fields_at(model: type, path: tuple) -> list[str]:
+    """Names of the fields that the schema has at a path."""
+    return sorted(located(model.model_json_schema(), path)[1].get("properties", {}))

@@ -1,0 +1,77 @@
+"""The scenario files of the folder as documents: their text, and patches that are checked before they are written."""
+
+import threading
+from collections import OrderedDict
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import studio
+from studio import job
+from studio.errors import Problem, SealedError, StaleError
+from studio.scenario import edit, file
+from studio.scenario.document import applied, digest
+from studio.scenario.finding import short
+from studio.scenario.migration import migrated
+from studio.scenario.patch import Operation
+from studio.scenario.source import Source
+
+KEPT = 64  # texts that were given out lately, so that it can be told what has changed since
+TOLD = 20  # differences that are told
+
+
+@dataclass
+class Documents:
+    """Reads and changes scenario files, one change at a time."""
+
+    folder: Path
+    given: OrderedDict[str, Source] = field(default_factory=OrderedDict)
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def read(self, path: Path) -> Source:
+        """A scenario file as the present version has it; raises ScenarioError."""
+        found, _ = migrated(file.opened(path))
+        self.given[digest(found.text)] = found
+        while len(self.given) > KEPT:
+            self.given.popitem(last=False)
+        return found
+
+    def patch(self, path: Path, patch: list[Operation], expected: str | None) -> tuple[Source, list[Operation]]:
+        """Changes a file if it is the expected one, given its digest, and what comes of it is valid; returns it with the inverse.
+
+        Raises SealedError, StaleError, ConflictError for a test that fails, or ScenarioError; then nothing was written.
+        """
+        with self.lock:
+            self.check_open(path)
+            before = self.read(path)
+            if expected is not None and expected != digest(before.text):
+                raise self.stale(path, before, expected)
+            after, inverse = applied(before, patch)
+            job.check(job.loaded(file.checked(after, "scenario"), path))
+            file.write(path, after.text)
+            return self.read(path), inverse
+
+    def check_open(self, path: Path) -> None:
+        """Only files that lie in the folder itself are written, no samples of the program, and none that is write-protected."""
+        place, own = path.resolve(), Path(studio.__file__).resolve().parent
+        if place.parent != self.folder.resolve() or own in place.parents or not place.stat().st_mode & 0o200:
+            problem = Problem(str(path), "may be read only", remedy="copy it under another name, and change that")
+            raise SealedError(f"{path.name} cannot be changed.", [problem])
+
+    def stale(self, path: Path, now: Source, expected: str) -> StaleError:
+        """A refusal that says what has changed since the expected text was given out, if that is still known."""
+        before = self.given.get(expected)
+        found = differences(before, now) if before else []
+        problems = found or [Problem(path.name, "is not as it was when you read it", remedy="read it again, then change it")]
+        return StaleError(f"{path.name} has changed meanwhile.", problems)
+
+
+def differences(before: Source, now: Source) -> list[Problem]:
+    """Places that hold other values than before."""
+    old, new = edit.flatten(before.value), edit.flatten(now.value)
+    changed = [path for path in old | new if path not in old or path not in new or old[path] != new[path]]
+    return [Problem(path, "has changed", told(new, path), f"{told(old, path)} before") for path in changed[:TOLD]]
+
+
+def told(values: dict, path: str) -> str:
+    """A value for a message."""
+    return short(values[path]) if path in values else "nothing"

@@ -1,0 +1,161 @@
+"""The warm-up: everything is compiled before it is needed, by as many processes as there are cores.
+
+No list says what there is to compile. The parts of a warm-up are what people do, done once and briefly: a vehicle on the rig,
+a tyre on the bench, every sample. What those compile, and what their functions call, is compiled with the types that it is used
+with. Processes that come to the same function share the work, as `compiled` says.
+
+    missing()   →  what has no machine code yet, of all that this file imports
+    Warmup      →  starts the processes, tells how far they are, ends them
+"""
+
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from studio import job, sample
+from studio.application import registry
+from studio.compiled import folder_of
+from studio.errors import RunError
+from studio.model.tyre import Tyre
+from studio.rig import drive, tyre
+from studio.scenario import catalogue, tir
+from studio.source import PACKAGE, closure, compiled_functions
+
+MODEL, TYRE = "bmw_320i", "smart_175_55r15"
+MOMENT = 0.2  # [s] that a part lasts
+LOOK = 0.5  # [s] between two looks at how far it is
+ON_THE_RIG = "rig"
+spawn = multiprocessing.get_context("spawn")
+
+
+# -- what there is to do -----------------------------------------------------------------------------
+
+
+def parts() -> list[str]:
+    """What is done, the longest first: the rig compiles a whole vehicle, the first sample everything around it."""
+    return [ON_THE_RIG, *map(str, sample.files())]
+
+
+def do(part: str) -> None:
+    """One part, from its file to its metrics."""
+    if part == ON_THE_RIG:
+        drive.drive(MODEL, {"time_s": [0.0, MOMENT], "throttle": [1.0, 1.0]})
+        tyre.sweep(Tyre(*tir.coefficients(catalogue.find_tyre(TYRE))), *np.ones((4, 2)))
+    else:
+        job.run(job.load(part, {"clock.duration": MOMENT}))
+
+
+def files() -> set[Path]:
+    """The files of this package with compiled functions that this one, or an application, depends on.
+
+    Applications of the user's own are compiled when they first run.
+    """
+    roots = [Path(__file__), *(Path(getfile(each.module)) for each in registry.known().values())]
+    ours = {path for root in roots for path in closure(root) if path.is_relative_to(PACKAGE)}
+    return {path for path in ours if compiled_functions(path)}
+
+
+def missing() -> list[str]:
+    """The functions that have no machine code yet, as room.file.function."""
+    return [name for path in sorted(files()) for name in without_code(path)]
+
+
+def without_code(path: Path) -> list[str]:
+    """Those of one file."""
+    kept = {name_of(index) for index in indices(path)}
+    return [f"{path.parent.name}.{path.stem}.{name}" for name in compiled_functions(path) if name not in kept]
+
+
+def latest() -> str:
+    """The function that was compiled last, as file.function; "" when there is none."""
+    kept = [index for path in files() for index in indices(path)]
+    return max(kept, key=lambda index: index.stat().st_mtime).name.partition("-")[0] if kept else ""
+
+
+def indices(path: Path) -> Iterator[Path]:
+    """What numba keeps of the functions of a file: an index for each, file.function-line.python.nbi."""
+    return folder_of(path).glob("*.nbi")
+
+
+def name_of(index: Path) -> str:
+    """The function that an index is about."""
+    return index.name.partition("-")[0].rpartition(".")[2]
+
+
+# -- doing it ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far it is: functions done, of how many, seconds since it began, the function that was compiled last."""
+
+    done: int
+    of: int
+    seconds: float
+    latest: str
+
+
+@dataclass
+class Warmup:
+    """Processes that compile everything; none before it is started, or when nothing is missing."""
+
+    lacked: int = 0
+    began: float = field(default_factory=time.monotonic)
+    processes: list[Any] = field(default_factory=list)
+
+    def start(self) -> "Warmup":
+        """Starts them; each takes every n-th part."""
+        self.began, self.lacked = time.monotonic(), len(missing())
+        count = min(os.cpu_count() or 1, len(parts())) if self.lacked else 0
+        for i in range(count):
+            process = spawn.Process(target=work, args=(parts()[i::count],), name=f"warm-up {i + 1}", daemon=True)
+            process.start()
+            self.processes.append(process)
+        return self
+
+    @property
+    def compiled(self) -> int:
+        """How many functions were compiled since it began, by whomever."""
+        return self.lacked - len(missing())
+
+    @property
+    def is_over(self) -> bool:
+        """Whether they have ended."""
+        return not any(process.is_alive() for process in self.processes)
+
+    def progress(self) -> Progress:
+        """How far all processes of this machine together are."""
+        of = sum(len(compiled_functions(path)) for path in files())
+        return Progress(of - len(missing()), of, time.monotonic() - self.began, latest())
+
+    def wait(self, tell: Callable[[Progress], None] = lambda progress: None) -> None:
+        """Until it is over; raises RunError when a process has failed."""
+        while not self.is_over:
+            tell(self.progress())
+            time.sleep(LOOK)
+        tell(self.progress())
+        failed = [process.name for process in self.processes if process.exitcode]
+        if failed:
+            raise RunError(
+                f"The {' and the '.join(failed)} failed; what went wrong stands above. Runs compile what they need by themselves."
+            )
+
+    def close(self) -> None:
+        """Ends them; what they have compiled is kept."""
+        for process in self.processes:
+            process.kill()
+            process.join()
+
+
+def work(own: list[str]) -> None:
+    """A process: its parts. Who started it decides when it ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for part in own:
+        do(part)

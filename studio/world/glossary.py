@@ -1,0 +1,49 @@
+"""The glossary of the simulation: every row of every table, for people who read arrays, records or this code.
+
+glossary()   →  Entry, Entry, ...     table by table
+markdown()   →  str                   the same as a page
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from studio.rows import Row, Table
+from studio.vehicle.command import COMMAND
+from studio.vehicle.contact import CONTACT, GROUND
+from studio.vehicle.parameter import GEARBOX, PARAMETER
+from studio.vehicle.state import VEHICLE, WHEEL
+from studio.world.mind import DRIVER, MIND, SCRIPT
+from studio.world.neighbour import PLACE
+from studio.world.notice import NOTICE
+from studio.world.street import COLLISION, LINE, MOMENT, OBSTACLE, PIECE, SWEEP
+from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET
+
+TABLES = (
+    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
+    MIND, SCRIPT, DRIVER, SENSOR, MESSAGE, SENSOR_SET, GPS_SET, RADIO_SET,
+    LINE, MOMENT, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
+)  # fmt: skip
+HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
+
+
+class Entry(NamedTuple):
+    """One row, and the table that it stands in."""
+
+    table: Table
+    row: Row
+
+
+def glossary() -> Iterator[Entry]:
+    """All rows."""
+    return (Entry(table, row) for table in TABLES for row in table)
+
+
+def markdown() -> str:
+    """All tables, one after the other."""
+    return "\n".join(section(table) for table in TABLES)
+
+
+def section(table: Table) -> str:
+    """One table with its heading."""
+    lines = [f"| `{row.name}` | {row.unit} | {row.role} | {row.label} | {row.meaning} |" for row in table]
+    return "\n".join([f"## {table.name.replace('_', ' ').capitalize()}\n", f"One column per {table.per}.\n", HEAD, *lines, ""])

@@ -1,0 +1,54 @@
+"""What happens on the roads: lines that vehicles may take, changes, slippery pieces, objects, and collisions."""
+
+from studio.rows import Role, Table
+
+LINE = Table("line", Role.PARAMETER, per="path that vehicles may take")
+LINE_FIRST = LINE.row("first", "1", "column of its first point")
+LINE_COUNT = LINE.row("count", "1", "of its points")
+LINE_STOP = LINE.row("first_stop", "1", "its first stop line")
+LINE_STOPS = LINE.row("stops", "1", "number of its stop lines")
+LINE_OBJECT = LINE.row("first_object", "1", "first object that stands in its way")
+LINE_OBJECTS = LINE.row("objects", "1", "number of them")
+
+# Changes of the road: each begins and ends at a moment, which is a time or a place that a vehicle passes.
+MOMENT = Table("moment", Role.PARAMETER, per="beginning or end of a change")
+WHEN = MOMENT.row("time", "s", "infinite when a vehicle makes it")
+BY = MOMENT.row("vehicle", "1", "column of the vehicle, -1 when there is none")
+AT = MOMENT.row("station", "m", "on the path of this vehicle")
+BEFORE, ACTING, OVER = range(3)  # phases of a change
+
+# Pieces of slippery stretches.
+PIECE = Table("piece", Role.PARAMETER, per="piece of a slippery stretch")
+PIECE_X = PIECE.row("x", "m", "middle of the piece")
+PIECE_Y = PIECE.row("y", "m", "middle of the piece")
+PIECE_HEADING = PIECE.row("heading", "rad", "of the route there")
+PIECE_LEFT = PIECE.row("left", "m", "how far it reaches to the left")
+PIECE_RIGHT = PIECE.row("right", "m", "how far it reaches to the right")
+PIECE_FRICTION = PIECE.row("friction", "1", "relative to the tyre's test track")
+PIECE_WORLD = PIECE.row("world", "1", "number of the world")
+PIECE_CHANGE = PIECE.row("change", "1", "number of the change that it belongs to")
+PIECE_ACTS = PIECE.row("acts", "1", "1 while this change does", role=Role.STATE)
+
+# Objects on the road: boxes at rest.
+OBSTACLE = Table("obstacle", Role.PARAMETER, per="object on the road")
+O_X = OBSTACLE.row("x", "m", "middle of the object")
+O_Y = OBSTACLE.row("y", "m", "middle of the object")
+O_HEADING = OBSTACLE.row("heading", "rad", "of its length")
+O_LENGTH = OBSTACLE.row("length", "m", "of the object")
+O_WIDTH = OBSTACLE.row("width", "m", "of the object")
+O_KIND = OBSTACLE.row("kind", "1", "0 a cone, 1 a barrier")
+O_CHANGE = OBSTACLE.row("change", "1", "number of the change that it belongs to")
+CONE, BARRIER = range(2)
+OBJECT = -2  # where the number of a vehicle may stand, object i of its world is OBJECT - i; -1 is nothing
+
+# Objects that a vehicle on its path may run into.
+SWEEP = Table("sweep", Role.PARAMETER, per="object on a path")
+SWEPT_AT = SWEEP.row("station", "m", "at which the path comes to it")
+SWEPT_ASIDE = SWEEP.row("aside", "m", "from the path to its near edge")
+SWEPT_OBJECT = SWEEP.row("object", "1", "number of the object")
+
+COLLISION = Table("collision", Role.RECORD, per="collision")
+HIT_TIME = COLLISION.row("time", "s", "of the first contact")
+HIT_FIRST = COLLISION.row("first", "1", "number of one vehicle in its world")
+HIT_SECOND = COLLISION.row("second", "1", "number of the other, or OBJECT - i")
+HIT_SPEED = COLLISION.row("impact_speed", "m/s", "relative speed at contact")

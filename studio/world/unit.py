@@ -1,0 +1,46 @@
+"""Units: what sensors measure, what messages carry, and how sensors, satellites and radio are set."""
+
+from studio.rows import Role, Table
+
+SENSOR = Table("sensor", Role.DERIVED, per="vehicle")
+DETECTED = SENSOR.row("detected", "1", "1 when the front sensor has a target")
+RANGE = SENSOR.row("measured_range", "m", "front bumper to the target's rear", label="Range of the front sensor")
+RANGE_RATE = SENSOR.row("range_rate", "m/s", "change of the range")
+AZIMUTH = SENSOR.row("azimuth", "rad", "direction of the target, left positive")
+TARGET = SENSOR.row("target", "1", "number in its world of the target, or OBJECT - i, for the record only")
+DRIFT_EAST = SENSOR.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
+DRIFT_NORTH = SENSOR.row("drift_north", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
+GPS_EAST = SENSOR.row("gps_error_east", "m", "measured minus true position", label="Error of the satellite position to the east")
+GPS_NORTH = SENSOR.row("gps_error_north", "m", "measured minus true position", label="Error of the satellite position to the north")
+
+SENSOR_SET = Table("sensor_setting", Role.PARAMETER, per="vehicle")
+REACH = SENSOR_SET.row("range", "m", "reach")
+OPENING = SENSOR_SET.row("opening_angle", "rad", "whole angle")
+RANGE_SIGMA = SENSOR_SET.row("range_noise", "m", "standard deviation")
+RATE_SIGMA = SENSOR_SET.row("rate_noise", "m/s", "standard deviation")
+
+GPS_SET = Table("satellite_setting", Role.PARAMETER, per="vehicle")
+DRIFT_SIGMA = GPS_SET.row("drift", "m", "standard deviation of the slow error under an open sky")
+DRIFT_TIME = GPS_SET.row("correlation_time", "s", "of the slow error")
+GPS_SIGMA = GPS_SET.row("noise", "m", "standard deviation of the white noise")
+CANYON = GPS_SET.row("canyon_factor", "1", "by how much the slow error is larger where no sky is open")
+
+RADIO_SET = Table("radio_setting", Role.PARAMETER, per="world")
+PERIOD = RADIO_SET.row("period", "s", "between two messages of a unit")
+DELAY = RADIO_SET.row("delay", "s", "mean")
+VARIATION = RADIO_SET.row("delay_variation", "s", "half width")
+LOSS = RADIO_SET.row("loss", "1", "rate")
+LOSS_DISTANCE = RADIO_SET.row("loss_per_metre", "1/m", "growth of the loss with distance")
+RADIO_RANGE = RADIO_SET.row("range", "m", "beyond it nothing is heard")
+BUILDINGS = RADIO_SET.row("buildings", "1", "1 where they weaken the signal")
+EXPONENT = RADIO_SET.row("path_loss_exponent", "1", "power falls with distance to this power")
+
+MESSAGE = Table("message", Role.STATE, per="vehicle and tick of the ring, or link")
+SENT = MESSAGE.row("sent", "s", "time of sending")
+M_X = MESSAGE.row("x", "m", "position of the sender")
+M_Y = MESSAGE.row("y", "m", "position of the sender")
+M_SPEED = MESSAGE.row("speed", "m/s", "speed of the sender")
+M_ACCELERATION = MESSAGE.row("acceleration", "m/s²", "acceleration of the sender")
+M_INTENTION = MESSAGE.row("intention", "m/s²", "acceleration that the sender has requested of its actuators")
+M_TRUE_X = MESSAGE.row("true_x", "m", "where the antenna was; for the radio, not for the receiver")
+M_TRUE_Y = MESSAGE.row("true_y", "m", "where the antenna was; for the radio, not for the receiver")

@@ -1,0 +1,77 @@
+import { MantineProvider } from "@mantine/core";
+import { QueryClient, QueryClientProvider } from "@tanstack/react-query";
+import { createMemoryHistory, createRootRoute, createRouter, RouterProvider } from "@tanstack/react-router";
+import { act } from "react";
+import { createRoot, type Root } from "react-dom/client";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { applications } from "../../api/queries";
+import { finished } from "../../test/scenario";
+import { press, Sight } from "../../test/sight";
+import { RunsTable } from "./RunsTable";
+
+const ROW = 33; // [px]
+const RUNS = Array.from({ length: 200 }, (_, number) => finished({ run: number }));
+
+let host: HTMLElement;
+let root: Root;
+let sight: Sight;
+
+function Table() {
+  return (
+    <RunsTable runs={RUNS} all={RUNS} view={{}} onView={() => {}} selected={[]} onToggle={() => {}} />
+  );
+}
+
+beforeEach(async () => {
+  sight = new Sight(ROW * (RUNS.length + 2));
+  host = document.body.appendChild(document.createElement("div"));
+  root = createRoot(host);
+  // What the server would say of the scenarios is not what the keys are about.
+  const client = new QueryClient({ defaultOptions: { queries: { enabled: false } } });
+  client.setQueryData(applications.queryKey, []);
+  const router = createRouter({
+    routeTree: createRootRoute({ component: Table }),
+    history: createMemoryHistory(),
+  });
+  await router.load();
+  await act(async () =>
+    root.render(
+      <QueryClientProvider client={client}>
+        <MantineProvider env="test">
+          <RouterProvider router={router as never} />
+        </MantineProvider>
+      </QueryClientProvider>,
+    ),
+  );
+});
+afterEach(() => {
+  act(() => root.unmount());
+  host.remove();
+  vi.restoreAllMocks();
+});
+
+const table = () => host.querySelector("table");
+const focused = () => (document.activeElement as HTMLElement).dataset.run;
+
+describe("the keys in the table of runs", () => {
+  it("work at once", () => {
+    expect(focused()).toBe("0");
+    press("ArrowDown", "J", "k");
+    expect(focused()).toBe("1");
+  });
+
+  it("go on beyond the rows that are drawn", () => {
+    const last = Number([...host.querySelectorAll<HTMLElement>("tr[data-run]")].at(-1)?.dataset.run);
+    press(...Array<string>(last + 3).fill("ArrowDown"));
+    expect(focused()).toBe(String(last));
+    sight.arrive(table());
+    expect(focused()).toBe(String(last + 3));
+  });
+
+  it("begin with the first row in sight when the focus went with a row that is not drawn any more", () => {
+    sight.move(table(), 100 * ROW);
+    expect(document.activeElement).toBe(document.body);
+    press("ArrowDown");
+    expect(focused()).toBe("100");
+  });
+});
