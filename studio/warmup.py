@@ -8,14 +8,13 @@ with. Processes that come to the same function share the work, as `compiled` say
     Warmup      →  starts the processes, tells how far they are, ends them
 """
 
-import multiprocessing
 import os
-import signal
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from inspect import getfile
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -24,6 +23,7 @@ from studio.application import registry
 from studio.compiled import folder_of
 from studio.errors import RunError
 from studio.model.tyre import Tyre
+from studio.process import Child
 from studio.rig import drive, tyre
 from studio.scenario import catalogue, tir
 from studio.source import PACKAGE, closure, compiled_functions
@@ -32,7 +32,6 @@ MODEL, TYRE = "bmw_320i", "smart_175_55r15"
 MOMENT = 0.2  # [s] that a part lasts
 LOOK = 0.5  # [s] between two looks at how far it is
 ON_THE_RIG = "rig"
-spawn = multiprocessing.get_context("spawn")
 
 
 # -- what there is to do -----------------------------------------------------------------------------
@@ -108,16 +107,13 @@ class Warmup:
 
     lacked: int = 0
     began: float = field(default_factory=time.monotonic)
-    processes: list[Any] = field(default_factory=list)
+    processes: list[Child] = field(default_factory=list)
 
     def start(self) -> "Warmup":
         """Starts them; each takes every n-th part."""
         self.began, self.lacked = time.monotonic(), len(missing())
         count = min(os.cpu_count() or 1, len(parts())) if self.lacked else 0
-        for i in range(count):
-            process = spawn.Process(target=work, args=(parts()[i::count],), name=f"warm-up {i + 1}", daemon=True)
-            process.start()
-            self.processes.append(process)
+        self.processes = [Child.begin(work, parts()[i::count]) for i in range(count)]
         return self
 
     @property
@@ -141,7 +137,7 @@ class Warmup:
             tell(self.progress())
             time.sleep(LOOK)
         tell(self.progress())
-        failed = [process.name for process in self.processes if process.exitcode]
+        failed = [f"warm-up {i}" for i, process in enumerate(self.processes, start=1) if process.exit_code()]
         if failed:
             raise RunError(
                 f"The {' and the '.join(failed)} failed; what went wrong stands above. Runs compile what they need by themselves."
@@ -150,12 +146,10 @@ class Warmup:
     def close(self) -> None:
         """Ends them; what they have compiled is kept."""
         for process in self.processes:
-            process.kill()
-            process.join()
+            process.end(0.0)
 
 
-def work(own: list[str]) -> None:
-    """A process: its parts. Who started it decides when it ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def work(line: Connection, own: list[str]) -> None:
+    """A process: its parts."""
     for part in own:
         do(part)

@@ -6,14 +6,12 @@ LiveRun       orders to one process; its news go to all listeners
 
 import asyncio
 import logging
-import multiprocessing
 import threading
 import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from math import inf, isfinite
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +19,7 @@ import numpy as np
 
 from studio.errors import Problem, ServerError, UnknownError
 from studio.job import Loaded
+from studio.process import Busy, Child, Gone
 from studio.server import worker
 from studio.server.frame import Frame
 from studio.server.worker import Order
@@ -31,37 +30,11 @@ MOST_LIVE = 8  # processes at a time
 END_PATIENCE = 3.0  # [s] for a process to save and end
 STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang
 LOG = logging.getLogger(__name__)
-spawn = multiprocessing.get_context("spawn")
 
 
 def plain(values: np.ndarray) -> list[float | None]:
     """Numbers for JSON: what is not finite becomes null."""
     return [value if isfinite(value) else None for value in values.tolist()]
-
-
-@dataclass
-class Process:
-    """A worker process and the server's end of its pipe."""
-
-    process: Any
-    pipe: Connection
-
-    @classmethod
-    def begin(cls, first: Path | None, applications: Path | None) -> "Process":
-        """Starts one; it gets ready by itself."""
-        ours, theirs = spawn.Pipe()
-        process = spawn.Process(target=worker.main, args=(theirs, first, applications), daemon=True)
-        process.start()
-        theirs.close()
-        return cls(process, ours)
-
-    def end(self) -> None:
-        """Ends it, kindly first."""
-        with suppress(OSError):
-            self.pipe.close()
-        self.process.join(END_PATIENCE)
-        if self.process.is_alive():
-            self.process.kill()
 
 
 @dataclass
@@ -71,7 +44,7 @@ class LiveRun:
     run: int
     scenario: str
     duration: float
-    process: Process
+    process: Child
     on_frame: Callable[["LiveRun", Frame], None]
     loaded: Loaded
     db: Path
@@ -93,22 +66,21 @@ class LiveRun:
         """Reads the process's news until it ends; runs in a thread of its own."""
         try:
             while not self.is_over:
-                word, *values = self.process.pipe.recv()
+                word, *values = self.process.hear()
                 getattr(self, f"on_{word}_news")(*values)
-        except (EOFError, OSError):
-            self.process.process.join(END_PATIENCE)
-            status, reason = self.explanation()
+        except Gone as gone:
+            status, reason = self.explanation(gone.code)
             if self.given_up:  # a row of a process that died by itself is found by whoever reads it next
                 reopen_runs(self.db).end(self.run, status, reason)
             self.on_end_news(status, reason)
         finally:
             self.process.end()
 
-    def explanation(self) -> tuple[str, str]:
+    def explanation(self, code: int | None) -> tuple[str, str]:
         """Status and reason of a run whose process has gone without a word."""
         if self.given_up:
             return "stopped", f"It did not react to stop within {STOP_PATIENCE:g} s; its process was ended."
-        return "failed", f"The process of this run ended with code {self.process.process.exitcode}."
+        return "failed", f"The process of this run ended with code {code}."
 
     def on_frame_news(self, when: float, frame: Frame) -> None:
         """A picture for the scene. What goes wrong with drawing must not end a run."""
@@ -165,17 +137,26 @@ class LiveRun:
         return self.status in ("done", "stopped", "failed")
 
     def order(self, *words: Any) -> None:
-        """Gives an order; raises ServerError when the run is over."""
-        if self.is_over:
-            raise ServerError(f"Run {self.run} is over.", [Problem("run", "is over", self.status, "a run that is going on")])
+        """Gives an order; raises ServerError when the run is over, or has not taken many orders before."""
+        self.check_going()
         try:
-            self.process.pipe.send(words)
-        except OSError:
+            self.process.tell(*words)
+        except Busy:
+            problem = Problem("order", "cannot be taken", str(words[0]), remedy="stop the run: it does not react")
+            raise ServerError(f"Run {self.run} has not taken the orders before.", [problem]) from None
+        except Gone:
             raise ServerError(f"The process of run {self.run} has ended.") from None
 
+    def check_going(self) -> None:
+        """Raises ServerError when the run is over."""
+        if self.is_over:
+            raise ServerError(f"Run {self.run} is over.", [Problem("run", "is over", self.status, "a run that is going on")])
+
     def stop(self) -> None:
-        """Orders the end; a process that does not react is ended."""
-        self.order("stop")
+        """Orders the end; a process that does not react, or takes no orders any more, is ended. Raises ServerError when it is over."""
+        self.check_going()
+        with suppress(Busy, Gone):
+            self.process.tell("stop")
         patience = threading.Timer(STOP_PATIENCE, self.give_up)
         patience.daemon = True
         patience.start()
@@ -184,7 +165,7 @@ class LiveRun:
         """Ends a process that still has not stopped; one that has may take its time to save."""
         if not (self.is_over or self.obeyed):
             self.given_up = True
-            self.process.process.kill()
+            self.process.kill()
 
     def join(self, listener: "Listener") -> None:
         """A new listener first gets everything so far."""
@@ -233,17 +214,17 @@ class Lives:
                  on_frame: Callable[[LiveRun, Frame], None]) -> None:  # fmt: skip
         self.db, self.first, self.applications, self.on_frame = db, first, applications, on_frame
         self.runs: dict[int, LiveRun] = {}
-        self.spare: Process | None = None
+        self.spare: Child | None = None
         self.starting = 0
         self.lock = threading.Lock()
 
     def make_ready(self) -> None:
         """Starts the process for the next run, unless it waits already."""
         with self.lock:
-            if self.spare is None or not self.spare.process.is_alive():
-                self.spare = Process.begin(self.first, self.applications)
+            if self.spare is None or not self.spare.is_alive():
+                self.spare = Child.begin(worker.main, self.first, self.applications)
 
-    def take(self) -> Process:
+    def take(self) -> Child:
         """The process that waits."""
         self.make_ready()
         with self.lock:
@@ -277,19 +258,19 @@ class Lives:
             with self.lock:
                 self.starting -= 1
 
-    def begin(self, order: Order) -> tuple[Process, int, float]:
+    def begin(self, order: Order) -> tuple[Child, int, float]:
         """A process that has begun with the order; when the one that waited has died, another."""
         process = self.take()
         try:
             return process, *begun(process, order)
-        except (EOFError, OSError):
+        except OSError:
             process.end()
         process = self.take()
         try:
             return process, *begun(process, order)
-        except (EOFError, OSError):
+        except OSError:
             process.end()
-            raise ServerError(f"The process of the run did not start (code {process.process.exitcode}).") from None
+            raise ServerError(f"The process of the run did not start (code {process.exit_code()}).") from None
 
     def find(self, run: int) -> LiveRun:
         """A live run; raises UnknownError."""
@@ -302,20 +283,20 @@ class Lives:
         """Stops all runs and ends all processes."""
         for live in self.runs.values():
             with suppress(ServerError):
-                live.order("stop")
+                live.stop()
         deadline = time.monotonic() + END_PATIENCE
         while any(not live.is_over for live in self.runs.values()) and time.monotonic() < deadline:
             time.sleep(0.02)
         with self.lock:
-            if self.spare:
-                self.spare.end()
+            for process in (*(live.process for live in self.runs.values()), *([self.spare] if self.spare else [])):
+                process.end(0.0)
 
 
-def begun(process: Process, order: Order) -> tuple[int, float]:
-    """Gives the order and waits for the answer: the run's number and duration. Raises EOFError, OSError, or a refusal."""
-    process.pipe.send(("start", order))
-    while process.pipe.poll(START_PATIENCE):
-        word, *values = process.pipe.recv()
+def begun(process: Child, order: Order) -> tuple[int, float]:
+    """Gives the order and waits for the answer: the run's number and duration. Raises OSError, or a refusal."""
+    process.tell("start", order)
+    while process.hears_within(START_PATIENCE):
+        word, *values = process.hear()
         if word == "refused":
             process.end()
             raise values[0]

@@ -5,16 +5,13 @@ it makes appears at once and whole; from that moment on nobody cancels it.
 """
 
 import itertools
-import multiprocessing
 import os
 import shutil
 import threading
 import time
 from collections.abc import AsyncIterator, Iterator
-from contextlib import suppress
 from dataclasses import dataclass, field
 from math import inf
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +19,7 @@ import psutil
 from starlette.concurrency import run_in_threadpool
 
 from studio.errors import MapError, Problem, ServerError, SizeError, StudioError, UnknownError
+from studio.process import Child, Gone
 from studio.road.formats import osm
 from studio.road.library import folder, intake, tag
 from studio.server import answer, map_worker
@@ -34,7 +32,6 @@ MOST_KEPT = 100  # imports that are over
 END_PATIENCE = 10.0  # [s] for folders that are being written when the server ends
 SCRATCH = ".job"  # how the folders of imports begin
 WAITING = "waiting for other imports"
-spawn = multiprocessing.get_context("spawn")
 
 
 @dataclass
@@ -50,7 +47,7 @@ class MapJob:
     problem: StudioError | None = None
     began: float = field(default_factory=time.monotonic)
     ended: float = inf
-    process: Any = None
+    process: Child | None = None
     committed: bool = False
     lock: threading.RLock = field(default_factory=threading.RLock)
 
@@ -81,41 +78,38 @@ class MapJob:
             if not self.is_over and not self.committed:
                 self.end("cancelled")
                 if self.process is not None:
-                    kill(self.process)
+                    self.process.kill()
 
     def work(self) -> None:
         """Runs it in a process; when it is over, what it needed for a while is gone."""
         try:
-            outcome = self.listen(self.start())
+            child = self.start()
+            outcome = self.listen(child) if child else ("cancelled", None)
         except OSError as error:
             outcome = "failed", ServerError(f"The process of the import did not start ({error.strerror or error}).")
         shutil.rmtree(self.order.scratch, ignore_errors=True)
         self.end(*outcome)
 
-    def start(self) -> Connection:
-        """Starts the process, unless it has been cancelled; its pipe."""
-        ours, theirs = spawn.Pipe()
-        with self.lock, theirs:
+    def start(self) -> Child | None:
+        """Starts the process, unless it has been cancelled."""
+        with self.lock:
             if not self.is_over:
                 self.stage = "starting"
-                self.process = spawn.Process(target=map_worker.main, args=(theirs, self.order), daemon=True)
-                self.process.start()
-        return ours
+                self.process = Child.begin(map_worker.main, self.order)
+            return self.process
 
-    def listen(self, pipe: Connection) -> tuple[answer.ImportStatus, StudioError | None]:
+    def listen(self, child: Child) -> tuple[answer.ImportStatus, StudioError | None]:
         """Hears the process out; the status that it ends with, and the problem."""
         outcome = None
-        with pipe, suppress(EOFError, OSError):
+        try:
             while outcome is None:
-                word, *values = pipe.recv()
-                outcome = self.hear(pipe, word, values)
-        if self.process is None:
-            return "cancelled", None
-        self.process.join(END_PATIENCE)
-        kill(self.process)
-        return outcome or ("failed", gone(self.process.exitcode))
+                outcome = self.hear(child, *child.hear())
+        except Gone as end:
+            outcome = "failed", gone(end.code)
+        child.end(END_PATIENCE)
+        return outcome
 
-    def hear(self, pipe: Connection, word: str, values: list[Any]) -> tuple[answer.ImportStatus, StudioError | None] | None:
+    def hear(self, child: Child, word: str, *values: Any) -> tuple[answer.ImportStatus, StudioError | None] | None:
         """One piece of news; the last one is how it ended."""
         if word in ("done", "failed"):
             return word, values[0]
@@ -124,7 +118,7 @@ class MapJob:
                 self.stage, self.share = values
             elif not self.is_over and word == "commit":
                 self.committed = True
-                pipe.send("go")
+                child.tell("go")
         return None
 
 
@@ -132,17 +126,6 @@ def gone(code: int | None) -> StudioError:
     """The problem of a process that ended without a word."""
     why = "was ended by the system, perhaps for want of memory" if code == -9 else "crashed"
     return MapError("The map cannot be imported.", [Problem("importer", why, f"code {code}", remedy="cut out a smaller place")])
-
-
-def kill(process) -> None:
-    """Ends a process that is still there, and what it has started."""
-    if not process.is_alive():
-        return
-    with suppress(psutil.NoSuchProcess):
-        parent = psutil.Process(process.pid)
-        for each in [parent, *parent.children(recursive=True)]:
-            with suppress(psutil.NoSuchProcess):
-                each.kill()
 
 
 @dataclass

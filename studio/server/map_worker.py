@@ -6,7 +6,6 @@ News go out over a pipe as tuples that begin with a word:
     in    go        the answer to commit: from here on the folder is written, and nobody ends the process any more
 """
 
-import signal
 import sys
 import tempfile
 from contextlib import suppress
@@ -38,7 +37,6 @@ class ServerGone(Exception):
 
 def main(pipe: Connection, order: Order) -> None:
     """The process: does what it is ordered to do, and tells how it goes."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server decides when an import ends
     tempfile.tempdir = str(order.scratch)
     confine()
     with suppress(ServerGone):

@@ -9,7 +9,6 @@ The process is started before it is needed, so that everything is imported and c
 It runs one run and ends; whatever goes wrong in it ends that run and nothing else.
 """
 
-import signal
 import time
 import traceback
 from dataclasses import dataclass, field
@@ -187,7 +186,6 @@ class Live:
 
 def main(pipe: Connection, first: Path | None, applications: Path | None) -> None:
     """The process: gets ready, waits for its order, runs it."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server decides when a run ends
     try:
         if applications:
             load_folder(applications)

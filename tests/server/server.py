@@ -8,8 +8,9 @@ from pathlib import Path
 
 import httpx
 
-START_PATIENCE = 600.0  # [s] the first start compiles
 from tests.patience import PATIENCE
+
+START_PATIENCE = 600.0  # [s] the first start compiles
 
 
 @contextmanager

@@ -10,6 +10,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
+from studio.process import Child
 from studio.server import live
 from tests.patience import PATIENCE
 from tests.patience import until as wait_until
@@ -185,18 +186,21 @@ def test_an_application_that_hangs_can_be_stopped(client, server):
 @pytest.mark.parametrize("says", ["running", "stopped"])
 def test_a_run_that_has_stopped_is_not_ended_while_it_saves(says, tmp_path):
     """However long that takes; one that does not react is."""
-    process = live.spawn.Process(target=time.sleep, args=(PATIENCE,), daemon=True)
-    process.start()
-    ours, _ = live.spawn.Pipe()
-    run = live.LiveRun(1, SCENARIO, 60.0, live.Process(process, ours), lambda *news: None, None, tmp_path / "runs.db")
+    process = Child.begin(sleep)
+    run = live.LiveRun(1, SCENARIO, 60.0, process, lambda *news: None, None, tmp_path / "runs.db")
     run.on_state_news(says, 3.0, 1.0, 1.0)
     run.give_up()
     if says == "running":
-        process.join(PATIENCE)
-        assert process.exitcode == -signal.SIGKILL and run.given_up
+        wait_until(lambda: not process.is_alive(), "the end of the process")
+        assert process.exit_code() == -signal.SIGKILL and run.given_up
     else:
         assert process.is_alive() and not run.given_up
-        process.kill()
+    process.end(0.0)
+
+
+def sleep(line):
+    """A process that does not react."""
+    time.sleep(PATIENCE)
 
 
 def test_a_spare_process_that_died_is_replaced(client, server):

@@ -1,0 +1,120 @@
+"""Processes of ours: orders never hold anybody up, and nobody outlives anybody."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import psutil
+import pytest
+
+from studio.process import MOST_ORDERS, Busy, Child, Gone
+from tests.patience import PATIENCE, until
+
+
+def answer(line, *words):
+    """Says what it is told, until it is told to end."""
+    line.send(("began", *words))
+    while (order := line.recv()) != ("end",):
+        line.send(("heard", *order))
+
+
+def hang(line):
+    """Takes no order, and starts a process of its own which does nothing either."""
+    other = subprocess.Popen([sys.executable, "-c", f"import time; time.sleep({PATIENCE})"])
+    line.send(("has", other.pid))
+    while True:
+        pass
+
+
+def crash(line):
+    """Ends without a word."""
+    os._exit(7)
+
+
+def is_gone(pid):
+    return not psutil.pid_exists(pid) or psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
+
+
+def test_orders_arrive_in_order_and_are_answered():
+    child = Child.begin(answer, 1, "two")
+    try:
+        assert child.hear() == ("began", 1, "two")
+        for number in range(20):
+            child.tell("order", number)
+        assert [child.hear() for _ in range(20)] == [("heard", "order", number) for number in range(20)]
+        child.tell("end")
+        with pytest.raises(Gone) as gone:
+            child.hear()
+        assert gone.value.code == 0
+    finally:
+        child.end()
+    with pytest.raises(Gone):
+        child.tell("order")
+
+
+def test_a_crash_is_told_with_its_code():
+    child = Child.begin(crash)
+    with pytest.raises(Gone) as gone:
+        child.hear()
+    assert gone.value.code == 7 == child.exit_code()
+    child.end()
+    assert child.exit_code() == 7
+
+
+def test_a_process_that_takes_no_orders_holds_nobody_up():
+    """However many orders, however long: one too many is refused, and the end comes all the same, with what it has started."""
+    child = Child.begin(hang)
+    _, other = child.hear()
+    long, refused = "x" * 10_000, 0
+    for _ in range(10 * MOST_ORDERS):
+        try:
+            child.tell("step", long)
+        except Busy:
+            refused += 1
+    assert refused >= 8 * MOST_ORDERS
+    child.end(0.0)
+    assert child.exit_code() == -signal.SIGKILL
+    until(lambda: is_gone(other), "the end of what it had started")
+
+
+def test_nothing_is_left_of_a_process_that_has_ended():
+    """Neither descriptors nor threads; the first one starts what Python needs for all."""
+    Child.begin(crash).end()
+    descriptors, threads = psutil.Process().num_fds(), threading.active_count()
+    for _ in range(10):
+        Child.begin(crash).end()
+    assert psutil.Process().num_fds() == descriptors
+    until(lambda: threading.active_count() <= threads, "the end of its threads")
+
+
+MASTER = """
+import os, sys, time
+from studio.process import Child
+from tests.test_process import hang
+
+if __name__ == "__main__":
+    child = Child.begin(hang)
+    print(child.process.pid, child.hear()[1], flush=True)
+    time.sleep({patience})
+"""
+
+
+def test_nobody_outlives_the_one_who_began_it(tmp_path):
+    """Not even when that one is killed; nor do the processes that it has started."""
+    (tmp_path / "master.py").write_text(MASTER.format(patience=PATIENCE))
+    root = str(Path(__file__).parents[1])
+    master = subprocess.Popen(
+        [sys.executable, str(tmp_path / "master.py")],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": root},
+        cwd=tmp_path,
+    )
+    pids = [int(pid) for pid in master.stdout.readline().split()]
+    assert len(pids) == 2 and not any(map(is_gone, pids))
+    master.kill()
+    master.wait()
+    until(lambda: all(map(is_gone, pids)), "the end of its processes")
