@@ -13,5 +13,5 @@ is met by it. `goals` of a scenario bound them by name.
 
 def page() -> str:
     """All metrics by name."""
-    rows = [[code(name), each.unit, each.goal or "", f"{each.title}. {each.measure.__doc__ or ''}"] for name, each in registered().items()]
+    rows = [[code(name), each.unit, each.goal or "", f"{each.title}. {each.explanation}"] for name, each in registered().items()]
     return HEAD + "\n" + table(["metric", "unit", "better", "meaning"], rows)

@@ -11,7 +11,7 @@ HEAD = """# REST
 The server describes itself at `/openapi.json`; this page is made from the same description. Every refusal (a status of 400 or
 more) is a [Refusal](#refusal) that says where, what, which value, what is allowed, and the remedy.
 """
-TOLD = ("200", "201", "202", "204")
+TOLD = ("1XX", "200", "201", "202", "204")
 
 
 def page() -> str:
@@ -19,8 +19,13 @@ def page() -> str:
     api = description()
     routes = [route(path, method, each) for path, methods in api["paths"].items() for method, each in methods.items()]
     objects = api["components"]["schemas"]
-    parts = [f"### {name}\n\n{filled(node.get('description', ''))}\n\n{fields(node, objects)}" for name, node in objects.items()]
+    parts = [f"### {name}\n\n{filled(node.get('description', ''))}\n\n{held(node, objects)}" for name, node in objects.items()]
     return "\n".join([HEAD, "## Routes\n", *routes, "## Objects\n", *parts])
+
+
+def held(node: dict[str, Any], objects: dict[str, Any]) -> str:
+    """What an object holds: its fields, or for one of several kinds, which."""
+    return fields(node, objects) if "properties" in node else f"One of: {kind(node)}.\n"
 
 
 def route(path: str, method: str, described: dict[str, Any]) -> str:

@@ -6,6 +6,7 @@ measure it on (no platoon, nobody ahead); it is stored as empty, and no goal is 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import getdoc
 from typing import TYPE_CHECKING, Literal
 
 from studio.errors import StudioError
@@ -25,6 +26,11 @@ class Metric:
     goal: Direction
     title: str
     measure: Callable[["Record"], float]
+
+    @property
+    def explanation(self) -> str:
+        """What exactly is measured, as its function says; empty when that says nothing."""
+        return getdoc(self.measure) or ""
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,8 @@ from studio.scenario.patch import Operation, is_text
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
+Over = Literal["done", "stopped", "failed"]
+LiveStatus = Literal["starting", "running", "paused", Over]
 ImportStatus = Literal["running", "done", "failed", "cancelled"]
 
 
@@ -110,6 +112,32 @@ class Application(BaseModel):
     parameters: dict[str, Any]
 
 
+class Quantity(BaseModel):
+    """What can be recorded of a vehicle."""
+
+    name: str
+    unit: str
+    label: str
+    meaning: str
+
+
+class Measure(BaseModel):
+    """What a run is measured by; `goal` says which direction is better."""
+
+    name: str
+    title: str
+    unit: str
+    goal: Goal
+    explanation: str
+
+
+class Glossary(BaseModel):
+    """The words of the results: what channels and metrics are called, their units, and what they mean."""
+
+    channels: list[Quantity]
+    metrics: list[Measure]
+
+
 class Metric(BaseModel):
     """A metric of a run; `goal` says which direction is better."""
 
@@ -191,7 +219,7 @@ class Live(BaseModel):
 
     run: int
     scenario: str
-    status: Literal["starting", "running", "paused", "done", "stopped", "failed"]
+    status: LiveStatus
     time: float
     pace: Pace
     duration_s: float

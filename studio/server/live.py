@@ -20,8 +20,9 @@ import numpy as np
 from studio.errors import Problem, ServerError, UnknownError
 from studio.job import Loaded
 from studio.process import Busy, Child, Gone
-from studio.server import worker
+from studio.server import answer, worker
 from studio.server.frame import Frame
+from studio.server.news import EndNews, EventNews, Kind, SamplesNews, StateNews
 from studio.server.worker import Order
 from studio.store.runs import reopen_runs
 
@@ -39,7 +40,7 @@ def plain(values: np.ndarray) -> list[float | None]:
 
 @dataclass
 class LiveRun:
-    """One live run. `status` is starting, running, paused, done, stopped or failed."""
+    """One live run."""
 
     run: int
     scenario: str
@@ -48,14 +49,14 @@ class LiveRun:
     on_frame: Callable[["LiveRun", Frame], None]
     loaded: Loaded
     db: Path
-    status: str = "starting"
+    status: answer.LiveStatus = "starting"
     time: float = 0.0
     pace: float = 1.0
     real_time_factor: float = 0.0
-    error: str | None = None
+    end: EndNews | None = None
     times: list[float] = field(default_factory=list)
     samples: dict[str, list[float | None]] = field(default_factory=dict)
-    events: list[dict[str, Any]] = field(default_factory=list)
+    events: list[EventNews] = field(default_factory=list)
     frame: Frame | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
@@ -76,7 +77,7 @@ class LiveRun:
         finally:
             self.process.end()
 
-    def explanation(self, code: int | None) -> tuple[str, str]:
+    def explanation(self, code: int | None) -> tuple[answer.Over, str]:
         """Status and reason of a run whose process has gone without a word."""
         if self.given_up:
             return "stopped", f"It did not react to stop within {STOP_PATIENCE:g} s; its process was ended."
@@ -97,16 +98,16 @@ class LiveRun:
             self.times += times.tolist()
             for name, each in news.items():
                 self.samples.setdefault(name, []).extend(each)
-            self.tell({"type": "samples", "time": times.tolist(), "channels": news})
+            self.tell(SamplesNews(time=times.tolist(), channels=news))
 
     def on_event_news(self, when: float, text: str, vehicle: str) -> None:
         """Something happened."""
-        event = {"type": "event", "time": when, "text": text, "vehicle": vehicle}
+        event = EventNews(time=when, text=text, vehicle=vehicle)
         with self.lock:
             self.events.append(event)
             self.tell(event)
 
-    def on_state_news(self, status: str, when: float, pace: float, real_time_factor: float) -> None:
+    def on_state_news(self, status: answer.LiveStatus, when: float, pace: float, real_time_factor: float) -> None:
         """Where the run is."""
         with self.lock:
             over = self.obeyed = status not in ("running", "paused")
@@ -114,22 +115,27 @@ class LiveRun:
             self.time, self.pace, self.real_time_factor = when, pace, real_time_factor
             self.tell(self.state())
 
-    def on_end_news(self, status: str, error: str | None) -> None:
+    def on_end_news(self, status: answer.Over, error: str | None) -> None:
         """The run is over and saved."""
         with self.lock:
-            self.status, self.error = status, error
+            self.status, self.end = status, EndNews(run=self.run, status=status, error=error)
             self.tell(self.state())
-            self.tell({"type": "end", "run": self.run, "status": status, "error": error})
+            self.tell(self.end)
 
-    def state(self) -> dict[str, Any]:
-        """The state message."""
-        return self.as_json() | {"type": "state", "real_time_factor": self.real_time_factor}
+    def state(self) -> StateNews:
+        """Where it is, for those who listen."""
+        return StateNews(**dict(self.row()), real_time_factor=self.real_time_factor)
 
-    def as_json(self) -> dict[str, Any]:
+    def row(self) -> answer.Live:
         """A row of the list of live runs."""
-        pace = "fast" if self.pace == inf else self.pace
-        return {"run": self.run, "scenario": self.scenario, "status": self.status, "time": round(self.time, 6),
-                "pace": pace, "duration_s": self.duration}  # fmt: skip
+        return answer.Live(
+            run=self.run,
+            scenario=self.scenario,
+            status=self.status,
+            time=round(self.time, 6),
+            pace="fast" if self.pace == inf else self.pace,
+            duration_s=self.duration,
+        )
 
     @property
     def is_over(self) -> bool:
@@ -170,12 +176,12 @@ class LiveRun:
     def join(self, listener: "Listener") -> None:
         """A new listener first gets everything so far."""
         with self.lock:
-            listener.put({"type": "samples", "time": list(self.times), "channels": {k: list(v) for k, v in self.samples.items()}})
+            listener.put(SamplesNews(time=self.times, channels=self.samples))
             for event in self.events:
                 listener.put(event)
             listener.put(self.state())
-            if self.is_over:
-                listener.put({"type": "end", "run": self.run, "status": self.status, "error": self.error})
+            if self.end:
+                listener.put(self.end)
             self.listeners.add(listener)
 
     def leave(self, listener: "Listener") -> None:
@@ -183,7 +189,7 @@ class LiveRun:
         with self.lock:
             self.listeners.discard(listener)
 
-    def tell(self, message: dict[str, Any]) -> None:
+    def tell(self, message: Kind) -> None:
         """A message to all listeners."""
         for listener in self.listeners:
             listener.put(message)
@@ -196,10 +202,10 @@ class Listener:
 
     def __init__(self) -> None:
         self.loop = asyncio.get_running_loop()
-        self.queue: asyncio.Queue[dict[str, Any] | None] = asyncio.Queue()
+        self.queue: asyncio.Queue[Kind | None] = asyncio.Queue()
         self.is_cut = False
 
-    def put(self, message: dict[str, Any]) -> None:
+    def put(self, message: Kind) -> None:
         """From any thread."""
         if self.is_cut or self.loop.is_closed():
             return

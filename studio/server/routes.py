@@ -8,6 +8,8 @@ from starlette.websockets import WebSocketDisconnect
 
 from studio import job
 from studio.application import registry
+from studio.assess import measure  # noqa: F401 - it imports every built-in metric
+from studio.assess.metric import Metric, registered
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
 from studio.scenario.document import digest
 from studio.scenario.patch import Operation, operations
@@ -16,14 +18,19 @@ from studio.scenario.source import Source
 from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.live import Listener, plain
+from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
+from studio.world import channel
 
 REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
 YAML: dict[int | str, dict[str, Any]] = {
     200: {"description": "YAML (RFC 9512)", "content": {"application/yaml": {"schema": {"type": "string"}}}}
+}
+SOCKET: dict[int | str, dict[str, Any]] = {
+    "1XX": {"model": News, "description": "101: a WebSocket from here on; each message is one of the news"}
 }
 CHANGED: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (403, 412)}
 router = APIRouter(prefix="/api", responses=REFUSALS)
@@ -117,6 +124,20 @@ def applications() -> list[answer.Application]:
     return [answer.Application(**each.as_json()) for each in registry.known().values()]
 
 
+@router.get("/glossary")
+def glossary() -> answer.Glossary:
+    """What channels and metrics are called, their units, and what they mean."""
+    channels = [
+        answer.Quantity(name=each.name, unit=each.unit, label=each.label, meaning=each.meaning) for each in channel.BY_NAME.values()
+    ]
+    return answer.Glossary(channels=channels, metrics=[measure_of(each) for each in registered().values()])
+
+
+def measure_of(each: Metric) -> answer.Measure:
+    """A metric as it is told."""
+    return answer.Measure(name=each.name, title=each.title, unit=each.unit, goal=each.goal, explanation=each.explanation)
+
+
 @router.get("/runs")
 def runs(desk: AtDesk, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.Run]:  # fmt: skip
     """Runs, newest first."""
@@ -165,20 +186,20 @@ def compare(a: int, b: int, desk: AtDesk) -> answer.Comparison:
 @router.get("/live")
 def live_runs(desk: AtDesk) -> list[answer.Live]:
     """Live runs of this server, newest first."""
-    return [answer.Live(**live.as_json()) for _, live in sorted(desk.lives.runs.items(), reverse=True)]
+    return [live.row() for _, live in sorted(desk.lives.runs.items(), reverse=True)]
 
 
 @router.post("/live", status_code=201)
 def start_live(new: answer.NewLiveRun, desk: AtDesk) -> answer.Live:
     """Starts a live run in a process of its own."""
     live = desk.start(new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace=new.pace, paused=new.paused)
-    return answer.Live(**live.as_json())
+    return live.row()
 
 
 @router.get("/live/{run}")
 def live_run(run: int, desk: AtDesk) -> answer.Live:
     """A live run now."""
-    return answer.Live(**desk.lives.find(run).as_json())
+    return desk.lives.find(run).row()
 
 
 @router.post("/live/{run}/pause")
@@ -204,7 +225,7 @@ def stop(run: int, desk: AtDesk) -> answer.Live:
     """Ends the run; what was recorded is kept."""
     live = desk.lives.find(run)
     live.stop()
-    return answer.Live(**live.as_json())
+    return live.row()
 
 
 @router.post("/live/{run}/pace")
@@ -218,7 +239,17 @@ def ordered(desk: Desk, run: int, *words: Any) -> answer.Live:
     """Gives an order to a live run."""
     live = desk.lives.find(run)
     live.order(*words)
-    return answer.Live(**live.as_json())
+    return live.row()
+
+
+@router.get("/live/{run}/socket", status_code=426, response_description="Upgrade Required", response_model=answer.Refusal, responses=SOCKET)
+def socket_only(run: int) -> Response:
+    """A WebSocket (RFC 6455): news of a live run, everything so far, then as it comes. Asked for anything else, it refuses."""
+    refusal = answer.Refusal(
+        message="This address speaks WebSocket only.",
+        problems=[answer.Problem(where="socket", what="was asked for without an upgrade", value="", allowed="a WebSocket", remedy="")],
+    )
+    return Response(refusal.model_dump_json(), 426, {"Upgrade": "websocket", "Connection": "Upgrade"}, "application/json")
 
 
 @router.websocket("/live/{run}/socket")
@@ -228,7 +259,7 @@ async def socket(browser: WebSocket, run: int) -> None:
         live = browser.app.state.desk.lives.find(run)
     except UnknownError as error:
         await browser.accept()
-        await browser.send_json({"type": "refused", **error.as_json()})
+        await browser.send_text(RefusedNews(**error.as_json()).model_dump_json())
         await browser.close()
         return
     await browser.accept()
@@ -238,8 +269,8 @@ async def socket(browser: WebSocket, run: int) -> None:
         while True:
             message = await listener.queue.get()
             if message is not None:
-                await browser.send_json(message)
-            if message is None or message["type"] == "end":
+                await browser.send_text(message.model_dump_json())
+            if message is None or isinstance(message, EndNews):
                 await browser.close()
                 return
     except (WebSocketDisconnect, RuntimeError):

@@ -12,6 +12,7 @@ from websockets.sync.client import connect
 
 from studio.process import Child
 from studio.server import live
+from studio.server.news import News
 from tests.patience import PATIENCE
 from tests.patience import until as wait_until
 
@@ -31,11 +32,18 @@ def news(client, run, **options):
     return connect(f"{address}/api/live/{run}/socket", open_timeout=PATIENCE, ping_timeout=PATIENCE, **options)
 
 
+def described(text):
+    """A message, which the description of the API knows with all that it holds."""
+    message = json.loads(text)
+    assert News.model_validate(message, strict=True).model_dump(mode="json") == message
+    return message
+
+
 def until(socket, wanted):
     """Messages up to the first that is wanted."""
     seen, end = [], time.monotonic() + PATIENCE
     while time.monotonic() < end:
-        seen.append(json.loads(socket.recv(timeout=PATIENCE)))
+        seen.append(described(socket.recv(timeout=PATIENCE)))
         if wanted(seen[-1]):
             return seen
     raise AssertionError(f"waited in vain; last: {seen[-1:]}")

@@ -168,3 +168,36 @@ def test_a_foreign_origin_is_forbidden_everywhere(client):
 def test_the_description_names_every_route(client):
     paths = client.get("/openapi.json").json()["paths"]
     assert {"/api/scenarios", "/api/runs", "/api/runs/{run}/trace", "/api/compare", "/api/live/{run}/pace"} <= set(paths)
+
+
+def test_the_description_names_what_the_socket_tells(client):
+    api = client.get("/openapi.json").json()
+    switching = api["paths"]["/api/live/{run}/socket"]["get"]["responses"]["1XX"]
+    assert switching["content"]["application/json"]["schema"] == {"$ref": "#/components/schemas/News"}
+    objects = api["components"]["schemas"]
+    kinds = objects["News"]["discriminator"]["mapping"]
+    assert set(kinds) == {"state", "samples", "event", "end", "refused"}
+    for kind, reference in kinds.items():
+        described = objects[reference.removeprefix("#/components/schemas/")]
+        assert described["properties"]["type"]["const"] == kind and "type" in described["required"]
+
+
+def test_the_socket_asked_for_as_a_page_says_what_it_is(client):
+    answer = client.get("/api/live/1/socket")
+    assert answer.status_code == 426 and answer.headers["Upgrade"] == "websocket"
+    assert "WebSocket" in answer.json()["message"]
+
+
+def test_the_glossary_explains_every_channel_and_metric(client, pair):
+    found = client.get("/api/glossary").json()
+    channels, metrics = ({each["name"]: each for each in found[kind]} for kind in ("channels", "metrics"))
+    run = client.get(f"/api/runs/{pair[0]['run']}").json()
+    for each in run["channels"]:
+        known = channels[each["name"].rpartition(".")[2]]
+        assert (known["unit"], known["label"]) == (each["unit"], each["label"])
+    assert metrics.keys() == run["metrics"].keys()
+    for name, measured in run["metrics"].items():
+        assert (metrics[name]["unit"], metrics[name]["goal"]) == (measured["unit"], measured["goal"])
+    assert all(each["meaning"] for each in found["channels"])
+    assert all(each["title"] and each["explanation"] for each in found["metrics"])
+    assert metrics["min_ttc"]["title"] == "Least time to collision" and metrics["min_ttc"]["goal"] == "higher"

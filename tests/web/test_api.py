@@ -15,7 +15,7 @@ def test_openapi_is_the_servers():
 
 def test_types_are_made_from_openapi(tool, tmp_path):
     """When this fails: `npm run types` in web/."""
-    made = tmp_path / "schema.d.ts"
+    made = tmp_path / "server.d.ts"
     done = tool("openapi-typescript", "openapi.json", "-o", str(made))
     assert done.returncode == 0, done.stderr
-    assert made.read_text() == (WEB / "src/api/schema.d.ts").read_text()
+    assert made.read_text() == (WEB / "src/model/server.d.ts").read_text()

@@ -74,12 +74,12 @@ class FakeSocket {
 const state = (status: string, time = 1) => ({
   type: "state",
   run: 5,
+  scenario: "test",
   status,
   time,
   duration_s: 60,
   pace: 1,
   real_time_factor: 0.9,
-  tick: 50,
 });
 
 describe("the feed of a live run", () => {

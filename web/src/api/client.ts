@@ -2,7 +2,7 @@
 
 import createClient from "openapi-fetch";
 import type { Problem } from "../model/run";
-import type { paths } from "./schema";
+import type { paths } from "../model/server";
 
 /** The server's routes; wrong paths, parameters and bodies do not compile. */
 export const client = createClient<paths>({
@@ -30,18 +30,18 @@ export class Unreachable extends Error {
   }
 }
 
-interface Outcome {
-  data?: unknown;
+interface Outcome<Answer> {
+  data?: Answer;
   error?: unknown;
   response: Response;
 }
 
-/** What the server says, as the page's type for it (checked against the server's in types.ts), or an error. */
-export async function answer<Page>(outcome: Promise<Outcome>): Promise<Page> {
+/** What the server says, of the type that it describes itself, or an error. */
+export async function answer<Answer>(outcome: Promise<Outcome<Answer>>): Promise<Answer> {
   const { data, error, response } = await outcome.catch(() => {
     throw new Unreachable();
   });
-  if (response.ok) return data as Page;
+  if (response.ok) return data as Answer;
   throw refusal(error, response.status);
 }
 

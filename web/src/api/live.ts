@@ -1,18 +1,10 @@
 /** The socket of a live run, kept open as long as somebody looks at it. */
 
 import { useEffect, useState, useSyncExternalStore } from "react";
-import { isLive, type RunEvent, type Status } from "../model/run";
+import { isLive, type RunEvent, type Server } from "../model/run";
 import { append, noSamples, type Samples } from "../model/samples";
-import type { Pace } from "./types";
 
-export interface LiveState {
-  run: number;
-  status: Status;
-  time: number;
-  duration_s: number;
-  pace: Pace;
-  real_time_factor: number;
-  tick: number;
+export interface LiveState extends Omit<Server["StateNews"], "type" | "scenario"> {
   error: string | null;
   /** False while the socket is being opened again. */
   connected: boolean;
@@ -21,12 +13,6 @@ export interface LiveState {
   samples: Samples;
   version: number;
 }
-
-type Message =
-  | ({ type: "state" } & Omit<LiveState, "error" | "connected" | "events" | "samples" | "version">)
-  | ({ type: "samples" } & Samples)
-  | ({ type: "event" } & RunEvent)
-  | { type: "end"; run: number; status: Status; error: string | null };
 
 const RETRY_MS = 1500;
 /** Messages that come this close together are told to the readers at once. */
@@ -39,7 +25,6 @@ const fresh = (run: number): LiveState => ({
   duration_s: 0,
   pace: 1,
   real_time_factor: 0,
-  tick: 0,
   error: null,
   connected: true,
   events: [],
@@ -48,10 +33,10 @@ const fresh = (run: number): LiveState => ({
 });
 
 /** What one message makes of the state. */
-export function reduce(state: LiveState, message: Message): LiveState {
+export function reduce(state: LiveState, message: Server["News"]): LiveState {
   switch (message.type) {
     case "state": {
-      const { type: _type, ...values } = message;
+      const { type: _type, scenario: _scenario, ...values } = message;
       return { ...state, ...values };
     }
     case "samples":
@@ -99,7 +84,7 @@ export class Feed {
     // A new socket gets all samples so far, so the old ones must go.
     socket.onopen = () =>
       this.set({ ...fresh(this.run), status: this.state.status, version: this.state.version + 1 });
-    socket.onmessage = ({ data }) => this.set(reduce(this.state, JSON.parse(data) as Message));
+    socket.onmessage = ({ data }) => this.set(reduce(this.state, JSON.parse(data) as Server["News"]));
     socket.onclose = () => this.lost();
   }
 

@@ -1,18 +1,19 @@
 /** The maps: what the page reads of them, and what it asks the server to do with them. */
 
 import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
-import type { MapDetail, MapJob, MapRow, Plan, Tags } from "../model/map";
+import type { MapDetail, MapJob, Plan } from "../model/map";
+import type { Server } from "../model/run";
 import { answer, client, refusal, Unreachable } from "./client";
 
 export const maps = queryOptions({
   queryKey: ["maps"],
-  queryFn: () => answer<MapRow[]>(client.GET("/api/maps")),
+  queryFn: () => answer(client.GET("/api/maps")),
 });
 
 export const map = (id: string) =>
   queryOptions({
     queryKey: ["map", id],
-    queryFn: () => answer<MapDetail>(client.GET("/api/maps/{map}", { params: { path: { map: id } } })),
+    queryFn: () => answer(client.GET("/api/maps/{map}", { params: { path: { map: id } } })) as Promise<MapDetail>,
     staleTime: 60_000,
   });
 
@@ -20,7 +21,7 @@ export const map = (id: string) =>
 export const plan = (id: string, digest: string | undefined) =>
   queryOptions({
     queryKey: ["plan", id, digest],
-    queryFn: () => answer<Plan>(client.GET("/api/maps/{map}/plan", { params: { path: { map: id } } })),
+    queryFn: () => answer(client.GET("/api/maps/{map}/plan", { params: { path: { map: id } } })) as Promise<Plan>,
     enabled: digest !== undefined,
     // After a correction the old plan stays until the new one is there.
     placeholderData: keepPreviousData,
@@ -32,7 +33,7 @@ export const plan = (id: string, digest: string | undefined) =>
 /** The imports of this server, newest first; asked again quickly while one is going on. */
 export const mapJobs = queryOptions({
   queryKey: ["map jobs"],
-  queryFn: () => answer<MapJob[]>(client.GET("/api/map-jobs")),
+  queryFn: () => answer(client.GET("/api/map-jobs")),
   refetchInterval: ({ state }) => (state.data?.some(({ status }) => status === "running") ? 500 : false),
 });
 
@@ -92,33 +93,24 @@ function useJob<What>(start: (what: What) => Promise<MapJob>) {
   return useMutation({ mutationFn: start, onSuccess });
 }
 
-export interface Download {
-  place?: string;
-  bbox?: [number, number, number, number];
-  name?: string;
-  replace: boolean;
-}
+export type Download = Server["NewDownload"];
 
 export const useDownload = () =>
-  useJob((body: Download) => answer<MapJob>(client.POST("/api/maps/download", { body })));
+  useJob((body: Download) => answer(client.POST("/api/maps/download", { body })));
 
 export const useCancel = () =>
-  useJob((job: number) => answer<MapJob>(client.DELETE("/api/map-jobs/{job}", { params: { path: { job } } })));
+  useJob((job: number) => answer(client.DELETE("/api/map-jobs/{job}", { params: { path: { job } } })));
 
-export interface NewCorrection {
-  element: string;
-  tags: Tags;
-  remove: string[];
-}
+export type NewCorrection = Server["NewCorrection"];
 
 export const useCorrect = (id: string) =>
   useJob((body: NewCorrection) =>
-    answer<MapJob>(client.PUT("/api/maps/{map}/corrections", { params: { path: { map: id } }, body })),
+    answer(client.PUT("/api/maps/{map}/corrections", { params: { path: { map: id } }, body })),
   );
 
 export const useTakeBack = (id: string) =>
   useJob((element: string) =>
-    answer<MapJob>(
+    answer(
       client.DELETE("/api/maps/{map}/corrections/{element}", { params: { path: { map: id, element } } }),
     ),
   );
@@ -128,7 +120,7 @@ export function useDrive(id: string) {
   const kept = useQueryClient();
   return useMutation({
     mutationFn: () =>
-      answer<{ scenario: string }>(client.POST("/api/maps/{map}/drive", { params: { path: { map: id } } })),
+      answer(client.POST("/api/maps/{map}/drive", { params: { path: { map: id } } })),
     onSuccess: () => kept.invalidateQueries({ queryKey: ["scenarios"] }),
   });
 }
@@ -136,7 +128,7 @@ export function useDrive(id: string) {
 export function useDelete() {
   const kept = useQueryClient();
   return useMutation({
-    mutationFn: (id: string) => answer<void>(client.DELETE("/api/maps/{map}", { params: { path: { map: id } } })),
+    mutationFn: (id: string) => answer(client.DELETE("/api/maps/{map}", { params: { path: { map: id } } })),
     onSuccess: (_nothing, id) => {
       kept.removeQueries({ queryKey: ["map", id] });
       return kept.invalidateQueries({ queryKey: ["maps"] });

@@ -2,34 +2,41 @@
 
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import type { Application } from "../model/form";
-import { type Changes, isLive, type Run, type RunDetail, type Trace } from "../model/run";
+import { type Changes, type Filled, isLive, type Run, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
-import type { Check, Comparison, Info, LiveRow, Pace, Scenario, ScenarioRow, Scene } from "./types";
+import type { Check, Comparison, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
   queryKey: ["scenarios"],
-  queryFn: () => answer<ScenarioRow[]>(client.GET("/api/scenarios")),
+  queryFn: () => answer(client.GET("/api/scenarios")),
 });
 
 export const scenario = (id: string) =>
   queryOptions({
     queryKey: ["scenario", id],
     queryFn: () =>
-      answer<Scenario>(client.GET("/api/scenarios/{scenario}", { params: { path: { scenario: id } } })),
+      answer(client.GET("/api/scenarios/{scenario}", { params: { path: { scenario: id } } })) as Promise<Scenario>,
   });
 
 export const applications = queryOptions({
   queryKey: ["applications"],
-  queryFn: () => answer<Application[]>(client.GET("/api/applications")),
+  queryFn: () => answer(client.GET("/api/applications")) as Promise<Application[]>,
+});
+
+/** What channels and metrics are called, and what they mean; it stays for as long as the server runs. */
+export const glossary = queryOptions({
+  queryKey: ["glossary"],
+  queryFn: () => answer(client.GET("/api/glossary")),
+  staleTime: Number.POSITIVE_INFINITY,
 });
 
 export const check = (id: string, set: Changes) =>
   queryOptions({
     queryKey: ["check", id, set],
     queryFn: () =>
-      answer<Check>(
+      answer(
         client.POST("/api/scenarios/{scenario}/check", { params: { path: { scenario: id } }, body: { set } }),
-      ),
+      ) as Promise<Check>,
     placeholderData: keepPreviousData,
   });
 
@@ -37,7 +44,7 @@ export const check = (id: string, set: Changes) =>
 export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
   queryOptions({
     queryKey: ["runs", filter],
-    queryFn: () => answer<Run[]>(client.GET("/api/runs", { params: { query: filter } })),
+    queryFn: () => answer(client.GET("/api/runs", { params: { query: filter } })) as Promise<Run[]>,
     refetchInterval: ({ state }) => (state.data?.some(({ status }) => isLive(status)) ? 2000 : 15000),
     placeholderData: keepPreviousData,
   });
@@ -45,7 +52,7 @@ export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
 export const run = (number: number) =>
   queryOptions({
     queryKey: ["run", number],
-    queryFn: () => answer<RunDetail>(client.GET("/api/runs/{run}", { params: { path: { run: number } } })),
+    queryFn: () => answer(client.GET("/api/runs/{run}", { params: { path: { run: number } } })) as Promise<RunDetail>,
     refetchInterval: ({ state }) => (isLive(state.data?.status) ? 2000 : false),
   });
 
@@ -53,7 +60,7 @@ export const trace = (number: number, channels: readonly string[], points = 1000
   queryOptions({
     queryKey: ["trace", number, channels, points],
     queryFn: () =>
-      answer<Trace>(
+      answer(
         client.GET("/api/runs/{run}/trace", {
           params: { path: { run: number }, query: { channels: channels.join(","), points } },
         }),
@@ -65,13 +72,13 @@ export const trace = (number: number, channels: readonly string[], points = 1000
 export const comparison = (a: number, b: number) =>
   queryOptions({
     queryKey: ["compare", a, b],
-    queryFn: () => answer<Comparison>(client.GET("/api/compare", { params: { query: { a, b } } })),
+    queryFn: () => answer(client.GET("/api/compare", { params: { query: { a, b } } })) as Promise<Comparison>,
   });
 
 export const scene = (what: { scenario: string; set?: Changes } | { run: number }) =>
   queryOptions({
     queryKey: ["scene", what],
-    queryFn: () => answer<Scene>(client.POST("/api/scene", { body: { set: {}, ...what } })),
+    queryFn: () => answer(client.POST("/api/scene", { body: { set: {}, ...what } })),
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,
@@ -80,21 +87,14 @@ export const scene = (what: { scenario: string; set?: Changes } | { run: number 
     placeholderData: keepPreviousData,
   });
 
-export interface Start {
-  scenario: string;
-  set: Changes;
-  seed: number;
-  parent?: number;
-  pace: Pace;
-  paused?: boolean;
-}
+export type Start = Filled<Server["NewLiveRun"], { set: Changes }>;
 
 /** Start a live run. */
 export function useStart() {
   const kept = useQueryClient();
   return useMutation({
     mutationFn: (start: Start) =>
-      answer<LiveRow>(client.POST("/api/live", { body: { paused: false, ...start } })),
+      answer(client.POST("/api/live", { body: start })),
     onSuccess: () => kept.invalidateQueries({ queryKey: ["runs"] }),
   });
 }
@@ -105,7 +105,7 @@ export type Order = "pause" | "resume" | "step" | "stop";
 export function useOrder() {
   return useMutation({
     mutationFn: ({ run: number, order }: { run: number; order: Order }) =>
-      answer<LiveRow>(client.POST(`/api/live/{run}/${order}`, { params: { path: { run: number } } })),
+      answer(client.POST(`/api/live/{run}/${order}`, { params: { path: { run: number } } })),
   });
 }
 
@@ -113,7 +113,7 @@ export function useOrder() {
 export function usePace() {
   return useMutation({
     mutationFn: ({ run: number, pace }: { run: number; pace: Pace }) =>
-      answer<LiveRow>(
+      answer(
         client.POST("/api/live/{run}/pace", { params: { path: { run: number } }, body: { pace } }),
       ),
   });
@@ -122,7 +122,7 @@ export function usePace() {
 /** Asks now and then whether the server still answers, and often while it compiles. */
 export const heartbeat = queryOptions({
   queryKey: ["heartbeat"],
-  queryFn: () => answer<Info>(client.GET("/api/info")),
+  queryFn: () => answer(client.GET("/api/info")),
   refetchInterval: ({ state }) => (state.status === "error" ? 2000 : state.data?.compiling ? 1000 : 10000),
   retry: false,
 });

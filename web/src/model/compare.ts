@@ -1,24 +1,9 @@
 /** Two runs side by side: verdicts in words, and traces on one time axis. */
 
-import type { Goal, Json, Trace } from "./run";
+import type { Filled, Json, Server, Trace } from "./run";
 
-export interface ParameterDifference {
-  path: string;
-  a: Json;
-  b: Json;
-  unit: string;
-}
-
-export interface MetricDifference {
-  name: string;
-  unit: string;
-  goal: Goal;
-  a: number | null;
-  b: number | null;
-  difference: number | null;
-  relative: number | null;
-  better: "a" | "b" | "same" | null;
-}
+export type ParameterDifference = Filled<Server["ParameterDifference"], { a: Json; b: Json }>;
+export type MetricDifference = Server["MetricDifference"];
 
 export type Verdict = "better" | "worse" | "same" | "no goal" | "missing";
 

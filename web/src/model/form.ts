@@ -3,7 +3,7 @@
  * changes. A section mirrors an object of the document, a field one of its values.
  */
 
-import type { Changes, Json, Problem, Tree } from "./run";
+import type { Changes, Filled, Json, Problem, Server, Tree } from "./run";
 import { leaf } from "./run";
 import { isTree, resolve, type Schema } from "./schema";
 import { unitText, words } from "./units";
@@ -49,12 +49,7 @@ export interface Section {
   sections: Section[];
 }
 
-export interface Application {
-  name: string;
-  title: string;
-  description: string;
-  parameters: Schema;
-}
+export type Application = Filled<Server["Application"], { parameters: Schema }>;
 
 /** What every part of the form is computed from. */
 export interface Source {

@@ -1,11 +1,10 @@
 /** A run and what hangs on it, as the API tells them. */
 
-/** How a run stands in the database. */
-export type RunStatus = "running" | "done" | "failed" | "stopped" | "killed";
-/** How a live run stands now. */
-export type LiveStatus = "starting" | "running" | "paused" | "done" | "stopped" | "failed";
-export type Status = RunStatus | LiveStatus;
-export type Goal = "higher" | "lower" | null;
+import type { components } from "./server";
+
+/** What goes over the wire, by its name in the server's own description. */
+export type Server = components["schemas"];
+
 export type Value = number | string | boolean | null;
 export type Json = Value | Json[] | { [key: string]: Json };
 export type Tree = { [key: string]: Json };
@@ -13,62 +12,24 @@ export type Tree = { [key: string]: Json };
 /** What was set, by path: `{"radio.latency": 0.1}`. */
 export type Changes = Record<string, Json>;
 
-export interface Problem {
-  where: string;
-  what: string;
-  value: string;
-  allowed: string;
-  remedy: string;
-}
+/** An answer whose free parts, which the description leaves open, are known to be documents. */
+export type Filled<Answer, Parts extends Partial<Record<keyof Answer, unknown>>> = Omit<Answer, keyof Parts> & Parts;
 
-export interface Metric {
-  value: number | null;
-  unit: string;
-  goal: Goal;
-}
+/** How a run stands in the database. */
+export type RunStatus = Server["Run"]["status"];
+/** How a live run stands now. */
+export type LiveStatus = Server["Live"]["status"];
+export type Status = RunStatus | LiveStatus;
 
-export interface Run {
-  run: number;
-  scenario: string;
-  scenario_hash: string;
-  parent: number | null;
-  seed: number;
-  status: RunStatus;
-  error: string | null;
-  state_hash: string | null;
-  code_version: string;
-  created: string;
-  sim_time_s: number | null;
-  wall_time_s: number | null;
-  parameters: Changes;
-  /** One sentence per goal that was not met; it begins with the metric's name. */
-  unmet: string[];
-  metrics: Record<string, Metric>;
-}
-
-export interface Channel {
-  name: string;
-  unit: string;
-  label: string;
-}
-
+export type Problem = Server["Problem"];
+export type Metric = Server["Metric"];
+export type Goal = Metric["goal"];
+export type Run = Filled<Server["Run"], { parameters: Changes }>;
+export type Channel = Server["Channel"];
 /** Something that happened in a run. */
-export interface RunEvent {
-  time: number;
-  text: string;
-  vehicle: string;
-}
-
-export interface RunDetail extends Run {
-  document: Tree;
-  channels: Channel[];
-  events: RunEvent[];
-}
-
-export interface Trace {
-  time: number[];
-  channels: Record<string, { unit: string; values: (number | null)[] }>;
-}
+export type RunEvent = Server["Event"];
+export type RunDetail = Filled<Server["RunDetail"], { parameters: Changes; document: Tree }>;
+export type Trace = Server["Trace"];
 
 const LIVE: ReadonlySet<Status> = new Set<Status>(["starting", "running", "paused"]);
 

@@ -128,6 +128,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/glossary": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Glossary
+         * @description What channels and metrics are called, their units, and what they mean.
+         */
+        get: operations["glossary_api_glossary_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs": {
         parameters: {
             query?: never;
@@ -350,6 +370,26 @@ export interface paths {
          * @description Changes how fast it goes.
          */
         post: operations["pace_api_live__run__pace_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/live/{run}/socket": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Socket Only
+         * @description A WebSocket (RFC 6455): news of a live run, everything so far, then as it comes. Asked for anything else, it refuses.
+         */
+        get: operations["socket_only_api_live__run__socket_get"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -688,6 +728,26 @@ export interface components {
             scenario: string;
         };
         /**
+         * EndNews
+         * @description The last message: the run is over and saved.
+         */
+        EndNews: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "end";
+            /** Run */
+            run: number;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "done" | "stopped" | "failed";
+            /** Error */
+            error: string | null;
+        };
+        /**
          * Event
          * @description Something that happened in a run.
          */
@@ -698,6 +758,33 @@ export interface components {
             text: string;
             /** Vehicle */
             vehicle: string;
+        };
+        /**
+         * EventNews
+         * @description Something happened.
+         */
+        EventNews: {
+            /** Time */
+            time: number;
+            /** Text */
+            text: string;
+            /** Vehicle */
+            vehicle: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "event";
+        };
+        /**
+         * Glossary
+         * @description The words of the results: what channels and metrics are called, their units, and what they mean.
+         */
+        Glossary: {
+            /** Channels */
+            channels: components["schemas"]["Quantity"][];
+            /** Metrics */
+            metrics: components["schemas"]["Measure"][];
         };
         /**
          * Info
@@ -1164,6 +1251,22 @@ export interface components {
             reason: string;
         };
         /**
+         * Measure
+         * @description What a run is measured by; `goal` says which direction is better.
+         */
+        Measure: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /** Unit */
+            unit: string;
+            /** Goal */
+            goal: ("higher" | "lower") | null;
+            /** Explanation */
+            explanation: string;
+        };
+        /**
          * Metric
          * @description A metric of a run; `goal` says which direction is better.
          */
@@ -1315,6 +1418,11 @@ export interface components {
             /** Parent */
             parent?: number | null;
         };
+        /**
+         * News
+         * @description One message of the socket of a live run.
+         */
+        News: components["schemas"]["StateNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
         /**
          * OnStage
          * @description What the scene is to show: a scenario as it would start, or a live run.
@@ -1564,6 +1672,20 @@ export interface components {
             remedy: string;
         };
         /**
+         * Quantity
+         * @description What can be recorded of a vehicle.
+         */
+        Quantity: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Label */
+            label: string;
+            /** Meaning */
+            meaning: string;
+        };
+        /**
          * Refusal
          * @description The body of every answer with a status of 400 or more.
          */
@@ -1572,6 +1694,21 @@ export interface components {
             message: string;
             /** Problems */
             problems: components["schemas"]["Problem"][];
+        };
+        /**
+         * RefusedNews
+         * @description The only message where there is no such live run.
+         */
+        RefusedNews: {
+            /** Message */
+            message: string;
+            /** Problems */
+            problems: components["schemas"]["Problem"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "refused";
         };
         /**
          * Run
@@ -1668,6 +1805,29 @@ export interface components {
             events: components["schemas"]["Event"][];
         };
         /**
+         * SamplesNews
+         * @description New points of the live charts; null where a channel has no value.
+         */
+        SamplesNews: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "samples";
+            /**
+             * Time
+             * @description [s]
+             */
+            time: number[];
+            /**
+             * Channels
+             * @description by name, vehicle.channel; one value for every time
+             */
+            channels: {
+                [key: string]: (number | null)[];
+            };
+        };
+        /**
          * ScenarioDetail
          * @description A scenario with its full document and the schema of its file.
          */
@@ -1752,6 +1912,37 @@ export interface components {
         Started: {
             /** Run */
             run: number;
+        };
+        /**
+         * StateNews
+         * @description Where the run is: some times a second, and whenever that changes.
+         */
+        StateNews: {
+            /** Run */
+            run: number;
+            /** Scenario */
+            scenario: string;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "starting" | "running" | "paused" | "done" | "stopped" | "failed";
+            /** Time */
+            time: number;
+            /** Pace */
+            pace: number | "fast";
+            /** Duration S */
+            duration_s: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "state";
+            /**
+             * Real Time Factor
+             * @description simulated over real seconds, lately
+             */
+            real_time_factor: number;
         };
         /**
          * Trace
@@ -2129,6 +2320,53 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Application"][];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    glossary_api_glossary_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Glossary"];
                 };
             };
             /** @description Not Found */
@@ -2806,6 +3044,64 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    socket_only_api_live__run__socket_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Upgrade Required */
+            426: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description 101: a WebSocket from here on; each message is one of the news */
+            "1XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["News"];
                 };
             };
         };
