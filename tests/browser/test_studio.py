@@ -145,7 +145,7 @@ def test_7_compare(page):
     assert "0.6" in parameters.inner_text() and "1.2" in parameters.inner_text()
     assert "duration" not in parameters.inner_text()
     metrics = page.get_by_test_id("compare-metrics").inner_text()
-    assert "Min TTC [s]" in metrics and "Worst hop gain" in metrics
+    assert "Least time to collision [s]" in metrics and "Greatest gain from car to car" in metrics
     assert "better" in metrics or "worse" in metrics
     expect(page.get_by_test_id("compare-charts").locator("canvas").first).to_be_visible()
 
@@ -153,7 +153,7 @@ def test_7_compare(page):
 def test_8_the_table_of_runs(page):
     page.get_by_test_id("nav-runs").click()
     table = page.get_by_test_id("runs-table")
-    expect(table).to_contain_text("Min TTC")
+    expect(table).to_contain_text("Least time to collision")
     assert "[s]" in table.inner_text() and "[m/s²]" in table.inner_text()
     page.reload()
     expect(page.get_by_test_id("runs-table")).to_contain_text("done")

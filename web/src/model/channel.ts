@@ -1,25 +1,13 @@
-/** Channel names: `<vehicle>.<quantity>`. */
+/** Channel names: `<vehicle>.<quantity>`; unit, label and meaning of a quantity are the server's. */
 
-export interface Quantity {
-  name: string;
-  label: string;
-  unit: string;
-}
+import type { Channel, Server } from "./run";
+import { words } from "./units";
 
-/** What the page may draw; the unit also stands in the run's own channel list. */
-export const QUANTITIES: readonly Quantity[] = [
-  { name: "speed", label: "Speed", unit: "m/s" },
-  { name: "gap", label: "Gap", unit: "m" },
-  { name: "acceleration", label: "Acceleration", unit: "m/s²" },
-  { name: "time_gap", label: "Time gap", unit: "s" },
-  { name: "yaw_rate", label: "Yaw rate", unit: "rad/s" },
-  { name: "steering", label: "Steering", unit: "rad" },
-  { name: "lateral_offset", label: "Lateral offset", unit: "m" },
-  { name: "station", label: "Station", unit: "m" },
-];
+export type Quantity = Server["Quantity"];
 
-export const quantity = (name: string): Quantity =>
-  QUANTITIES.find((known) => known.name === name) ?? { name, label: name, unit: "" };
+/** A quantity by its name; one that nobody has described is called by it. */
+export const quantity = (name: string, known: readonly Quantity[]): Quantity =>
+  known.find((each) => each.name === name) ?? { name, label: words(name), unit: "", meaning: "" };
 
 /** Split `follower_1.gap` into vehicle and quantity. */
 export function parts(channel: string): { vehicle: string; quantity: string } {
@@ -55,8 +43,16 @@ export function vehiclesOf(channels: readonly string[]): string[] {
   return [...new Set(channels.map((name) => parts(name).vehicle))].filter((name) => !isTraffic(name));
 }
 
-/** The quantities that the channels hold, known ones first. */
-export function quantitiesOf(channels: readonly string[]): Quantity[] {
-  const present = new Set(channels.map((name) => parts(name).quantity));
-  return QUANTITIES.filter(({ name }) => present.has(name));
+/** The quantities that the channels of the platoon hold, in the glossary's order; what that does not know comes last. */
+export function quantitiesOf(channels: readonly string[], glossary: readonly Quantity[]): Quantity[] {
+  const present = new Set(channels.map(parts).flatMap(({ vehicle, quantity: own }) => (isTraffic(vehicle) ? [] : [own])));
+  const known = glossary.filter(({ name }) => present.delete(name));
+  return [...known, ...[...present].map((name) => quantity(name, []))];
+}
+
+/** The same for what a run has recorded, with the units and labels that were recorded with it. */
+export function recorded(channels: readonly Channel[], glossary: readonly Quantity[]): Quantity[] {
+  const own = new Map(channels.map(({ name, unit, label }) => [parts(name).quantity, { unit, label }]));
+  const names = channels.map(({ name }) => name);
+  return quantitiesOf(names, glossary).map((each) => ({ ...each, ...own.get(each.name) }));
 }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { finished } from "../test/scenario";
-import { channelsOf, drawn, parts, quantitiesOf, vehiclesOf } from "./channel";
+import { channelsOf, drawn, parts, quantitiesOf, quantity, recorded, vehiclesOf } from "./channel";
 import { lineColor } from "./palette";
 import { countByStatus, isLive, shortNames } from "./run";
 import { append, noSamples } from "./samples";
@@ -86,7 +86,24 @@ describe("channels", () => {
     expect(drawn("gap", [...all, "leader.gap"])).toEqual(["follower_1.gap"]);
     expect(drawn("gap", ["leader.gap"])).toEqual(["leader.gap"]);
     expect(vehiclesOf(all)).toEqual(["leader", "follower_1"]);
-    expect(quantitiesOf(all).map(({ name }) => name)).toEqual(["speed", "gap"]);
+  });
+
+  it("hold quantities in the server's words, and its order; others are called by their name", () => {
+    const glossary = ["gap", "yaw_rate", "speed"].map((name) => ({ name, label: `The ${name}`, unit: "u", meaning: "m" }));
+    expect(quantitiesOf([...all, "traffic_01.wind"], glossary)).toEqual([
+      glossary[0],
+      glossary[2],
+      { name: "x", label: "X", unit: "", meaning: "" },
+    ]);
+    expect(quantity("time_gap", glossary)).toEqual({ name: "time_gap", label: "Time gap", unit: "", meaning: "" });
+  });
+
+  it("of a run keep the unit and label that were recorded with them", () => {
+    const glossary = [{ name: "speed", label: "Speed", unit: "m/s", meaning: "forward" }];
+    expect(recorded([{ name: "leader.speed", label: "Pace", unit: "km/h" }, { name: "leader.x", label: "East", unit: "m" }], glossary)).toEqual([
+      { name: "speed", label: "Pace", unit: "km/h", meaning: "forward" },
+      { name: "x", label: "East", unit: "m", meaning: "" },
+    ]);
   });
 });
 

@@ -16,13 +16,17 @@ const runs = [
   finished({ run: 4, metrics: gap(Number.NaN) }),
 ];
 const numbers = (all: readonly { run: number }[]) => all.map(({ run }) => run);
-const [gapColumn] = metricColumns(runs);
+const [gapColumn] = metricColumns(runs, [
+  { name: "minimum_gap", title: "Least gap", unit: "m", goal: "higher", explanation: "Least distance ahead." },
+]);
 const [delayColumn] = parameterColumns(runs, { "radio.delay": "s" });
 if (!gapColumn || !delayColumn) throw new Error("the fixture has both columns");
 
 describe("columns", () => {
   it("carry names and units", () => {
-    expect(gapColumn).toMatchObject({ title: "Minimum gap", unit: "m", numeric: true });
+    expect(gapColumn).toMatchObject({ title: "Least gap", unit: "m", numeric: true });
+    expect(gapColumn.name).toBe("Least distance ahead. (minimum_gap)");
+    expect(metricColumns(runs, [])[0]).toMatchObject({ title: "Minimum gap", name: "minimum_gap" });
     expect(delayColumn).toMatchObject({ title: "Delay", unit: "s", name: "radio.delay", numeric: true });
   });
 

@@ -1,6 +1,7 @@
 /** The table of runs: its columns, their order, and which of them say something. */
 
 import { fromSet, unitAt } from "./form";
+import { explained, type Measure, titleOf } from "./measure";
 import type { Json, Run } from "./run";
 import { shortNames } from "./run";
 import { formatValue, words } from "./units";
@@ -37,17 +38,17 @@ export function parameterColumns(runs: readonly Run[], units: Record<string, str
   }));
 }
 
-/** One column for every metric that any run has. */
-export function metricColumns(runs: readonly Run[]): Column[] {
+/** One column for every metric that any run has; `known` are the server's words for them. */
+export function metricColumns(runs: readonly Run[], known: readonly Measure[]): Column[] {
   const units = new Map(
     runs.flatMap(({ metrics }) => Object.entries(metrics).map(([name, { unit }]) => [name, unit] as const)),
   );
   return [...units].map(([name, unit]) => ({
     id: `metric:${name}`,
     group: "metrics",
-    title: words(name),
+    title: titleOf(name, known),
     unit,
-    name,
+    name: explained(name, known),
     numeric: true,
     value: ({ metrics }) => metrics[name]?.value,
   }));

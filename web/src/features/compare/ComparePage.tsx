@@ -3,6 +3,7 @@
 import { ActionIcon, Badge, Button, Group, NativeSelect, Table, Text, Title, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
+import { useGlossary } from "../../api/glossary";
 import { comparison, runs } from "../../api/queries";
 import type { Comparison } from "../../api/types";
 import { useUnits } from "../../api/units";
@@ -14,6 +15,7 @@ import {
   verdict,
 } from "../../model/compare";
 import { unitAt } from "../../model/form";
+import { explained, titleOf } from "../../model/measure";
 import type { Run } from "../../model/run";
 import {
   formatDifference,
@@ -263,12 +265,13 @@ function Metrics({ comparison: found }: { comparison: Comparison }) {
 
 function MetricRow({ metric }: { metric: MetricDifference }) {
   const { name, unit, goal, a, b, difference, relative } = metric;
+  const known = useGlossary().metrics;
   const found = verdict(metric);
   const { color, text } = VERDICTS[found];
   return (
     <Table.Tr data-metric={name} data-verdict={found}>
-      <Table.Td title={goal ? `${words(goal)} is better` : "No goal is set"}>
-        {withUnit(words(name), unit)}
+      <Table.Td title={`${explained(name, known)}\n${goal ? `${words(goal)} is better` : "No goal is set"}`}>
+        {withUnit(titleOf(name, known), unit)}
       </Table.Td>
       <Table.Td ta="right">{a === null ? "–" : formatNumber(a)}</Table.Td>
       <Table.Td ta="right">{b === null ? "–" : formatNumber(b)}</Table.Td>

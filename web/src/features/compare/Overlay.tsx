@@ -3,9 +3,10 @@
 import { Checkbox, Group } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { type ReactNode, useMemo, useState } from "react";
+import { useGlossary } from "../../api/glossary";
 import { run as runQuery, trace } from "../../api/queries";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
-import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { merge } from "../../model/compare";
 import { carColors, paintsOf } from "../../model/palette";
 import type { Run } from "../../model/run";
@@ -28,6 +29,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
     [one.data, other.data],
   );
   const all = useMemo(() => [...new Set(names.flat())], [names]);
+  const known = useGlossary().channels;
   const dark = useDark();
   const colors = useMemo(() => {
     const vehicles = vehiclesOf(all);
@@ -42,6 +44,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
         Neither run recorded anything.
       </Empty>
     );
+  const quantities = recorded([...one.data.channels, ...other.data.channels], known);
   return (
     <section className={classes.card} aria-label="Charts of both runs" data-testid="compare-charts">
       <Group gap="md" mb={4} className={classes.over}>
@@ -54,7 +57,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
             <Both
               a={a.run}
               b={b.run}
-              name={name}
+              shown={quantity(name, quantities)}
               all={all}
               colors={colors}
               had={names}
@@ -62,7 +65,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
               lead={
                 <QuantitySelect
                   value={name}
-                  quantities={quantitiesOf(all)}
+                  quantities={quantities}
                   onChange={(next) => setChosen(chosen.map((old, index) => (index === place ? next : old)))}
                 />
               }
@@ -107,7 +110,7 @@ const NOTHING = { time: [], channels: {} };
 interface BothProps {
   a: number;
   b: number;
-  name: string;
+  shown: Quantity;
   all: readonly string[];
   colors: Colors;
   /** The channels of each run. */
@@ -116,7 +119,7 @@ interface BothProps {
   lead: ReactNode;
 }
 
-function Both({ a, b, name, all, colors, had, hidden, lead }: BothProps) {
+function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, lead }: BothProps) {
   const channels = useMemo(
     () => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)),
     [name, all, hidden],
@@ -139,7 +142,6 @@ function Both({ a, b, name, all, colors, had, hidden, lead }: BothProps) {
       </Empty>
     );
   if (one.isLoading || other.isLoading) return <Loading what="the traces" />;
-  const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>
       <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" lead={lead} />

@@ -4,13 +4,15 @@ import { Anchor, Badge, Button, Code, Group, Table, Text, Title, Tooltip } from 
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
+import { useGlossary } from "../../api/glossary";
 import { run as runQuery, runs as runsQuery, trace } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
-import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
-import { carColors, paintsOf } from "../../model/palette";
 import { goalsOf, type Wanted } from "../../model/goal";
+import { explained, titleOf } from "../../model/measure";
+import { carColors, paintsOf } from "../../model/palette";
 import type { Metric, RunDetail } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -126,6 +128,7 @@ function Card({ title, children }: { title: string; children: ReactNode }) {
 const GOALS = { higher: "higher is better", lower: "lower is better" };
 
 function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: readonly string[] }) {
+  const known = useGlossary().metrics;
   const rows = Object.entries(metrics);
   if (rows.length === 0)
     return (
@@ -139,7 +142,7 @@ function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: r
         {rows.map(([name, { value, unit, goal }]) => (
           <Table.Tr key={name}>
             <Table.Td>
-              {words(name)}
+              <span title={explained(name, known)}>{titleOf(name, known)}</span>
               <Unmet sentence={unmet.find((sentence) => sentence.startsWith(`${name} `))} />
               {goal ? (
                 <Text size="xs" c="dimmed">
@@ -186,10 +189,11 @@ function Goals({ run }: { run: RunDetail }) {
 }
 
 function GoalRow({ goal: { metric, bound, wanted, value, unit, margin } }: { goal: Wanted }) {
+  const known = useGlossary().metrics;
   const met = margin === null ? "not measured" : margin >= 0 ? "met" : "not met";
   return (
     <Table.Tr>
-      <Table.Td>{words(metric)}</Table.Td>
+      <Table.Td title={explained(metric, known)}>{titleOf(metric, known)}</Table.Td>
       <Table.Td>
         {bound === "least" ? "at least" : "at most"} {formatNumber(wanted)} {unitText(unit)}
       </Table.Td>
@@ -301,7 +305,7 @@ const Hash = ({ text }: { text: string | null }) =>
 
 function Charts({ run }: { run: RunDetail }) {
   const names = useMemo(() => run.channels.map(({ name }) => name), [run.channels]);
-  const quantities = quantitiesOf(names);
+  const quantities = recorded(run.channels, useGlossary().channels);
   const [chosen, setChosen] = useState(["speed", "gap"]);
   if (names.length === 0)
     return (
@@ -313,7 +317,7 @@ function Charts({ run }: { run: RunDetail }) {
     <section key={place} className={classes.card}>
       <QuantityChart
         run={run}
-        name={name}
+        shown={quantity(name, quantities)}
         all={names}
         lead={
           <QuantitySelect
@@ -329,12 +333,12 @@ function Charts({ run }: { run: RunDetail }) {
 
 interface ChartProps {
   run: RunDetail;
-  name: string;
+  shown: Quantity;
   all: readonly string[];
   lead: ReactNode;
 }
 
-function QuantityChart({ run, name, all, lead }: ChartProps) {
+function QuantityChart({ run, shown: { name, label, unit }, all, lead }: ChartProps) {
   const dark = useDark();
   const channels = useMemo(() => drawn(name, all), [name, all]);
   const { data, error } = useQuery(trace(run.run, channels));
@@ -352,7 +356,6 @@ function QuantityChart({ run, name, all, lead }: ChartProps) {
   );
   if (error) return <Failure error={error} />;
   if (!data) return <Loading what="the trace" />;
-  const { label, unit } = quantity(name);
   return (
     <div className={classes.chart}>
       <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" lead={lead} />

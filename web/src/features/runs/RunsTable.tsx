@@ -12,6 +12,7 @@ import {
 } from "@tanstack/react-table";
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
+import { useGlossary } from "../../api/glossary";
 import { useUnits } from "../../api/units";
 import type { Json, Run } from "../../model/run";
 import { type Column, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
@@ -111,9 +112,10 @@ interface Props {
 
 export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props) {
   const units = useUnits(all);
+  const known = useGlossary().metrics;
   const columns = useMemo(
-    () => [...FIXED, ...parameterColumns(all, units), ...metricColumns(all)],
-    [all, units],
+    () => [...FIXED, ...parameterColumns(all, units), ...metricColumns(all, known)],
+    [all, units, known],
   );
   const sorting = readSort(view.sort);
   const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0]), [runs, columns, view.sort]);

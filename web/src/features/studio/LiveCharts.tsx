@@ -1,6 +1,7 @@
 /** Two charts of the platoon, by default speed and gap, that grow while the run goes. */
 
 import { useMemo, useState } from "react";
+import { useGlossary } from "../../api/glossary";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
 import { carColors } from "../../model/palette";
@@ -68,7 +69,8 @@ function LiveChart({ name, samples, version, duration, paints, onChoose }: Chart
     () => [samples.time, ...shown.map((channel) => samples.channels[channel] ?? [])],
     [samples, shown, version],
   );
-  const { label, unit } = quantity(name);
+  const quantities = quantitiesOf(names.split(" "), useGlossary().channels);
+  const { label, unit } = quantity(name, quantities);
   return (
     <div className={classes.chart}>
       <TimeChart
@@ -80,7 +82,7 @@ function LiveChart({ name, samples, version, duration, paints, onChoose }: Chart
         sync="live"
         duration={duration}
         height={60}
-        lead={<QuantitySelect value={name} quantities={quantitiesOf(names.split(" "))} onChange={onChoose} />}
+        lead={<QuantitySelect value={name} quantities={quantities} onChange={onChoose} />}
       />
     </div>
   );
