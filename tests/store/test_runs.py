@@ -98,6 +98,32 @@ def test_decimation_keeps_the_peaks():
     assert (np.diff(thin["time"]) > 0).all()
 
 
+@pytest.mark.parametrize("points", [2, 20, 200, 1000])
+def test_decimation_keeps_rows_whole_and_the_peaks_of_every_channel(points):
+    draw = np.random.default_rng(7)
+    long = {"time": np.arange(3001) / 50.0} | {name: draw.normal(size=3001) for name in "abc"}
+    thin = trace.decimate(long, points)
+    rows = np.searchsorted(long["time"], thin["time"])
+    assert len(rows) <= max(points, 3 * 4) + 2
+    for name, values in long.items():
+        np.testing.assert_array_equal(thin[name], values[rows])
+        assert (thin[name].min(), thin[name].max()) == (values.min(), values.max())
+
+
+def test_decimation_keeps_a_gap_and_the_peak_beside_missing_values():
+    time_ = np.linspace(0, 60, 3001)
+    values = np.where((time_ > 20) & (time_ < 40), np.nan, np.sin(time_))
+    values[[0, 1501]] = np.nan, 9.0
+    thin = trace.decimate({"time": time_, "a": values}, 200)
+    inside = (thin["time"] > 21) & (thin["time"] < 39)
+    assert np.nanmax(thin["a"]) == 9.0 and np.nanmin(thin["a"]) == np.nanmin(values)
+    assert np.isnan(thin["a"][inside]).sum() == inside.sum() - 1 > 10
+
+
+def test_decimation_of_no_channel_leaves_the_ends():
+    assert trace.decimate({"time": np.arange(3001.0)}, 200)["time"].tolist() == [0.0, 3000.0]
+
+
 @pytest.mark.parametrize(
     ("content", "words"),
     [
