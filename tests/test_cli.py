@@ -11,8 +11,10 @@ import pytest
 from tests.broken import BROKEN
 from tests.patience import PATIENCE
 
+COMPILING = 12.0 * PATIENCE  # [s] everything, on a busy machine
 
-def studio(*arguments, cwd):
+
+def studio(*arguments, cwd, patience=PATIENCE):
     """Runs the command; returns exit code, output, errors."""
     done = subprocess.run(
         [sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=PATIENCE
@@ -66,7 +68,7 @@ def test_freshly_compiled_code_gives_the_same_bits(folder, sample, tmp_path, mon
     """A machine that compiles everything, map and paths too, ends where one with kept code ends."""
     cwd, run, _ = folder
     monkeypatch.setenv("STUDIO_CACHE", str(tmp_path / "cache"))
-    fresh = json.loads(studio("run", sample, *SHORT, "--json", "--db", "fresh.db", cwd=cwd)[1])
+    fresh = json.loads(studio("run", sample, *SHORT, "--json", "--db", "fresh.db", cwd=cwd, patience=COMPILING)[1])
     assert fresh["state_hash"] == run["state_hash"]
     assert (tmp_path / "cache" / "compiled").is_dir()
 

@@ -58,8 +58,8 @@ def test_commands_work(studio, installed):
 def test_the_benchmark_finds_its_sample(installed, tmp_path):
     """Its figures are of no interest here, so it repeats once for a moment."""
     script = (
-        "from studio import bench, sample; bench.SPAN, bench.REPEATS, bench.FLEETS = 0.001, 1, (8,)\n"
-        "print(bench.whole_tick(sample.first()) > 0)"
+        "from studio import bench, job, sample; bench.SPAN, bench.REPEATS, bench.FLEETS = 0.001, 1, (8,)\n"
+        "print(bench.whole_tick(job.prepare(job.load(sample.first()))) > 0)"
     )
     assert command([sys.executable, "-c", script], tmp_path, PYTHONPATH=str(installed)).strip() == "True"
 

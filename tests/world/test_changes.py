@@ -212,12 +212,6 @@ def test_the_readme_shows_changes_that_are_valid(sample, root):
     assert [site.name for site in made.sites] == ["roadworks", "slow", "spill"]
 
 
-def test_what_has_moved_is_told_where_it_is(sample):
-    with pytest.raises(ScenarioError) as caught:
-        scenario(sample, {}, road={"friction": 0.7})
-    assert "weather.friction" in caught.value.problems[0].remedy
-
-
 # -- bad input -----------------------------------------------------------------------------------------
 
 
