@@ -144,6 +144,8 @@ describe("the feed of a live run", () => {
 
   it("ignores a message that it does not know", () => {
     const before = { status: "running" } as LiveState;
+    const refused = reduce(before, { type: "refused", message: "Run 9 is not a live run of this server.", problems: [] });
+    expect(refused).toMatchObject({ status: "failed", error: "Run 9 is not a live run of this server." });
     expect(reduce(before, { type: "later" } as never)).toBe(before);
   });
 });

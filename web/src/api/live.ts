@@ -48,6 +48,9 @@ export function reduce(state: LiveState, message: Server["News"]): LiveState {
     }
     case "end":
       return { ...state, status: message.status, error: message.error, real_time_factor: 0 };
+    case "refused":
+      // The server knows no such live run, after a restart perhaps: there is nothing to wait for.
+      return { ...state, status: "failed", error: message.message, real_time_factor: 0 };
     default:
       return state;
   }
