@@ -45,9 +45,9 @@ from studio.scene.projection import Scene
 from studio.vehicle import fleet
 from studio.vehicle.command import RING, U_DRIVE, U_STEER
 from studio.vehicle.fleet import Fleet, Start
-from studio.world import notice
 from studio.world.build import build
 from studio.world.channel import CHANNELS
+from studio.world.passes import notice
 from studio.world.setting import Setting, setting
 from studio.world.tick import (
     act,

@@ -6,8 +6,8 @@ import yaml
 from studio.application.setup import complete
 from studio.vehicle.state import V_X
 from studio.world.build import build
-from studio.world.mind import STATION
 from studio.world.setting import setting
+from studio.world.table.mind import STATION
 from studio.world.tick import tick
 
 SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}

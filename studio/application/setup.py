@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from studio.application import registry
 from studio.errors import Problem, ScenarioError, UnknownError
 from studio.scenario import edit, file, finding
-from studio.scenario.patch import Operation, operation, patched
+from studio.scenario.document.patch import Operation, operation, patched
 from studio.scenario.schema import Application, Scenario
 
 

@@ -111,14 +111,16 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
 
 @commands.command()
 def migrate(scenario: ScenarioFile) -> None:
-    """Rewrites an old scenario file in place as the present version of the format has it; comments and order stay."""
+    """Rewrites an old scenario file in place as the present version of the format has it; what moves loses its comments."""
+    from studio import job
     from studio.scenario import file
-    from studio.scenario.migration import migrated
+    from studio.scenario.document.migration import migrated
     from studio.scenario.schema import VERSION
 
     source = file.opened(scenario)
     now, changed = migrated(source)
     if now.text != source.text:
+        job.loaded(file.checked(now, "scenario"), scenario)
         file.write(scenario, now.text)
     for each in changed:
         print(f"{scenario}: {each}")

@@ -11,10 +11,10 @@ from itertools import pairwise
 import numpy as np
 
 from studio.execution.record import Chain, Happening
-from studio.world import notice
-from studio.world.notice import Watch
+from studio.world.passes import notice
+from studio.world.passes.notice import Watch
 from studio.world.setting import Setting
-from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
+from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
 from studio.world.world import World
 
 

@@ -10,10 +10,10 @@ from studio.errors import ApplicationError, Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.record import Happening, Record, Recorder
 from studio.vehicle import broken
-from studio.world import notice
 from studio.world.build import build
 from studio.world.line import starts
-from studio.world.notice import Watch
+from studio.world.passes import notice
+from studio.world.passes.notice import Watch
 from studio.world.setting import Setting
 from studio.world.tick import environment, gather, look, meet, part
 from studio.world.world import World

@@ -13,8 +13,9 @@ from fastapi.exceptions import RequestValidationError
 from starlette.responses import Response
 
 from studio.errors import ConflictError, Problem, SealedError, ServerError, SizeError, StaleError, StoreError, StudioError, UnknownError
-from studio.server import map_routes, relay, routes
+from studio.server import relay, routes
 from studio.server.desk import Desk
+from studio.server.maps import routes as map_routes
 
 TITLE = "Cooperative ADAS Studio"
 

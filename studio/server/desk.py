@@ -14,8 +14,8 @@ from studio.server.answer import Pace
 from studio.server.documents import Documents
 from studio.server.frame import Frame
 from studio.server.live import LiveRun, Lives
-from studio.server.map_job import MapJobs
 from studio.server.maps import Maps
+from studio.server.maps.job import MapJobs
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
 from studio.store.runs import Runs, reopen_runs

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import studio
 from studio import job
-from studio.errors import Problem, SealedError, StaleError
+from studio.errors import Problem, ScenarioError, SealedError, StaleError
 from studio.scenario import edit, file
 from studio.scenario.document import applied, digest
+from studio.scenario.document.migration import version_of
+from studio.scenario.document.patch import Operation
+from studio.scenario.document.source import Source
 from studio.scenario.finding import short
-from studio.scenario.migration import migrated
-from studio.scenario.patch import Operation
-from studio.scenario.source import Source
+from studio.scenario.schema import VERSION
 
 KEPT = 64  # texts that were given out lately, so that it can be told what has changed since
 TOLD = 20  # differences that are told
@@ -28,8 +29,8 @@ class Documents:
     lock: threading.Lock = field(default_factory=threading.Lock)
 
     def read(self, path: Path) -> Source:
-        """A scenario file as the present version has it; raises ScenarioError."""
-        found, _ = migrated(file.opened(path))
+        """A scenario file as it stands; raises ScenarioError."""
+        found = file.opened(path)
         self.given[digest(found.text)] = found
         while len(self.given) > KEPT:
             self.given.popitem(last=False)
@@ -38,16 +39,19 @@ class Documents:
     def patch(self, path: Path, patch: list[Operation], expected: str | None) -> tuple[Source, list[Operation]]:
         """Changes a file if it is the expected one, given its digest, and what comes of it is valid; returns it with the inverse.
 
-        Raises SealedError, StaleError, ConflictError for a test that fails, or ScenarioError; then nothing was written.
+        Raises SealedError, StaleError, ConflictError for a test that fails, or ScenarioError, also for a file of an older version;
+        then nothing was written.
         """
         with self.lock:
             self.check_open(path)
             before = self.read(path)
+            check_version(before)
             if expected is not None and expected != digest(before.text):
                 raise self.stale(path, before, expected)
             after, inverse = applied(before, patch)
             job.check(job.loaded(file.checked(after, "scenario"), path))
-            file.write(path, after.text)
+            if after.text != before.text:
+                file.write(path, after.text)
             return self.read(path), inverse
 
     def check_open(self, path: Path) -> None:
@@ -63,6 +67,14 @@ class Documents:
         found = differences(before, now) if before else []
         problems = found or [Problem(path.name, "is not as it was when you read it", remedy="read it again, then change it")]
         return StaleError(f"{path.name} has changed meanwhile.", problems)
+
+
+def check_version(found: Source) -> None:
+    """Only files of the present version are changed: the undo of an edit gives back the same bytes. Raises ScenarioError."""
+    version = version_of(found)
+    if version < VERSION:
+        problem = Problem(found.where, "is of an older version of the format", str(version), str(VERSION), "studio migrate rewrites it")
+        raise ScenarioError(f"{found.where} cannot be changed.", [problem])
 
 
 def differences(before: Source, now: Source) -> list[Problem]:

@@ -12,9 +12,9 @@ from studio.assess import measure  # noqa: F401 - it imports every built-in metr
 from studio.assess.metric import Metric, registered
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
 from studio.scenario.document import digest
-from studio.scenario.patch import Operation, operations
+from studio.scenario.document.patch import Operation, operations
+from studio.scenario.document.source import Source
 from studio.scenario.schema import Scenario
-from studio.scenario.source import Source
 from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.live import Listener, plain

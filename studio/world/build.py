@@ -19,18 +19,18 @@ from studio.vehicle.command import RING, U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground
 from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
 from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
-from studio.world import ground
 from studio.world.change import changes_of
-from studio.world.control import wheel_torque
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
-from studio.world.mind import DRIVER, MIND, SIGHT, STATION
-from studio.world.neighbour import neighbours
 from studio.world.obstacle import obstacles_of
-from studio.world.queue import queues
+from studio.world.passes import ground
+from studio.world.passes.control import wheel_torque
+from studio.world.passes.neighbour import neighbours
+from studio.world.passes.queue import queues
 from studio.world.setting import Car, Setting, pose
 from studio.world.snapshot import gather, origin_of
-from studio.world.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
-from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
+from studio.world.table.mind import DRIVER, MIND, SIGHT, STATION
+from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
+from studio.world.table.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
 from studio.world.world import Clock, Conflicts, Events, Roads, Units, Vehicles, World, Worlds
 
 MOST_HITS = 64  # collisions that are reported per world

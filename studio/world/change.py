@@ -16,10 +16,10 @@ from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, X, Y
 from studio.world import obstacle
 from studio.world.line import Lines, conflicts
-from studio.world.mind import STATION
 from studio.world.setting import Setting
 from studio.world.site import Site
-from studio.world.street import ACTING, AT, BY, OVER, PIECE_ACTS, PIECE_CHANGE, WHEN
+from studio.world.table.mind import STATION
+from studio.world.table.street import ACTING, AT, BY, OVER, PIECE_ACTS, PIECE_CHANGE, WHEN
 from studio.world.world import Changes, World, Worlds
 
 EARLY = 1e-9  # [s] a time that is a whole number of ticks must not come a tick late by rounding

@@ -9,8 +9,8 @@ from studio.compiled import lean
 from studio.rows import Table
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
-from studio.world.mind import MIND
-from studio.world.unit import SENSOR, SENT
+from studio.world.table.mind import MIND
+from studio.world.table.unit import SENSOR, SENT
 from studio.world.world import World
 
 

@@ -12,11 +12,11 @@ from studio.vehicle.command import COMMAND
 from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
-from studio.world.mind import DRIVER, MIND, SCRIPT
-from studio.world.neighbour import PLACE
-from studio.world.notice import NOTICE
-from studio.world.street import COLLISION, LINE, MOMENT, OBSTACLE, PIECE, SWEEP
-from studio.world.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET
+from studio.world.passes.neighbour import PLACE
+from studio.world.passes.notice import NOTICE
+from studio.world.table.mind import DRIVER, MIND, SCRIPT
+from studio.world.table.street import COLLISION, LINE, MOMENT, OBSTACLE, PIECE, SWEEP
+from studio.world.table.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET
 
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,

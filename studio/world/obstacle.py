@@ -15,7 +15,7 @@ from studio.scenario.schema import CloseLane, Objects
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting
 from studio.world.site import Site
-from studio.world.street import ACTING, BARRIER, CONE, O_CHANGE, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
+from studio.world.table.street import ACTING, BARRIER, CONE, O_CHANGE, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
 from studio.world.world import Obstacles
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width

@@ -9,8 +9,9 @@ from collections.abc import Callable
 from studio.application.host import Hosted
 from studio.errors import ApplicationError
 from studio.vehicle import fleet
-from studio.world import change, collision, control, ground, neighbour, perception, queue, traffic
-from studio.world.mind import STATION
+from studio.world import change
+from studio.world.passes import collision, control, ground, neighbour, perception, queue, traffic
+from studio.world.table.mind import STATION
 from studio.world.world import World
 
 Refuse = Callable[[Hosted, ApplicationError], None]

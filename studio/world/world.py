@@ -12,9 +12,9 @@ from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import ACTIVE
-from studio.world.neighbour import Neighbours
-from studio.world.queue import Queues
-from studio.world.street import OBJECT
+from studio.world.passes.neighbour import Neighbours
+from studio.world.passes.queue import Queues
+from studio.world.table.street import OBJECT
 
 
 @dataclass

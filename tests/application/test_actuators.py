@@ -14,8 +14,8 @@ from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_STEER, U
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACCELERATOR, DELTA, GEAR, RATIO, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, V_X
 from studio.world.build import build
-from studio.world.mind import STATION
 from studio.world.setting import setting
+from studio.world.table.mind import STATION
 from studio.world.tick import tick
 
 NOTHING = Actuators(*[LEAVE] * len(ACTUATORS))

@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from studio.errors import ConflictError, ScenarioError
-from studio.scenario import catalogue, patch, source
-from studio.scenario.document import Document
+from studio.scenario import catalogue
+from studio.scenario.document import Document, patch, source
 from tests.conftest import ROOT
 from tests.scenario import yaml_text
 

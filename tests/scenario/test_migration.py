@@ -1,10 +1,11 @@
-"""Old files: read as the present version, told what is another way now, rewritten with their comments."""
+"""Old files: read as the present version, told what is another way now, and nothing is lost."""
 
 import pytest
 
 from studio import job
 from studio.errors import ScenarioError
-from studio.scenario import file, migration, source
+from studio.scenario import file
+from studio.scenario.document import migration, source
 from studio.scenario.schema import VERSION
 
 OLD = """\
@@ -69,11 +70,6 @@ def test_names_that_are_taken_get_a_number():
     assert found["weather"] == {"visibility": 100}
 
 
-@pytest.mark.parametrize("road", ["3", "{fricton: 1}", "[]"])
-def test_what_it_does_not_understand_it_leaves_to_the_schema(road):
-    assert f"road: {road}" in migrated(f"road: {road}\n")[0]
-
-
 @pytest.mark.parametrize(
     ("version", "words"),
     [
@@ -112,3 +108,26 @@ def test_problems_have_the_line_of_the_old_file(tmp_path):
     with pytest.raises(ScenarioError) as caught:
         job.load(path)
     assert "old.yaml, line 9, column 1: sed: is not a field that exists here; did you mean 'seed'?" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("road: {friction: 0.7, slope: 2}\n", "my.yaml, line 1, column 23: road.slope: is no field of version 1"),
+        ("road: 3\n", "road: is no section (got 3)"),
+        ("road: []\n", "road: is no section"),
+        ("road: {fricton: 1}\n", "road.fricton: is no field of version 1; allowed: friction, patches"),
+        ("road: {friction: high}\n", "road.friction: is no number"),
+        ("road: {patches: {ice: 3}}\n", "road.patches.ice: is no stretch (got 3)"),
+        ("road: {patches: 3}\n", "road.patches: is no section"),
+        ("road: {friction: 0.7}\nweather: {friction: 0.5}\n", "weather.friction: stands beside road.friction (got 0.5)"),
+    ],
+)
+def test_what_the_first_version_did_not_know_is_refused(text, says):
+    assert says in refusal(text)
+
+
+def test_an_empty_section_holds_nothing_up():
+    assert migrated("title: a\nroad:\n")[0] == "version: 2\ntitle: a\n"
+    text, _ = migrated("road: {friction: 0.7}\nweather:\nchanges:\n")
+    assert source.read(text, "my.yaml").value == {"version": 2, "weather": {"friction": 0.7}, "changes": None}

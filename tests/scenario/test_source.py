@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studio.errors import ScenarioError
-from studio.scenario import catalogue, source, splice
+from studio.scenario import catalogue
+from studio.scenario.document import source, splice
 from tests.conftest import ROOT
 from tests.scenario import yaml_text
 

@@ -116,10 +116,17 @@ def test_files_that_may_be_read_only(client, path, sample, tmp_path):
     assert outside.read_bytes() == sample.read_bytes()
 
 
-def test_an_old_file_is_patched_as_the_present_version_has_it(client, path, sample):
-    path.write_text(sample.read_text().replace("version: 2", "version: 1") + "\nroad: {friction: 0.5}\n")
-    text = client.get(f"/api/scenarios/{ID}/text").text
-    assert "version: 2" in text and "weather: {friction: 0.5}" in text
-    answer = patch(client, [{"op": "replace", "path": "/weather/friction", "value": 0.6}])
-    assert answer.status_code == 200, answer.text
-    assert path.read_text() == text.replace("friction: 0.5", "friction: 0.6")
+def test_an_old_file_is_not_changed_until_it_is_migrated(client, path, sample):
+    """Else the undo of an edit could not give its bytes back."""
+    old = sample.read_text().replace("version: 2", "version: 1") + "\nroad: {friction: 0.5}\n"
+    path.write_text(old)
+    assert client.get(f"/api/scenarios/{ID}/text").text == old
+    answer = patch(client, [{"op": "replace", "path": "/seed", "value": 5}])
+    assert answer.status_code == 422 and "studio migrate" in answer.text
+    assert path.read_text() == old
+
+
+def test_a_patch_that_changes_nothing_writes_nothing(client, path):
+    before = path.stat().st_mtime_ns, path.read_bytes()
+    assert patch(client, []).status_code == 200
+    assert (path.stat().st_mtime_ns, path.read_bytes()) == before

@@ -18,9 +18,9 @@ from studio.vehicle.contact import MU
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import V_X
 from studio.world.build import build
-from studio.world.mind import GAP, RED_STATION, STATION, V_DESIRED
+from studio.world.table.mind import GAP, RED_STATION, STATION, V_DESIRED
+from studio.world.table.unit import DETECTED, RANGE, RANGE_RATE, TARGET
 from studio.world.tick import tick
-from studio.world.unit import DETECTED, RANGE, RANGE_RATE, TARGET
 from tests.changing import SLOW, drive, run_for, scenario
 
 # -- limits --------------------------------------------------------------------------------------------

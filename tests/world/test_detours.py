@@ -15,10 +15,10 @@ from studio.road.ways.path import PATH_CURVATURE, PATH_HEADING, PATH_SPEED, PATH
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, X, Y
 from studio.world.build import build
-from studio.world.mind import OFFSET, STATION
 from studio.world.setting import pose
 from studio.world.snapshot import restore, snapshot
-from studio.world.street import CONE, O_KIND
+from studio.world.table.mind import OFFSET, STATION
+from studio.world.table.street import CONE, O_KIND
 from studio.world.tick import tick
 from tests import changing
 from tests.changing import drive, run_for

@@ -12,8 +12,8 @@ from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import C_D, C_ROLL, MASS, RADIUS, H
 from studio.vehicle.state import GEAR, NEXT_GEAR, NEXT_RATIO, PITCH, PITCH_RATE, PSI, RATIO, TORQUE_DRIVE, V_UP, V_X, X, Y, Z
 from studio.world.build import build
-from studio.world.mind import STATION
 from studio.world.setting import setting
+from studio.world.table.mind import STATION
 from studio.world.tick import environment, part, tick
 from tests.proving_ground import heavier
 

@@ -10,8 +10,8 @@ from studio.execution.simulation import simulation
 from studio.vehicle.contact import MU
 from studio.vehicle.state import V_X
 from studio.world.build import build
-from studio.world.mind import STATION
 from studio.world.setting import setting
+from studio.world.table.mind import STATION
 from studio.world.tick import environment, tick
 
 ALONG = {"change": "friction", "route": "east_to_west"}

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from studio.vehicle.parameter import FRONT, LENGTH, PARAMETER
 from studio.vehicle.state import ACTIVE, PSI, V_X, VEHICLE, X, Y
-from studio.world import neighbour, queue
-from studio.world.mind import MIND, STATION
-from studio.world.neighbour import AT_X, AT_Y, REAR_X, REAR_Y, neighbours, within
+from studio.world.passes import neighbour, queue
+from studio.world.passes.neighbour import AT_X, AT_Y, REAR_X, REAR_Y, neighbours, within
+from studio.world.table.mind import MIND, STATION
 
 WORLDS = 3
 

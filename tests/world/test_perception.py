@@ -13,8 +13,8 @@ from studio.vehicle.command import RING
 from studio.vehicle.parameter import STEER_MAX
 from studio.vehicle.state import ACTIVE, DELTA, X, Y
 from studio.world.build import build
+from studio.world.table.unit import DETECTED, RANGE, SENT
 from studio.world.tick import tick
-from studio.world.unit import DETECTED, RANGE, SENT
 
 
 def received(sample, ticks=500, buildings=None, shadow=True, **radio):

@@ -20,8 +20,8 @@ from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
-from studio.world.mind import STATION
 from studio.world.setting import Car, Setting
+from studio.world.table.mind import STATION
 from studio.world.tick import tick
 from studio.world.way import Works
 

@@ -11,12 +11,11 @@ from studio.model import satellite
 from studio.model.random import GPS_NOISE, normal, normal_pair
 from studio.road.network import Building, shadow
 from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
-from studio.world import perception
 from studio.world.build import build
 from studio.world.channel import CHANNELS
 from studio.world.channel import sample as channels
-from studio.world.tick import meet, tick
-from studio.world.unit import (
+from studio.world.passes import perception
+from studio.world.table.unit import (
     CANYON,
     DRIFT_SIGMA,
     DRIFT_TIME,
@@ -31,6 +30,7 @@ from studio.world.unit import (
     SENSOR,
     SENT,
 )  # fmt: skip
+from studio.world.tick import meet, tick
 
 TICK = 0.02
 COURT = Building(np.array([[-50.0, 50.0, 50.0, -50.0], [-50.0, -50.0, 50.0, 50.0]]), (), 10.0, 0.0, "")

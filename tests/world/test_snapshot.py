@@ -12,8 +12,8 @@ import pytest
 from studio import job
 from studio.errors import SnapshotError
 from studio.world.build import build
-from studio.world.neighbour import Neighbours
-from studio.world.queue import Queues
+from studio.world.passes.neighbour import Neighbours
+from studio.world.passes.queue import Queues
 from studio.world.snapshot import moving, restore, snapshot
 from studio.world.tick import tick
 from studio.world.world import Conflicts

@@ -11,7 +11,7 @@ from studio.road.network.signals import GREEN
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, OMEGA, OMEGA_E, V_EAST, V_X, X, Y
 from studio.world.build import build
-from studio.world.mind import OFFSET, RED_STATION, STATION
+from studio.world.table.mind import OFFSET, RED_STATION, STATION
 from studio.world.tick import tick
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from studio.compiled import lean
 from studio.vehicle.state import ACTIVE, V_X
-from studio.world.mind import STATION
+from studio.world.table.mind import STATION
 
 
 @dataclass

@@ -9,8 +9,8 @@ from math import cos, sin, sqrt
 from studio.compiled import inlined, lean
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
-from studio.world.neighbour import AT_X, AT_Y, moved, within
-from studio.world.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.passes.neighbour import AT_X, AT_Y, moved, within
+from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
 
 NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than half of both lengths and this
 ROUNDING = 1e-6  # [m] by which a bound gives way

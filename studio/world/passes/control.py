@@ -19,7 +19,7 @@ from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_P
 from studio.vehicle.contact import SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
 from studio.vehicle.state import A_X, ACCELERATOR, ACTIVE, CLUTCH, DELTA, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X, YAW_RATE, X, Y
-from studio.world.mind import (
+from studio.world.table.mind import (
     AHEAD_SPEED,
     GAP,
     SCRIPT_BRAKE,
@@ -31,7 +31,7 @@ from studio.world.mind import (
     WISH,
     YIELDING,
 )  # fmt: skip
-from studio.world.unit import DETECTED, GPS_EAST, GPS_NORTH, M_INTENTION, M_X, SENT
+from studio.world.table.unit import DETECTED, GPS_EAST, GPS_NORTH, M_INTENTION, M_X, SENT
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes

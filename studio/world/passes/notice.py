@@ -12,7 +12,7 @@ from studio.compiled import lean
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X
-from studio.world.mind import AHEAD, RED_STATION, STATION
+from studio.world.table.mind import AHEAD, RED_STATION, STATION
 from studio.world.world import World
 
 NOTICE = Table("notice", Role.RECORD, per="notice")

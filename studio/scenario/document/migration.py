@@ -1,28 +1,33 @@
-"""Old scenario files: each version becomes the next by a patch, so that comments and order stay, and says what has changed.
+"""Old scenario files: each version becomes the next by a patch, which leaves alone what it does not mean, and says what has changed.
 
     source, told = migrated(source)
 
-A version n to n + 1 is one function in MIGRATIONS: it gets the document, and returns its patch and a sentence for each change.
+A version n to n + 1 is one function in MIGRATIONS: it gets the source, and returns its patch and a sentence for each change. What
+moves is written anew, without its comments; what version n did not know is refused, so that nothing is lost.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from studio.errors import Problem, ScenarioError
 from studio.scenario.document import applied
+from studio.scenario.document.patch import Layout, Operation, operation
+from studio.scenario.document.source import Source
 from studio.scenario.finding import short
-from studio.scenario.patch import Layout, Operation, operation
 from studio.scenario.schema import VERSION
-from studio.scenario.source import Source
 
-Migration = Callable[[dict[str, Any]], tuple[list[Operation], list[str]]]
+Migration = Callable[[Source], tuple[list[Operation], list[str]]]
 
 
 def migrated(given: Source) -> tuple[Source, list[str]]:
-    """A scenario as the present version has it, and what was changed for that; raises ScenarioError for a version to come."""
+    """A scenario as the present version has it, and what was changed for that.
+
+    Raises:
+        ScenarioError: a version to come, or what the file's own version did not know.
+    """
     version, now, told = version_of(given), given, []
     for number in range(version, VERSION):
-        patch, sentences = MIGRATIONS[number](now.value)
+        patch, sentences = MIGRATIONS[number](now)
         now, _ = applied(now, [*patch, numbered(now.value, number + 1)])
         told += [f"version {number} to {number + 1}: {each}" for each in sentences]
     return now, told
@@ -47,14 +52,48 @@ def numbered(document: dict[str, Any], version: int) -> Operation:
     return operation("add", ["version"], value=version, layout=Layout(source=f"version: {version}\n", after=None))
 
 
-def weather(document: dict[str, Any]) -> tuple[list[Operation], list[str]]:
+def weather(now: Source) -> tuple[list[Operation], list[str]]:
     """1 to 2: what `road` held stands with the weather and with the changes, where it can begin and end."""
-    road = document.get("road")
-    if not isinstance(road, dict) or not road.keys() <= {"friction", "patches"}:
+    if "road" not in now.value:
         return [], []
-    patch, told = friction(document, road)
-    more, said = patches(document, road)
+    problems = [*unknown(now), *doubled(now)]
+    if problems:
+        raise ScenarioError(f"{now.where} cannot be read as version 1.", problems)
+    road = section(now.value["road"])
+    patch, told = friction(now.value, road)
+    more, said = patches(now.value, road)
     return [*patch, *more, operation("remove", ["road"])], [*told, *said, "`road`, which is empty now, is left out"]
+
+
+def unknown(now: Source) -> Iterator[Problem]:
+    """What version 1 did not have in `road`."""
+    road = section(now.value["road"])
+    if not isinstance(road, dict):
+        yield Problem(now.told("road"), "is no section", short(road), "friction, patches")
+        return
+    for name in road.keys() - {"friction", "patches"}:
+        yield Problem(now.told(f"road.{name}"), "is no field of version 1", allowed="friction, patches")
+    value, stretches = road.get("friction", 1.0), section(road.get("patches"))
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        yield Problem(now.told("road.friction"), "is no number", short(value))
+    if not isinstance(stretches, dict):
+        yield Problem(now.told("road.patches"), "is no section", short(stretches), "a name for each stretch")
+        return
+    for name, stretch in stretches.items():
+        if not isinstance(stretch, dict):
+            yield Problem(now.told(f"road.patches.{name}"), "is no stretch", short(stretch), "route, start, end, friction")
+
+
+def section(value: Any) -> Any:
+    """A section of a file; one that was left empty holds nothing."""
+    return {} if value is None else value
+
+
+def doubled(now: Source) -> Iterator[Problem]:
+    """A friction that stands in both places: one of the two would be lost."""
+    road, beside = now.value["road"], now.value.get("weather")
+    if isinstance(road, dict) and "friction" in road and isinstance(beside, dict) and "friction" in beside:
+        yield Problem(now.told("weather.friction"), "stands beside road.friction", short(beside["friction"]), remedy="keep one of them")
 
 
 def friction(document: dict[str, Any], road: dict[str, Any]) -> tuple[list[Operation], list[str]]:
@@ -62,20 +101,20 @@ def friction(document: dict[str, Any], road: dict[str, Any]) -> tuple[list[Opera
     if "friction" not in road:
         return [], []
     value = road["friction"]
-    if "weather" in document:
+    if isinstance(document.get("weather"), dict):
         return [operation("add", ["weather", "friction"], value=value)], ["`road.friction` is `weather.friction`"]
     return [operation("add", ["weather"], value={"friction": value})], ["`road.friction` is `weather.friction`"]
 
 
 def patches(document: dict[str, Any], road: dict[str, Any]) -> tuple[list[Operation], list[str]]:
     """A slippery stretch is a change of the kind friction, from the beginning to the end."""
-    found, taken = road.get("patches"), document.get("changes") or {}
-    if not isinstance(found, dict) or not found:
+    found, taken = section(road.get("patches")), document.get("changes") or {}
+    if not found:
         return [], []
     names = {name: free(name, {*taken} | ({*found} if name in taken else set())) for name in found}
-    made = {names[name]: {"do": {"change": "friction"} | stretch} for name, stretch in found.items() if isinstance(stretch, dict)}
+    made = {names[name]: {"do": {"change": "friction"} | stretch} for name, stretch in found.items()}
     told = [f"`road.patches.{name}` is `changes.{names[name]}`, a change of the kind friction" for name in found]
-    if "changes" not in document:
+    if not isinstance(document.get("changes"), dict):
         return [operation("add", ["changes"], value=made)], told
     return [operation("add", ["changes", name], value=each) for name, each in made.items()], told
 

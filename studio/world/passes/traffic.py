@@ -23,8 +23,10 @@ from studio.road.ways.path import (
 from studio.vehicle.parameter import C_FRONT, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, WIDTH
 from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, PSI, V_X, YAW_RATE, X, Y
-from studio.world.ground import touch_all
-from studio.world.mind import (
+from studio.world.passes.ground import touch_all
+from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN, moved, within
+from studio.world.passes.queue import from_station
+from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
     BRAKE_COMFORT,
@@ -50,9 +52,7 @@ from studio.world.mind import (
     YAW_DAMPING,
     YIELDING,
 )  # fmt: skip
-from studio.world.neighbour import COS, REAR_X, REAR_Y, SIN, moved, within
-from studio.world.queue import from_station
-from studio.world.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
+from studio.world.table.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed

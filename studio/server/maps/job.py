@@ -22,9 +22,10 @@ from studio.errors import MapError, Problem, ServerError, SizeError, StudioError
 from studio.process import Child, Gone
 from studio.road.formats import osm
 from studio.road.library import folder, intake, tag
-from studio.server import answer, map_worker
-from studio.server.map_worker import Order
+from studio.server import answer
 from studio.server.maps import Maps, file_name, free_name, plain_name
+from studio.server.maps import worker as map_worker
+from studio.server.maps.worker import Order
 
 AT_A_TIME = 2  # processes
 MOST_WAITING = 16  # imports, each with its file

@@ -27,7 +27,7 @@ from studio.vehicle.contact import HEIGHT, MU, SLOPE_X, SLOPE_Y
 from studio.vehicle.corner import side_of
 from studio.vehicle.parameter import L_F, L_R, TRACK_F, TRACK_R
 from studio.vehicle.state import PSI, X, Y
-from studio.world.street import (
+from studio.world.table.street import (
     PIECE,
     PIECE_ACTS,
     PIECE_CHANGE,

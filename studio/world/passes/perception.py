@@ -23,10 +23,10 @@ from studio.road.network.shadow import EYE, open_sky, walls_between
 from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACTIVE, PSI, V_X, YAW_RATE, X, Y
-from studio.world.collision import reach_along
-from studio.world.neighbour import AT_X, AT_Y, COS, REAR_X, REAR_Y, SIN, within
-from studio.world.street import BARRIER, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
-from studio.world.unit import (
+from studio.world.passes.collision import reach_along
+from studio.world.passes.neighbour import AT_X, AT_Y, COS, REAR_X, REAR_Y, SIN, within
+from studio.world.table.street import BARRIER, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.table.unit import (
     AZIMUTH,
     BUILDINGS,
     CANYON,
