@@ -25,9 +25,9 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.scenario import file
-from studio.scenario.document.migration import migrated
-from studio.scenario.document.source import Source
 from studio.scenario.schema import Scenario
+from studio.scenario.text.migration import migrated
+from studio.scenario.text.source import Source
 from studio.source import code_version
 from studio.store.runs import Row, Runs
 from studio.vehicle.fleet import rows_of

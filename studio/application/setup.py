@@ -11,8 +11,8 @@ from pydantic import ValidationError
 from studio.application import registry
 from studio.errors import Problem, ScenarioError, UnknownError
 from studio.scenario import edit, file, finding
-from studio.scenario.document.patch import Operation, operation, patched
 from studio.scenario.schema import Application, Scenario
+from studio.scenario.text.patch import Operation, operation, patched
 
 
 def complete(document: dict[str, Any], where: str) -> Scenario:

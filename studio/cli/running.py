@@ -114,8 +114,8 @@ def migrate(scenario: ScenarioFile) -> None:
     """Rewrites an old scenario file in place as the present version of the format has it; what moves loses its comments."""
     from studio import job
     from studio.scenario import file
-    from studio.scenario.document.migration import migrated
     from studio.scenario.schema import VERSION
+    from studio.scenario.text.migration import migrated
 
     source = file.opened(scenario)
     now, changed = migrated(source)

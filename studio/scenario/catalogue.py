@@ -19,7 +19,7 @@ from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
 from studio.scenario import datasheet, edit, finding, tir
-from studio.scenario.document.patch import patched
+from studio.scenario.text.patch import patched
 from studio.scenario.tir import PropertyFile
 from studio.scenario.vehicle import Origin, Vehicle
 

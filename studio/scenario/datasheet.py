@@ -24,7 +24,7 @@ from pydantic_core import ErrorDetails
 
 from studio.errors import Problem, ScenarioError, nearest
 from studio.scenario import file, finding
-from studio.scenario.document.source import Source
+from studio.scenario.text.source import Source
 from studio.scenario.vehicle import ORIGINS, RPM, Origin, Part, Vehicle
 
 SIZE_LIMIT = 1_000_000  # [B] of a vehicle file; those of the catalogue have some 15 kB

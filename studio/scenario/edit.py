@@ -1,10 +1,10 @@
-"""Changes of a document by dotted path, as `--set`, the page and sweeps make them: short for a JSON patch (scenario/document/patch.py)."""
+"""Changes of a document by dotted path, as `--set`, the page and sweeps make them: short for a JSON patch (scenario/text/patch.py)."""
 
 from typing import Any
 
 from studio.errors import Problem, ScenarioError, nearest
-from studio.scenario.document import source
-from studio.scenario.document.patch import Operation, operation
+from studio.scenario.text import source
+from studio.scenario.text.patch import Operation, operation
 
 
 def parse_assignment(text: str) -> tuple[str, Any]:

@@ -13,12 +13,12 @@ from typing import Any
 from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, StudioError, nearest
-from studio.scenario.document import source
-from studio.scenario.document.migration import migrated
-from studio.scenario.document.pointer import kind
-from studio.scenario.document.source import Source
 from studio.scenario.finding import problems
 from studio.scenario.schema import Scenario
+from studio.scenario.text import source
+from studio.scenario.text.migration import migrated
+from studio.scenario.text.pointer import kind
+from studio.scenario.text.source import Source
 
 SIZE_LIMIT = 4_000_000  # [B] of a scenario file
 

@@ -16,7 +16,7 @@ from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
 MOST_OBJECTS = 500  # of one change
-VERSION = 2  # of the format; scenario/document/migration.py reads older files
+VERSION = 2  # of the format; scenario/text/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from studio.scenario.document.patch import Operation, is_text
+from studio.scenario.text.patch import Operation, is_text
 
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None

@@ -9,12 +9,12 @@ import studio
 from studio import job
 from studio.errors import Problem, ScenarioError, SealedError, StaleError
 from studio.scenario import edit, file
-from studio.scenario.document import applied, digest
-from studio.scenario.document.migration import version_of
-from studio.scenario.document.patch import Operation
-from studio.scenario.document.source import Source
 from studio.scenario.finding import short
 from studio.scenario.schema import VERSION
+from studio.scenario.text.document import applied, digest
+from studio.scenario.text.migration import version_of
+from studio.scenario.text.patch import Operation
+from studio.scenario.text.source import Source
 
 KEPT = 64  # texts that were given out lately, so that it can be told what has changed since
 TOLD = 20  # differences that are told

@@ -11,10 +11,10 @@ from studio.application import registry
 from studio.assess import measure  # noqa: F401 - it imports every built-in metric
 from studio.assess.metric import Metric, registered
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
-from studio.scenario.document import digest
-from studio.scenario.document.patch import Operation, operations
-from studio.scenario.document.source import Source
 from studio.scenario.schema import Scenario
+from studio.scenario.text.document import digest
+from studio.scenario.text.patch import Operation, operations
+from studio.scenario.text.source import Source
 from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.live import Listener, plain

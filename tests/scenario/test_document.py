@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from studio.errors import ConflictError, ScenarioError
 from studio.scenario import catalogue
-from studio.scenario.document import Document, patch, source
+from studio.scenario.text import patch, source
+from studio.scenario.text.document import Document
 from tests.conftest import ROOT
 from tests.scenario import yaml_text
 

@@ -5,8 +5,8 @@ import pytest
 from studio import job
 from studio.errors import ScenarioError
 from studio.scenario import file
-from studio.scenario.document import migration, source
 from studio.scenario.schema import VERSION
+from studio.scenario.text import migration, source
 
 OLD = """\
 # How it was written at first

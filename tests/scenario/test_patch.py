@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from studio.errors import ConflictError, ScenarioError
-from studio.scenario.document import patch, pointer
+from studio.scenario.text import patch, pointer
 from tests.scenario import yaml_text
 
 # RFC 6902, appendix A: document, patch, result.

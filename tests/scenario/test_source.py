@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from studio.errors import ScenarioError
 from studio.scenario import catalogue
-from studio.scenario.document import source, splice
+from studio.scenario.text import source, splice
 from tests.conftest import ROOT
 from tests.scenario import yaml_text
 

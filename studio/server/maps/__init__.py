@@ -24,8 +24,8 @@ from studio.road.library.reader import ENDINGS, ending_of
 from studio.road.network import Network
 from studio.road.ways.trip import Trip, trip
 from studio.scenario import file as scenario_file
-from studio.scenario.document.splice import written
 from studio.scenario.schema import VERSION
+from studio.scenario.text.splice import written
 from studio.server import answer
 from studio.world.setting import USUAL_RADIUS
 

@@ -4,7 +4,7 @@
                                             .root    the same as nodes, each with its span in the text
 
 The text is kept and never written anew: comments, order, anchors, line breaks and the way numbers are written stay as
-they are, because an edit (scenario/document/splice.py) replaces the span of one value and nothing else. A library's round trip
+they are, because an edit (scenario/text/splice.py) replaces the span of one value and nothing else. A library's round trip
 through a tree rewrites some 140 lines of each vehicle file of the catalogue. Syntax is PyYAML's part, its events have
 the spans; what a plain scalar means is that of YAML 1.2 (core schema, 10.3.2), as in JSON. Where YAML 1.1 reads another
 value (`on`, `012`, `1_000`, `12:30`, `2026-01-01`) nobody can know what was meant: it is refused with both ways to write it.

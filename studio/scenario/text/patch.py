@@ -5,7 +5,7 @@
     stepped(document, step)     →  the document after it; the given one stays as it is
     patched(document, patch)    →  the same for a whole patch: all of it, or ScenarioError and nothing
 
-The standard says nothing about the order of keys, comments and the way a value is written. An inverse of scenario/document/splice.py
+The standard says nothing about the order of keys, comments and the way a value is written. An inverse of scenario/text/splice.py
 says it in one more member of its operations, `layout`, which other programs ignore, as the standard demands (section 4).
 """
 
@@ -17,9 +17,9 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
 from studio.errors import ConflictError, Problem, ScenarioError
-from studio.scenario.document import pointer
-from studio.scenario.document.source import same
 from studio.scenario.finding import problems, short
+from studio.scenario.text import pointer
+from studio.scenario.text.source import same
 
 MOST_OPERATIONS = 1000  # of a patch
 NEEDS = {"add": "value", "replace": "value", "test": "value", "move": "from_", "copy": "from_"}

@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from studio.scenario.document import patch as patches
-from studio.scenario.document import source
-from studio.scenario.document.patch import Operation
-from studio.scenario.document.source import Source
-from studio.scenario.document.splice import renamed, spliced
+from studio.scenario.text import patch as patches
+from studio.scenario.text import source
+from studio.scenario.text.patch import Operation
+from studio.scenario.text.source import Source
+from studio.scenario.text.splice import renamed, spliced
 
 
 @dataclass(frozen=True)

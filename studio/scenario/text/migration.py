@@ -10,11 +10,11 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from studio.errors import Problem, ScenarioError
-from studio.scenario.document import applied
-from studio.scenario.document.patch import Layout, Operation, operation
-from studio.scenario.document.source import Source
 from studio.scenario.finding import short
 from studio.scenario.schema import VERSION
+from studio.scenario.text.document import applied
+from studio.scenario.text.patch import Layout, Operation, operation
+from studio.scenario.text.source import Source
 
 Migration = Callable[[Source], tuple[list[Operation], list[str]]]
 

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 import yaml
 
 from studio.errors import ScenarioError
-from studio.scenario.document import pointer, source
-from studio.scenario.document.patch import Layout, Operation, anchor, operation, stepped
-from studio.scenario.document.source import MERGE, Node, Source, same
+from studio.scenario.text import pointer, source
+from studio.scenario.text.patch import Layout, Operation, anchor, operation, stepped
+from studio.scenario.text.source import MERGE, Node, Source, same
 
 WIDTH = 110  # characters of a line that is written anew
 INDENT = 2
