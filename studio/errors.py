@@ -7,7 +7,8 @@
     │   └── SealedError     a document that may be read only
     ├── MapError            a map file is missing, unreadable or holds no roads
     ├── RouteError          roads do not connect, or are not on the map
-    ├── ApplicationError    a plug-in does not load, or raised during a run
+    ├── ApplicationError    an application raised during a run, or did what it must not
+    ├── KindError           a kind does not load, or does not keep the contract of its sort
     ├── RunError            a state is not finite any more
     ├── SnapshotError       a snapshot does not belong to this world
     ├── StoreError          runs.db cannot be opened or written
@@ -87,7 +88,11 @@ class RouteError(StudioError):
 
 
 class ApplicationError(StudioError):
-    """A plug-in does not load, or raised during a run."""
+    """An application raised during a run, or did what it must not."""
+
+
+class KindError(StudioError):
+    """A kind does not load, or does not keep the contract of its sort."""
 
 
 class RunError(StudioError):

@@ -26,18 +26,29 @@ def imports(path: Path) -> frozenset[Path]:
     found = set()
     for origin, names, plain in IMPORT.findall(COMMENT.sub("", path.read_text(encoding="utf-8"))):
         for name in NAME.findall(names or plain):
-            found.add(file_of(f"{origin}.{name}") or file_of(origin) if origin else file_of(name))
+            inner = f"{origin}{name}" if origin.endswith(".") else f"{origin}.{name}"
+            found.add(file_of(inner, path) or file_of(origin, path) if origin else file_of(name, path))
     return frozenset(file for file in found if file and file != path)
 
 
-def file_of(module: str) -> Path | None:
-    """The file of a module of this package, or of one that somebody else loaded from his own folder."""
+def file_of(module: str, importer: Path) -> Path | None:
+    """The file of a module of this package, of one beside its importer, or of one that somebody loaded from his own folder."""
+    if module.startswith("."):
+        above = len(module) - len(module.lstrip("."))
+        return file_below(importer.parents[above - 1], module.lstrip("."))
     if module.partition(".")[0] == PACKAGE.name:
-        base = PACKAGE.parent.joinpath(*module.split("."))
-        return next((file for file in (base.with_suffix(".py"), base / "__init__.py") if file.is_file()), None)
+        return file_below(PACKAGE.parent, module)
+    if not importer.is_relative_to(PACKAGE) and (beside := file_below(importer.parent, module)):
+        return beside
     file = getattr(sys.modules.get(module), "__file__", None)
     own = file is not None and file.endswith(".py") and not any(Path(file).is_relative_to(folder) for folder in OTHERS)
     return Path(file) if own else None
+
+
+def file_below(folder: Path, module: str) -> Path | None:
+    """The file of a module that is named from a folder."""
+    base = folder.joinpath(*module.split(".")) if module else folder
+    return next((file for file in (base.with_suffix(".py"), base / "__init__.py") if file.is_file()), None)
 
 
 def closure(path: Path) -> list[Path]:

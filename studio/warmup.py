@@ -12,16 +12,15 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from inspect import getfile
 from multiprocessing.connection import Connection
 from pathlib import Path
 
 import numpy as np
 
 from studio import job, sample
-from studio.application import registry
 from studio.compiled import folder_of
 from studio.errors import RunError
+from studio.kind import registry
 from studio.model.tyre import Tyre
 from studio.process import Child
 from studio.rig import drive, tyre
@@ -52,11 +51,11 @@ def do(part: str) -> None:
 
 
 def files() -> set[Path]:
-    """The files of this package with compiled functions that this one, or an application, depends on.
+    """The files of this package with compiled functions that this one, or a kind, depends on.
 
-    Applications of the user's own are compiled when they first run.
+    Kinds of the user's own are compiled when they first run.
     """
-    roots = [Path(__file__), *(Path(getfile(each.module)) for each in registry.known().values())]
+    roots = [Path(__file__), *(each.file for each in registry.every() if each.file)]
     ours = {path for root in roots for path in closure(root) if path.is_relative_to(PACKAGE)}
     return {path for path in ours if compiled_functions(path)}
 

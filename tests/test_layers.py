@@ -9,6 +9,7 @@ import pytest
 FLOORS = [
     {"errors", "conventions", "rows", "cache", "source", "sample", "process", "compiled", "portable"},
     {"model"},
+    {"kind"},
     {"road"},
     {"scenario"},
     {"application"},
@@ -16,6 +17,7 @@ FLOORS = [
     {"world"},
     {"execution"},
     {"assess"},
+    {"kinds"},
     {"store"},
     {"job"},
     {"rig"},

@@ -1,1 +1,1 @@
-"""Applications: the contract, the registry, the hosts, and the built-ins that come in by the same door."""
+"""Applications: their contract, and the hosts that call them."""

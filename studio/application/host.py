@@ -10,6 +10,7 @@ import hashlib
 import os
 import sys
 import traceback
+from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
@@ -21,10 +22,10 @@ import numpy as np
 from numba import literal_unroll
 
 from studio.application.contract import Actuators, Clock, Command, Front, Message, Observation, Own
-from studio.application.registry import Application
 from studio.cache import touch
 from studio.compiled import CACHE, compiled
 from studio.errors import ApplicationError
+from studio.kind.registry import Kind
 from studio.rows import Moving
 
 TEMPLATE = '''"""Calls {name} for all its cars."""
@@ -68,7 +69,7 @@ class Hosted:
     A compiled application is hosted once for all its groups, an ordinary one group by group.
     """
 
-    application: Application
+    application: Kind
     groups: list[Group]
     columns: np.ndarray
     links: np.ndarray  # link that each car listens to, -1 when none
@@ -93,19 +94,34 @@ def observation_rows() -> list[str]:
     return [f"{part.__name__.lower()}.{name}" for part in (Clock, Own, Front, Message) for name in part._fields]
 
 
-def first_memory(application: Application) -> list[float]:
+def is_compiled(application: Kind) -> bool:
+    """Whether `decide` is machine code; else it is called as Python."""
+    return hasattr(application.module.decide, "py_func")
+
+
+def parameter_tuple(application: Kind) -> type:
+    """The parameters as a NamedTuple, for `decide`. It belongs to the module: cached machine code finds it there by name."""
+    module = application.module
+    if "ParameterTuple" not in vars(module):
+        fields = list(module.Parameters.model_fields)  # known at run time only, which the type checker does not expect
+        made = namedtuple("ParameterTuple", fields, module=module.__name__)  # pyrefly: ignore[bad-class-definition, invalid-argument]
+        vars(module)["ParameterTuple"] = made
+    return vars(module)["ParameterTuple"]
+
+
+def first_memory(application: Kind) -> list[float]:
     """What an application remembers before its first tick."""
     return [float(value) for value in application.module.Memory()]
 
 
-def python_loop(application: Application) -> Callable:
+def python_loop(application: Kind) -> Callable:
     """Calls `decide` car by car."""
-    module = application.module
+    module, Parameters = application.module, parameter_tuple(application)
 
     def run(columns, parameters, memory, observed, commands):
         for j, v in enumerate(columns):
             remembered, command = module.decide(
-                module.ParameterTuple(*parameters[:, j].tolist()),
+                Parameters(*parameters[:, j].tolist()),
                 module.Memory(*memory[:, j].tolist()),
                 observation_of(observed[:, j].tolist()),
             )
@@ -150,8 +166,9 @@ def observation_of(values: list[float]) -> Observation:
     return Observation(*parts)
 
 
-def compiled_loop(application: Application) -> Callable:
+def compiled_loop(application: Kind) -> Callable:
     """The loop written for this application, loaded from its file."""
+    parameter_tuple(application)
     source = loop_source(application)
     key = hashlib.sha256((source + Path(str(application.module.__file__)).read_text("utf-8")).encode()).hexdigest()[:16]
     path = CACHE / f"host_{application.name}_{key}.py"
@@ -173,7 +190,7 @@ def load(path: Path):
     return module
 
 
-def loop_source(application: Application) -> str:
+def loop_source(application: Kind) -> str:
     """The text of that loop."""
     rows = iter(range(len(observation_rows())))
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from studio.application import registry
 from studio.errors import Problem, ScenarioError, UnknownError
+from studio.kind import registry
 from studio.scenario import edit, file, finding
 from studio.scenario.schema import Application, Scenario
 from studio.scenario.text.patch import Operation, operation, patched
@@ -29,11 +29,11 @@ def complete(document: dict[str, Any], where: str) -> Scenario:
 def filled(where: str, path: str, group: Application) -> tuple[Application, list[Problem]]:
     """A group with all parameters of its application, or the problems."""
     try:
-        application = registry.find(group.application)
+        application = registry.find("application", group.application)
     except UnknownError as error:
         return group, [Problem(f"{where}: {path}.application", error.message)]
     try:
-        return group.model_copy(update={"parameters": application.parameters(group.parameters)}), []
+        return group.model_copy(update={"parameters": application.module.Parameters.model_validate(group.parameters).model_dump()}), []
     except ValidationError as error:
         return group, finding.problems(error, where, application.module.Parameters, under=f"{path}.parameters.")
 
@@ -62,8 +62,8 @@ def is_exchange(document: dict[str, Any], path: str) -> bool:
 def exchange(document: dict[str, Any], group: str, name: Any) -> list[Operation]:
     """The patch that puts another application into a group; parameters that it does not have are dropped."""
     patch = [operation("replace", ["applications", group, "application"], value=name)]
-    if isinstance(name, str) and name in registry.known():
-        fields = registry.find(name).module.Parameters.model_fields
+    if isinstance(name, str) and name in registry.known("application"):
+        fields = registry.find("application", name).module.Parameters.model_fields
         given = document["applications"][group].get("parameters") or {}
         kept = {key: value for key, value in given.items() if key in fields}
         patch.append(operation("add", ["applications", group, "parameters"], value=kept))

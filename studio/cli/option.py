@@ -26,6 +26,6 @@ def changes(assignments: list[str] | None) -> dict[str, Any]:
 def load_applications(folder: Path | None) -> None:
     """Registers the user's own applications."""
     if folder:
-        from studio.application.registry import load_folder
+        from studio.kind.registry import load_folder
 
         load_folder(folder)

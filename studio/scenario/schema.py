@@ -9,26 +9,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, Field, model_validator
 
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
+from studio.kind.settings import Part, number
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
 MOST_OBJECTS = 500  # of one change
-VERSION = 2  # of the format; scenario/text/migration.py reads older files
+VERSION = 3  # of the format; scenario/text/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
-
-
-def number(default, *, unit: str, title: str, description: str = "", **bounds):
-    """A field with a unit."""
-    return Field(default, title=title, description=description, json_schema_extra={"unit": unit}, **bounds)
-
-
-class Part(BaseModel):
-    """Base of all parts: unknown fields are refused, numbers must be finite."""
-
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, str_strip_whitespace=True)
 
 
 class Map(Part):
@@ -375,7 +365,7 @@ class Goal(Part):
 class Scenario(Part):
     """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
 
-    version: Literal[2] = Field(VERSION, title="Version of this format")
+    version: Literal[3] = Field(VERSION, title="Version of this format")
     title: str = Field(..., min_length=1, max_length=120, title="Title")
     description: str = Field("", max_length=2000, title="Description")
     map: Map = Field(..., title="Map")

@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from studio.kind.registry import Kind
 from studio.scenario.text.patch import Operation, is_text
 
 Pace = float | Literal["fast"]
@@ -110,6 +111,12 @@ class Application(BaseModel):
     title: str
     description: str
     parameters: dict[str, Any]
+
+
+def application(kind: Kind) -> Application:
+    """What the page needs to know about one."""
+    schema = kind.module.Parameters.model_json_schema()
+    return Application(name=kind.name, title=kind.title, description=(kind.module.__doc__ or "").strip(), parameters=schema)
 
 
 class Quantity(BaseModel):

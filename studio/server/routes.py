@@ -7,10 +7,10 @@ from starlette.responses import Response
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
-from studio.application import registry
 from studio.assess import measure  # noqa: F401 - it imports every built-in metric
 from studio.assess.metric import Metric, registered
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
+from studio.kind import registry
 from studio.scenario.schema import Scenario
 from studio.scenario.text.document import digest
 from studio.scenario.text.patch import Operation, operations
@@ -121,7 +121,7 @@ def etag(found: Source) -> str:
 @router.get("/applications")
 def applications() -> list[answer.Application]:
     """The registered applications with the schemas of their parameters."""
-    return [answer.Application(**each.as_json()) for each in registry.known().values()]
+    return [answer.application(each) for each in registry.known("application").values()]
 
 
 @router.get("/glossary")

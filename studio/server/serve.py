@@ -21,7 +21,7 @@ PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for th
 
 
 def serve(*, host: str, port: int, db: Path, scenarios: Path | None, applications: Path | None, browser: bool) -> None:
-    """Serves until it is interrupted. Raises StoreError, ServerError or ApplicationError before it starts."""
+    """Serves until it is interrupted. Raises StoreError, ServerError or KindError before it starts."""
     listening = listen(host, port)
     try:
         open_database(db).conn.close()
@@ -48,7 +48,7 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, application
 def application(db: Path, folder: Path, applications: Path | None, host: str):
     """The ASGI application. Applications of the user's own are loaded before: what is wrong with them is told at once."""
     if applications:
-        from studio.application.registry import load_folder
+        from studio.kind.registry import load_folder
 
         load_folder(applications)
     return SameOrigin(Door(page.app, lambda: inner(db, folder, applications)), host=host)

@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 
 from studio import job
-from studio.application.registry import load_folder
 from studio.errors import StudioError
 from studio.execution.loop import Pace
 from studio.execution.simulation import Case, Simulation, simulation
+from studio.kind.registry import load_folder
 from studio.server.frame import blend, frame, poses
 from studio.store.runs import open_runs
 

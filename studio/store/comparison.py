@@ -3,8 +3,8 @@
 from dataclasses import asdict
 from typing import Any
 
-from studio.application import registry
 from studio.assess import compare as assess
+from studio.kind import registry
 from studio.scenario.schema import Scenario, unit_at
 from studio.store.runs import Runs
 
@@ -27,6 +27,7 @@ def unit(path: str, documents: list[dict[str, Any]]) -> str:
     parts = path.split(".")
     if parts[0] == "applications" and len(parts) == 4 and parts[2] == "parameters":
         used = [document["applications"].get(parts[1], {}).get("application") for document in documents]
-        models = [registry.known()[name].module.Parameters for name in used if name in registry.known()]
+        known = registry.known("application")
+        models = [known[name].module.Parameters for name in used if name in known]
         return next((found for model in models if (found := unit_at(model, parts[3]))), "")
     return unit_at(Scenario, path)

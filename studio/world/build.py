@@ -8,10 +8,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.application import registry
 from studio.application.contract import ACTUATORS
-from studio.application.host import Group, Hosted, compiled_loop, first_memory, observation_rows, python_loop
+from studio.application.host import Group, Hosted, compiled_loop, first_memory, is_compiled, observation_rows, python_loop
 from studio.conventions import GRAVITY
+from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.model.driver import sight_speed
 from studio.road.network import shadow
 from studio.scenario.schema import Application, Driver, Friction, Weather
@@ -260,9 +261,9 @@ def hosts(settings: Sequence[Setting], worlds: Worlds) -> list[Hosted]:
     """Every application, a compiled one once for all groups of all worlds, in the order in which the files name them."""
     together: dict[tuple[str, int], list[Crew]] = {}
     for crew in crews(settings, worlds):
-        own = -1 if registry.find(crew.group.application).compiled else crew.place
+        own = -1 if is_compiled(registry.find("application", crew.group.application)) else crew.place
         together.setdefault((crew.group.application, own), []).append(crew)
-    return [hosted(registry.find(name), found) for (name, _), found in together.items()]
+    return [hosted(registry.find("application", name), found) for (name, _), found in together.items()]
 
 
 def crews(settings: Sequence[Setting], worlds: Worlds) -> Iterator[Crew]:
@@ -278,7 +279,7 @@ def crews(settings: Sequence[Setting], worlds: Worlds) -> Iterator[Crew]:
             link, place = link + heard, place + 1
 
 
-def hosted(application: registry.Application, found: list[Crew]) -> Hosted:
+def hosted(application: Kind, found: list[Crew]) -> Hosted:
     """Some groups of one application on their host."""
     columns = np.concatenate([crew.columns for crew in found])
     ends = np.cumsum([crew.columns.size for crew in found]).tolist()
@@ -292,13 +293,13 @@ def hosted(application: registry.Application, found: list[Crew]) -> Hosted:
         parameters=np.concatenate([parameters_of(application, crew) for crew in found], axis=1),
         memory=np.tile(np.array(first_memory(application))[:, None], columns.size),
         observed=np.zeros((len(observation_rows()), columns.size)),
-        run=compiled_loop(application) if application.compiled else python_loop(application),
+        run=compiled_loop(application) if is_compiled(application) else python_loop(application),
     )
 
 
-def parameters_of(application: registry.Application, crew: Crew) -> np.ndarray:
+def parameters_of(application: Kind, crew: Crew) -> np.ndarray:
     """Parameters of all cars of a group, [row, car]."""
-    values = [float(value) for value in application.parameters(crew.group.parameters).values()]
+    values = [float(value) for value in application.module.Parameters.model_validate(crew.group.parameters).model_dump().values()]
     return np.tile(np.array(values)[:, None], crew.columns.size)
 
 

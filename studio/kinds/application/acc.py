@@ -13,8 +13,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from studio.application.contract import LEAVE, Command
 from studio.compiled import compiled
 
+KIND = "application"
 TITLE = "Adaptive cruise control (radar only)"
-COMPILED = True
 
 
 class Parameters(BaseModel):

@@ -17,8 +17,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from studio.application.contract import LEAVE, Command
 from studio.compiled import compiled
 
+KIND = "application"
 TITLE = "Cooperative adaptive cruise control (Ploeg)"
-COMPILED = True
 
 
 class Parameters(BaseModel):

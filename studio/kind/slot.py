@@ -1,0 +1,60 @@
+"""Slots: places in a scenario where a kind is chosen. What may stand there is what the registry has.
+
+    driver: Annotated[Any, Slot("driver", usual="attentive")]     # {kind: attentive, time_headway: 1.2}
+    messages: Annotated[Any, Every("message")]                     # {awareness: {period: 0.1}}
+
+The schema of a document is made when it is first needed, and again when a kind has come in.
+"""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from pydantic import BaseModel, Field, GetCoreSchemaHandler, create_model
+from pydantic_core import CoreSchema, core_schema
+
+from studio.kind import registry
+from studio.kind.registry import Kind
+from studio.kind.settings import Part
+
+
+def chosen(kind: Kind) -> type[BaseModel]:
+    """The settings of a kind with its name in front: what stands in a document."""
+    module = kind.module
+    if "Chosen" not in vars(module):
+        field = Field(kind.name, title="Kind", description=kind.title)
+        named = create_model("Named", __base__=Part, kind=(Literal[kind.name], field))  # pyrefly: ignore[invalid-literal]
+        made = create_model(f"{kind.name}_{kind.sort}", __base__=(module.Settings, named), __module__=module.__name__, __doc__=kind.title)
+        made.__qualname__ = made.__name__ = "Chosen"
+        vars(module)["Chosen"] = made
+    return vars(module)["Chosen"]
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A place for one kind of a sort. `usual` is the kind of a document that names none."""
+
+    sort: str
+    usual: str | None = None
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        choices = {name: handler.generate_schema(chosen(kind)) for name, kind in registry.known(self.sort).items()}
+        union = core_schema.tagged_union_schema(choices, discriminator="kind", ref=None)
+        return core_schema.no_info_before_validator_function(self.named, union) if self.usual else union
+
+    def named(self, given: Any) -> Any:
+        """With the usual kind where none is named."""
+        return {"kind": self.usual} | given if isinstance(given, dict) and "kind" not in given else given
+
+
+@dataclass(frozen=True)
+class Every:
+    """A place for the settings of all kinds of a sort that have some, by name."""
+
+    sort: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        kinds = [kind for kind in registry.known(self.sort).values() if hasattr(kind.module, "Settings")]
+        fields: dict[str, Any] = {
+            kind.name: (kind.module.Settings, Field(default_factory=kind.module.Settings, title=kind.title)) for kind in kinds
+        }
+        return handler.generate_schema(create_model(f"Every{self.sort.title()}", __base__=Part, **fields))

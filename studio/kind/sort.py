@@ -1,0 +1,219 @@
+"""Sorts of kinds, and what a file must hold to be one: the contracts, part by part.
+
+Every file of a kind says `KIND = "sensor"` (or another sort), has a docstring that tells its source, a `TITLE` for people, and the
+parts below. What is optional may be left out. `problems` finds everything that does not fit.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from inspect import Parameter, signature
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import PydanticUndefined
+
+from studio.errors import Problem
+from studio.kind.quantity import quantities
+
+Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
+
+
+@dataclass(frozen=True)
+class Need:
+    """A part of a kind's file: what it is, how it is written, whether it may be left out."""
+
+    name: str
+    meaning: str
+    test: Test
+    example: str
+    optional: bool = False
+
+
+def text(value: Any) -> str:
+    """A line for people."""
+    return "" if isinstance(value, str) and value.strip() and "\n" not in value else f"is {value!r}, not a line of text"
+
+
+def count(value: Any) -> str:
+    """A whole number from 1 on."""
+    return "" if isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= 10_000 else f"is {value!r}, not 1 to 10000"
+
+
+def direction(value: Any) -> str:
+    """Which values of a metric are better."""
+    return "" if value in ("lower", "higher", None) else f'is {value!r}; allowed: "lower", "higher", None'
+
+
+def settings(value: Any) -> str:
+    """A pydantic model whose fields all have first values."""
+    if not (isinstance(value, type) and issubclass(value, BaseModel)):
+        return f"is {value!r}, not a pydantic model"
+    try:
+        value()
+    except ValidationError as error:
+        first = error.errors()[0]
+        return f"has no valid first value for {'.'.join(map(str, first['loc'])) or 'itself'}: {first['msg']}"
+    return next((f"{name}: {what}" for name, field in value.model_fields.items() if (what := unlabelled(field))), "")
+
+
+def needy(value: Any) -> str:
+    """A pydantic model whose fields may have to be given."""
+    if not (isinstance(value, type) and issubclass(value, BaseModel)):
+        return f"is {value!r}, not a pydantic model"
+    return next((f"{name}: {what}" for name, field in value.model_fields.items() if (what := unlabelled(field))), "")
+
+
+def unlabelled(field: Any) -> str:
+    """Numbers have a unit: what a form shows without one is a riddle."""
+    extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
+    is_number = field.annotation is float or (field.default is not PydanticUndefined and type(field.default) is float)
+    return 'is a number without unit: write number(1.0, unit="m", title="...")' if is_number and not extra.get("unit") else ""
+
+
+def record(value: Any) -> str:
+    """A NamedTuple of numbers with units."""
+    if not (isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields")):
+        return f"is {value!r}, not a NamedTuple"
+    try:
+        without = [each.name for each in quantities(value) if not each.unit and not each.is_flag]
+    except (TypeError, NameError) as error:
+        return str(error)
+    return f'{without[0]} has no unit: write {without[0]}: Annotated[float, "m"] = 0.0' if without else ""
+
+
+def bundle(value: Any) -> str:
+    """A NamedTuple; its fields are looked at where ports are."""
+    is_one = isinstance(value, type) and issubclass(value, tuple) and hasattr(value, "_fields")
+    return "" if is_one else f"is {value!r}, not a NamedTuple"
+
+
+def function(*names: str, compiled: bool = False) -> Test:
+    """A function with these arguments."""
+
+    def test(value: Any) -> str:
+        plain = getattr(value, "py_func", value)
+        if not callable(plain) or isinstance(plain, type):
+            return f"is {value!r}, not a function"
+        given = [each.name for each in signature(plain).parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
+        if len(given) != len(names):
+            return f"takes ({', '.join(given)}); it is called with ({', '.join(names)})"
+        if compiled and not hasattr(value, "py_func"):
+            return "is not compiled: write @compiled (from studio.compiled) above it"
+        return ""
+
+    return test
+
+
+TITLE = Need("TITLE", "one line for people", text, 'TITLE = "Side radar"')
+UNIT = Need("UNIT", "of the values", text, 'UNIT = "m"')
+
+
+@dataclass(frozen=True)
+class Sort:
+    """A sort of kinds: its name, what it does, the parts of its files."""
+
+    name: str
+    does: str
+    needs: tuple[Need, ...]
+
+
+SORTS = {
+    each.name: each
+    for each in (
+        Sort("sensor", "measures what is around a unit", (
+            TITLE,
+            Need("Settings", "what is set per sensor, with unit and range", settings, "class Settings(Part): ..."),
+            Need("Reading", "what one target, or the one reading, consists of", record, "class Reading(NamedTuple): ..."),
+            Need("CAPACITY", "how many targets it gives at most; 1 when left out", count, "CAPACITY = 4", optional=True),
+            Need("Memory", "what it remembers from tick to tick", record, "class Memory(NamedTuple): ...", optional=True),
+            Need("measure", "one sensor at one tick: reports its targets and returns how many", function(
+                "view", "me", "settings", "memory", "out", compiled=True), "def measure(view, me, settings, memory, out)"),
+        )),
+        Sort("radio", "decides which messages arrive, and when", (
+            TITLE,
+            Need("Settings", "what is set for all units of a scenario", settings, "class Settings(Part): ..."),
+            Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
+            Need("transmit", "one message on its way to one receiver", function("settings", "way", "draw", compiled=True),
+                 "def transmit(settings, way, draw)"),
+        )),
+        Sort("message", "what units tell each other", (
+            TITLE,
+            Need("SIZE", "bytes on the channel, with everything", count, "SIZE = 200"),
+            Need("Payload", "what it carries, with units", record, "class Payload(NamedTuple): ..."),
+            Need("Settings", "what is set for a message that every unit sends by itself", settings, "class Settings(Part): ...",
+                 optional=True),
+            Need("beacon", "the payload that every unit sends once per `period` of the settings", function(
+                "own", "settings", compiled=True), "def beacon(own, settings)", optional=True),
+        )),
+        Sort("driver", "a person at the wheel", (
+            TITLE,
+            Need("Settings", "what a driver is like", settings, "class Settings(Part): ..."),
+            Need("decide", "pedals and steering wheel at one tick", function("settings", "sees", compiled=True),
+                 "def decide(settings, sees)"),
+        )),
+        Sort("condition", "when something begins or ends", (
+            TITLE,
+            Need("Settings", "what it waits for", needy, "class Settings(Part): ..."),
+            Need("holds", "whether it is so at this tick", function("view", "settings", compiled=True), "def holds(view, settings)"),
+        )),
+        Sort("action", "what is done", (
+            TITLE,
+            Need("Settings", "what exactly", needy, "class Settings(Part): ..."),
+            Need("act", "what a vehicle is told at one tick while it lasts", function("settings", "sees", compiled=True),
+                 "def act(settings, sees)", optional=True),
+            Need("effects", "what it does to the road", function("settings", "place"), "def effects(settings, place)", optional=True),
+            Need("told", "the action in words, for the list of events", function("settings"), "def told(settings)", optional=True),
+        )),
+        Sort("metric", "a number that a run is judged by", (
+            TITLE,
+            UNIT,
+            Need("BETTER", "which values are better", direction, 'BETTER = "higher"'),
+            Need("measure", "the number, of a record", function("record"), "def measure(record)"),
+        )),
+        Sort("channel", "a quantity over time that follows from others", (
+            TITLE,
+            UNIT,
+            Need("trace", "its values, of those of other channels", function("read"), "def trace(read)"),
+        )),
+        Sort("application", "what a developer invents", (
+            TITLE,
+            Need("Parameters", "what its developer tunes, with unit and range", settings, "class Parameters(Part): ..."),
+            Need("Memory", "what it remembers from tick to tick", bundle, "class Memory(NamedTuple): ..."),
+            Need("decide", "one tick", function("parameters", "memory", "observation"), "def decide(parameters, memory, observation)"),
+        )),
+    )
+}  # fmt: skip
+
+
+def problems(module: ModuleType, sort: Sort) -> Iterator[Problem]:
+    """Everything about a module that does not fit its sort."""
+    where = where_of(module)
+    if not (module.__doc__ or "").strip():
+        yield Problem(where, "has no docstring", remedy="say in its first lines what it does and where its figures come from")
+    for need in sort.needs:
+        value = getattr(module, need.name, MISSING)
+        if value is MISSING and not need.optional:
+            yield Problem(f"{where}: {need.name}", "is missing", allowed=need.example, remedy=f"add it: {need.meaning}")
+        elif value is not MISSING and (what := need.test(value)):
+            yield Problem(located(where, value), f"{need.name} {what}", allowed=need.example, remedy=need.meaning)
+
+
+MISSING = object()
+
+
+def where_of(module: ModuleType) -> str:
+    """The file of a module, or its name."""
+    file = getattr(module, "__file__", None)
+    return Path(file).name if file else module.__name__
+
+
+def located(where: str, value: Any) -> str:
+    """With the line of a function or class."""
+    from inspect import getsourcelines
+
+    try:
+        return f"{where}, line {getsourcelines(getattr(value, 'py_func', value))[1]}"
+    except (OSError, TypeError):
+        return where

@@ -1,0 +1,1 @@
+"""Recorded channels that follow from others."""

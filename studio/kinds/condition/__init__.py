@@ -1,0 +1,1 @@
+"""Conditions that come with the studio: when something begins or ends."""

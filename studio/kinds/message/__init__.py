@@ -1,0 +1,1 @@
+"""Messages that come with the studio."""

@@ -1,0 +1,1 @@
+"""Radio models that come with the studio."""
