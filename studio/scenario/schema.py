@@ -7,16 +7,20 @@ are the names that `--set`, the page and the run database use.
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, Field, model_validator
 
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
+from studio.kind import registry
 from studio.kind.settings import Part, number
+from studio.kind.slot import Slot
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
 MOST_OBJECTS = 500  # of one change
+Reason = Literal["collision", "red_light", "right_of_way"]
+REASONS: tuple[Reason, ...] = get_args(Reason)  # why a driver may overrule an application
 VERSION = 3  # of the format; scenario/text/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
@@ -86,16 +90,13 @@ class Place(Part):
         return self
 
 
-class Driver(Part):
-    """Who sits at the wheel."""
+class Intervention(Part):
+    """When the driver overrules an application that has the pedals: never, unless reasons are named."""
 
-    acceleration: float = number(1.4, unit="m/s²", title="Comfortable acceleration", gt=0.1, le=5)
-    deceleration: float = number(2.0, unit="m/s²", title="Comfortable deceleration", gt=0.1, le=8)
-    time_headway: float = number(1.2, unit="s", title="Wanted headway", ge=0.3, le=5)
-    standstill_gap: float = number(2.0, unit="m", title="Gap at rest", ge=0.5, le=10)
-    speed_factor: float = number(1.0, unit="1", title="Wanted over permitted speed", ge=0.3, le=1.5)
-    steering_gain: float = number(2.0, unit="1/s", title="Steering gain", description="how fast an offset is steered away", ge=0.1, le=10)
-    yaw_damping: float = number(0.1, unit="s", title="Yaw damping", ge=0, le=1)
+    reasons: list[Reason] = Field([], max_length=len(REASONS), title="Reasons", description="collision, red_light, right_of_way")
+    reaction_time: float = number(
+        1.0, unit="s", title="Reaction time", description="that it has to be needed before the driver acts", ge=0, le=5
+    )
 
 
 class FrontSensor(Part):
@@ -127,7 +128,10 @@ class Gps(Part):
     )
 
 
-class Vehicle(Part):
+AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
+
+
+class Vehicle(Part, defer_build=True):
     """One named car."""
 
     model: str = Field(
@@ -140,7 +144,8 @@ class Vehicle(Part):
     route: Name = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
-    driver: Driver = Field(default_factory=Driver, title="Driver")
+    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Driver")
+    intervention: Intervention = Field(default_factory=Intervention, title="Driver's intervention")
     sensor: FrontSensor = Field(default_factory=FrontSensor, title="Front sensor")
     gps: Gps = Field(default_factory=Gps, title="Satellite position")
     colour: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] = Field("#2f6fde", title="Colour")
@@ -180,7 +185,7 @@ class Trigger(Part):
     do: Brake = Field(default_factory=Brake, title="Maneuver")
 
 
-class Traffic(Part):
+class Traffic(Part, defer_build=True):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
     count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
@@ -193,7 +198,7 @@ class Traffic(Part):
     )
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
-    driver: Driver = Field(default_factory=Driver, title="Drivers")
+    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
 
 
 class Moment(Part):
@@ -362,7 +367,7 @@ class Goal(Part):
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
 
 
-class Scenario(Part):
+class Scenario(Part, defer_build=True):
     """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
 
     version: Literal[3] = Field(VERSION, title="Version of this format")
@@ -381,6 +386,18 @@ class Scenario(Part):
     radio: Radio = Field(default_factory=Radio, title="Radio")
     recording: Recording = Field(default_factory=Recording, title="Recording")
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
+
+
+WITH_SLOTS = (Vehicle, Traffic, Scenario)
+
+
+def make_anew() -> None:
+    """A kind has come in: what may stand in a slot is another. Before anybody has asked nothing is made."""
+    for model in WITH_SLOTS if Scenario.__pydantic_complete__ else ():
+        model.model_rebuild(force=True)
+
+
+registry.listen(make_anew)
 
 
 def unit_at(model: type[BaseModel], path: str) -> str:

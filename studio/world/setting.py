@@ -12,6 +12,7 @@ import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
+from studio.kind.driver import Driver
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
 from studio.road.ways import path as road_path
@@ -19,7 +20,7 @@ from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X
 from studio.road.ways.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
+from studio.scenario.schema import FrontSensor, Gps, Intervention, Scenario
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
 from studio.world.channel import BY_NAME
@@ -44,6 +45,7 @@ class Car:
     station: float  # [m] of the centre of gravity
     speed: float  # [m/s]
     driver: Driver
+    intervention: Intervention
     sensor: FrontSensor
     colour: str
     gps: Gps
@@ -279,7 +281,10 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour, vehicle.gps)
+    return Car(
+        name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.intervention, vehicle.sensor, vehicle.colour,
+        vehicle.gps,
+    )  # fmt: skip
 
 
 def check_works(cars: list[Car], works: Works, where: str) -> None:
@@ -328,6 +333,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
                 station,
                 speed,
                 driver,
+                Intervention(),
                 FrontSensor(range=0.0),
                 PAINTS[i % len(PAINTS)],
                 Gps(drift=0.0, noise=0.0),

@@ -104,9 +104,9 @@ def communicate(world: World) -> None:
 
 
 def think(world: World) -> None:
-    """Drivers decide."""
+    """Drivers decide, one kind after the other."""
     v = world.vehicles
-    traffic.decide(v.state, v.parameter, v.drivers, v.mind)
+    world.unfit = sum([seats.decide(v.state, v.parameter, v.mind) for seats in world.seats])
 
 
 def applications(world: World, refuse: Refuse = let_through) -> None:
@@ -128,7 +128,7 @@ def observe(world: World, hosted: Hosted) -> None:
 def act(world: World) -> None:
     """Maneuvers, applications and drivers command the actuators."""
     v, clock = world.vehicles, world.clock
-    control.command(clock.k, clock.time, v.state, v.ground, v.parameter, v.script, v.mind, v.app_command, v.commands)
+    control.command(clock.k, clock.time, v.state, v.ground, v.parameter, v.script, v.drivers, v.mind, v.app_command, v.commands)
 
 
 def move(world: World) -> None:
