@@ -83,6 +83,7 @@ class Simulation:
             return
         self.recorder.take(self.world, self.world.clock.k)
         part(self.world)
+        self.check_drivers()
         self.check()
         notice.notice(self.world, self.watch)
         if self.world.clock.k >= self.ticks and not self.is_over:
@@ -128,6 +129,14 @@ class Simulation:
         self.close(number, "failed")
         self.cases[number].happen(self.time, f"failed: {reason.splitlines()[0]}", "")
         self.world.leave(number)
+
+    def check_drivers(self) -> None:
+        """Ends the worlds in which a driver wants what is no number, and names vehicle, driver and time."""
+        for column, kind in self.world.unfit_wishes() if self.world.unfit else []:
+            number = int(self.world.worlds.of[column])
+            if not self.cases[number].is_over:
+                name, time = self.world.names[number][int(self.world.worlds.number[column])], self.time - self.world.clock.tick
+                self.fail(number, f"the driver {kind!r} of {name} wants an acceleration or steering that is not finite at {time:.3f} s")
 
     def check(self) -> None:
         """Ends the worlds with a state that is not finite any more, and names vehicle, time and the first quantity that broke."""

@@ -16,6 +16,8 @@ from pydantic_core import PydanticUndefined
 
 from studio.application import port
 from studio.errors import Problem
+from studio.kind.driver import Driver
+from studio.kind.number import shapes
 from studio.kind.quantity import quantities
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
@@ -57,6 +59,19 @@ def settings(value: Any) -> str:
         first = error.errors()[0]
         return f"has no valid first value for {'.'.join(map(str, first['loc'])) or 'itself'}: {first['msg']}"
     return next((f"{name}: {what}" for name, field in value.model_fields.items() if (what := unlabelled(field))), "")
+
+
+def person(value: Any) -> str:
+    """Settings of a driver: numbers, and those that every driver has."""
+    if what := settings(value):
+        return what
+    if not issubclass(value, Driver):
+        return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
+    try:
+        shapes(value)
+    except TypeError as error:
+        return str(error)
+    return ""
 
 
 def needy(value: Any) -> str:
@@ -170,7 +185,7 @@ SORTS = {
         )),
         Sort("driver", "a person at the wheel", (
             TITLE,
-            Need("Settings", "what a driver is like", settings, "class Settings(Part): ..."),
+            Need("Settings", "what a driver is like", person, "class Settings(Driver): ..."),
             Need("decide", "pedals and steering wheel at one tick", function("settings", "sees", compiled=True),
                  "def decide(settings, sees)"),
         )),

@@ -7,7 +7,7 @@ are the names that `--set`, the page and the run database use.
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, Field, model_validator
 
@@ -20,6 +20,8 @@ Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
 MOST_OBJECTS = 500  # of one change
 MOST_SENSORS = 16  # of one unit
+Reason = Literal["collision", "red_light", "right_of_way"]
+REASONS: tuple[Reason, ...] = get_args(Reason)  # why a driver may overrule an application
 VERSION = 3  # of the format; scenario/text/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
@@ -89,16 +91,13 @@ class Place(Part):
         return self
 
 
-class Driver(Part):
-    """Who sits at the wheel."""
+class Intervention(Part):
+    """When the driver overrules an application that has the pedals: never, unless reasons are named."""
 
-    acceleration: float = number(1.4, unit="m/s²", title="Comfortable acceleration", gt=0.1, le=5)
-    deceleration: float = number(2.0, unit="m/s²", title="Comfortable deceleration", gt=0.1, le=8)
-    time_headway: float = number(1.2, unit="s", title="Wanted headway", ge=0.3, le=5)
-    standstill_gap: float = number(2.0, unit="m", title="Gap at rest", ge=0.5, le=10)
-    speed_factor: float = number(1.0, unit="1", title="Wanted over permitted speed", ge=0.3, le=1.5)
-    steering_gain: float = number(2.0, unit="1/s", title="Steering gain", description="how fast an offset is steered away", ge=0.1, le=10)
-    yaw_damping: float = number(0.1, unit="s", title="Yaw damping", ge=0, le=1)
+    reasons: list[Reason] = Field([], max_length=len(REASONS), title="Reasons", description="collision, red_light, right_of_way")
+    reaction_time: float = number(
+        1.0, unit="s", title="Reaction time", description="that it has to be needed before the driver acts", ge=0, le=5
+    )
 
 
 class Gps(Part):
@@ -144,6 +143,9 @@ def front_radar_only() -> dict[str, Any]:
     return {"front": {"kind": "front_radar"}}
 
 
+AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
+
+
 class Vehicle(Part, defer_build=True):
     """One named car."""
 
@@ -157,7 +159,8 @@ class Vehicle(Part, defer_build=True):
     route: Name = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
-    driver: Driver = Field(default_factory=Driver, title="Driver")
+    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Driver")
+    intervention: Intervention = Field(default_factory=Intervention, title="Driver's intervention")
     sensors: Sensors = Field(
         default_factory=front_radar_only, validate_default=True, title="Sensors", description="by name, as applications ask for them"
     )
@@ -241,7 +244,7 @@ class Trigger(Part):
     do: Brake = Field(default_factory=Brake, title="Maneuver")
 
 
-class Traffic(Part):
+class Traffic(Part, defer_build=True):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
     count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
@@ -254,7 +257,7 @@ class Traffic(Part):
     )
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
-    driver: Driver = Field(default_factory=Driver, title="Drivers")
+    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
 
 
 class Moment(Part):
@@ -424,12 +427,12 @@ class Scenario(Part, defer_build=True):
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
 
 
-WITH_SLOTS = (Vehicle, Station, Scenario)
+WITH_SLOTS = (Vehicle, Station, Traffic, Scenario)
 
 
 def make_anew() -> None:
-    """A kind has come in: what may stand in a slot is another."""
-    for model in WITH_SLOTS:
+    """A kind has come in: what may stand in a slot is another. Before anybody has asked nothing is made."""
+    for model in WITH_SLOTS if Scenario.__pydantic_complete__ else ():
         model.model_rebuild(force=True)
 
 

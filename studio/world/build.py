@@ -10,9 +10,10 @@ import numpy as np
 
 from studio.application.port import ACTUATORS
 from studio.conventions import GRAVITY
+from studio.kind.driver import Driver
 from studio.model.driver import sight_speed
 from studio.road.network import shadow
-from studio.scenario.schema import Driver, Friction, Weather
+from studio.scenario.schema import REASONS, Friction, Intervention, Weather
 from studio.vehicle.command import U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground
 from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
@@ -26,9 +27,10 @@ from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
 from studio.world.passes.neighbour import neighbours
 from studio.world.passes.queue import queues
+from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
 from studio.world.snapshot import gather, origin_of
-from studio.world.table.mind import DRIVER, MIND, SIGHT, STATION
+from studio.world.table.mind import DRIVER, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
 
@@ -62,6 +64,7 @@ def build(settings: Sequence[Setting]) -> World:
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
         queues=queues(vehicles.size),
+        seats=seats([car.driver for car in cars]),
         hosted=hosted,
         open_inboxes=open_inboxes,
         names=tuple(each.names for each in settings),
@@ -103,9 +106,10 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     starts = [Start(car.model, *pose(car.path, car.station), car.speed) for car in cars]
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
+    mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY]] = np.inf
     return Vehicles(
         **vars(fleet(starts, ground=ground_of(cars))),
-        drivers=np.array([driver_rows(car.driver, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
+        drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
         script=np.tile([[0.0], [-np.inf], [0.0]], n),
         returns=np.array([int(car.returns) for car in cars]),
@@ -127,11 +131,20 @@ def at_start(setting: Setting) -> Vehicles:
     return vehicles_of(setting.cars, [setting.scenario.weather] * len(setting.cars))
 
 
-def driver_rows(driver: Driver, weather: Weather) -> list[float]:
-    """What a driver is like, how far one sees, and how fast this lets him go: braking in comfort, or as hard as the road lets."""
-    braking = min(driver.deceleration, weather.friction * GRAVITY)
-    own = [getattr(driver, row.name) for row in DRIVER[:SIGHT]]
-    return [*own, weather.visibility, sight_speed(weather.visibility, braking)]
+def driver_rows(car: Car, weather: Weather) -> list[float]:
+    """What a driver is like, how far one sees, how fast this lets him go, and for what he overrules an application."""
+    own = [getattr(car.driver, row.name) for row in DRIVER[:SIGHT]]
+    return [*own, weather.visibility, speed_within_sight(car.driver, weather), *minded(car.intervention)]
+
+
+def speed_within_sight(driver: Driver, weather: Weather) -> float:
+    """Speed [m/s] from which a driver stops within sight: braking in comfort, or as hard as the road lets."""
+    return sight_speed(weather.visibility, min(driver.deceleration, weather.friction * GRAVITY))
+
+
+def minded(intervention: Intervention) -> list[float]:
+    """Whether a driver overrules an application for each of the reasons, and his reaction time [s]."""
+    return [*(float(reason in intervention.reasons) for reason in REASONS), intervention.reaction_time]
 
 
 def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, met: Conflicts) -> Roads:

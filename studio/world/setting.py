@@ -12,6 +12,7 @@ import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
+from studio.kind.driver import Driver
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
 from studio.road.ways import path as road_path
@@ -19,7 +20,7 @@ from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X
 from studio.road.ways.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Driver, Gps, Scenario
+from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
 from studio.world import crew
@@ -46,6 +47,7 @@ class Car:
     station: float  # [m] of the centre of gravity
     speed: float  # [m/s]
     driver: Driver
+    intervention: Intervention
     colour: str
     gps: Gps
     returns: bool = False
@@ -182,9 +184,8 @@ def reserved(scenario: Scenario, where: str) -> list[Problem]:
         for i, unit in enumerate(application.units):
             if unit in application.senders(i):
                 found.append(Problem(f"{where}: applications.{group}.listens_to.{i}", "is the unit itself", repr(unit)))
-    for name in scenario.stations.keys() & scenario.vehicles.keys():
-        found.append(Problem(f"{where}: stations.{name}", "is the name of a vehicle", repr(name), remedy="choose another name"))
-    return found
+    both = [name for name in scenario.stations if name in scenario.vehicles]
+    return found + [Problem(f"{where}: stations.{name}", "is the name of a vehicle", repr(name), remedy="choose another") for name in both]
 
 
 def untimely(scenario: Scenario, where: str) -> list[Problem]:
@@ -269,7 +270,7 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.colour, vehicle.gps)
+    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.intervention, vehicle.colour, vehicle.gps)
 
 
 def check_works(cars: list[Car], works: Works, where: str) -> None:
@@ -318,6 +319,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
                 station,
                 speed,
                 driver,
+                Intervention(),
                 PAINTS[i % len(PAINTS)],
                 Gps(drift=0.0, noise=0.0),
                 returns=True,

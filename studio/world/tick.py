@@ -88,17 +88,17 @@ def look(world: World) -> None:
 
 
 def think(world: World) -> None:
-    """Drivers decide."""
+    """Drivers decide, one kind after the other."""
     v = world.vehicles
-    traffic.decide(v.state, v.parameter, v.drivers, v.mind)
+    world.unfit = sum([seats.decide(v.state, v.parameter, v.mind) for seats in world.seats])
 
 
 def sense(world: World) -> None:
     """Satellites tell where one is; units look at themselves and around."""
-    v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
+    v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
     own.carry(
-        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, world.neighbours.places, u.gps_set, w.of, w.entity, w.seed,
-        r.place_of, r.shadow, u.satellite, u.now,
+        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
+        r.shadow, u.satellite, u.now,
     )  # fmt: skip
     seen = view(world) if u.mounted else None
     for each in u.mounted:
@@ -109,8 +109,8 @@ def view(world: World) -> View:
     """The world as sensors see it."""
     v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
     return View(
-        clock.k, clock.time, clock.tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid,
-        g.places, g.found, o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+        clock.k, clock.time, clock.tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed,
+        g.grid, g.places, g.found, o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
     )  # fmt: skip
 
 
@@ -152,7 +152,7 @@ def applications(world: World, refuse: Refuse = let_through) -> None:
 def act(world: World) -> None:
     """Maneuvers, applications and drivers command the actuators."""
     v, clock = world.vehicles, world.clock
-    control.command(clock.k, clock.time, v.state, v.ground, v.parameter, v.script, v.mind, v.app_command, v.commands)
+    control.command(clock.k, clock.time, v.state, v.ground, v.parameter, v.script, v.drivers, v.mind, v.app_command, v.commands)
 
 
 def move(world: World) -> None:

@@ -16,6 +16,8 @@ from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
 from studio.world.passes.queue import Queues
+from studio.world.seat import Seats
+from studio.world.table.mind import STEER_WISH, WISH
 from studio.world.table.street import OBJECT
 from studio.world.table.unit import PRESENT
 
@@ -203,11 +205,13 @@ class World:
     obstacles: Obstacles
     neighbours: Neighbours
     queues: Queues
+    seats: list[Seats]
     hosted: list[Hosted]
     open_inboxes: list[Open]  # of applications that hear everybody
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
     origin: str = ""  # digest of what it was built from
+    unfit: int = 0  # wishes of drivers at this tick that are no numbers
     arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 
     @property
@@ -275,6 +279,12 @@ class World:
         """What each application group remembers, group by group."""
         found = [(group, hosted.memory[:, group.cars]) for hosted in self.hosted for group in hosted.groups]
         return sorted(found, key=lambda each: each[0].place)
+
+    def unfit_wishes(self) -> Iterator[tuple[int, str]]:
+        """Columns of the vehicles whose drivers want what is no number, with the kind of the driver."""
+        wishes = self.vehicles.mind[[WISH, STEER_WISH]]
+        for seats in self.seats:
+            yield from ((int(column), seats.kind.name) for column in seats.columns if not np.isfinite(wishes[:, column]).all())
 
     def leave(self, number: int) -> None:
         """The vehicles of a world take no part any more, nor do its applications."""
