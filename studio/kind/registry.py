@@ -85,6 +85,12 @@ class Broken:
     file: str
     error: KindError
 
+    @property
+    def what(self) -> str:
+        """What is wrong in one line: the end of a traceback, or the first thing that does not fit."""
+        text = self.error.message.strip().splitlines()
+        return str(self.error.problems[0]) if self.error.problems and len(text) == 1 else text[-1]
+
 
 _registered: dict[tuple[str, str], Kind] = {}
 _broken: dict[str, Broken] = {}
