@@ -17,14 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from studio.application import setup
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured, registered
 from studio.errors import Problem, ScenarioError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
-from studio.scenario import file
+from studio.scenario import file, setup
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source

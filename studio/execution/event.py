@@ -33,8 +33,9 @@ def chains(setting: Setting) -> tuple[Chain, ...]:
     """Groups in which everybody listens to the vehicle ahead of it in the list."""
     found = []
     for name, group in setting.scenario.applications.items():
-        order = [*group.listens_to[:1], *group.vehicles]
-        if group.listens_to and group.listens_to == order[:-1]:
+        ahead = [group.senders(i)[0] for i in range(len(group.units)) if group.senders(i)]
+        order = [*ahead[:1], *group.units]
+        if ahead and ahead == order[:-1]:
             found.append(Chain(name, group.application, tuple(order)))
     return tuple(found)
 

@@ -83,7 +83,8 @@ class Broken:
 _registered: dict[tuple[str, str], Kind] = {}
 _broken: dict[str, Broken] = {}
 _loading = threading.RLock()  # the page asks for several things at once
-_loaded = False
+_loaded = False  # or being loaded: their files ask for what is there already
+_ready = False
 _listeners: list[Callable[[], None]] = []
 
 
@@ -93,7 +94,7 @@ def stream(name: str) -> int:
 
 
 def listen(listener: Callable[[], None]) -> None:
-    """Has a function called whenever a kind was added."""
+    """Has a function called whenever a kind was added to those of the installed packages."""
     _listeners.append(listener)
 
 
@@ -112,7 +113,7 @@ def register(name: str, module: ModuleType, source: str = "") -> Kind:
     file = getattr(module, "__file__", None)
     digest = digest_of(*closure(Path(file))) if file else name
     _registered[sort.name, name] = Kind(sort.name, name, module, source or str(file or module.__name__), digest)
-    for listener in _listeners:
+    for listener in _listeners if _ready else ():
         listener()
     return _registered[sort.name, name]
 
@@ -131,12 +132,13 @@ def sort_of(module: ModuleType) -> Sort:
 
 def load_all() -> None:
     """Registers everything that installed packages offer, this one first of all."""
-    global _loaded
+    global _loaded, _ready
     with _loading:
         if not _loaded:
             _loaded = True
             for offer in sorted(entry_points(group=GROUP), key=lambda each: (each.value != BUILT_IN, each.name)):
                 attempt(offer.name, offer.value, lambda offer=offer: offered(offer.value, offer.name))
+            _ready = True
 
 
 def offered(value: str, name: str) -> None:

@@ -9,7 +9,7 @@ engine gets F R as a request at the wheels, negative ones too; the brake gets wh
 
 from math import cos, inf, isnan, nan, sin
 
-from studio.application.contract import ACTUATORS
+from studio.application.port import ACTUATORS
 from studio.compiled import inlined, lean
 from studio.conventions import GRAVITY
 from studio.model import actuator, aerodynamics
@@ -17,10 +17,9 @@ from studio.model.driver import NO_LIMIT
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER, U_STEER_TORQUE, U
 from studio.vehicle.contact import SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
-from studio.vehicle.state import A_X, ACCELERATOR, ACTIVE, CLUTCH, DELTA, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X, YAW_RATE, X, Y
+from studio.vehicle.state import ACCELERATOR, ACTIVE, CLUTCH, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X
 from studio.world.passes.intervention import attended, is_minding, let_go
-from studio.world.table.mind import SCRIPT_BRAKE, SCRIPT_SPEED, SCRIPT_UNTIL, STEER_WISH, V_DESIRED, WISH
-from studio.world.table.unit import DETECTED, GPS_EAST, GPS_NORTH, M_INTENTION, M_X, SENT
+from studio.world.table.mind import SCRIPT_BRAKE, SCRIPT_SPEED, SCRIPT_UNTIL, STEER_WISH, WISH
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
@@ -184,35 +183,3 @@ def command(k, time, state, ground, parameter, script, drivers, mind, app_comman
         else:
             pedals(v, column, request(v, limit, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
             take_over(v, column, limit, state, parameter, app_command, commands)
-
-
-@lean
-def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
-    """What the applications of one group see, in the order of an Observation's fields."""
-    for j in range(columns.size):
-        v = columns[j]
-        observed[0, j] = time
-        observed[1, j] = tick
-        observed[2, j] = state[V_X, v]
-        observed[3, j] = state[A_X, v]
-        observed[4, j] = state[YAW_RATE, v]
-        observed[5, j] = state[DELTA, v]
-        observed[6, j] = mind[V_DESIRED, v]
-        observed[7, j] = mind[WISH, v]
-        observed[8, j] = state[X, v] + sensors[GPS_EAST, v]
-        observed[9, j] = state[Y, v] + sensors[GPS_NORTH, v]
-        for i in range(4):
-            observed[10 + i, j] = sensors[i, v] if sensors[DETECTED, v] > 0.0 else 0.0
-        observe_message(time, links[j], inbox, observed, j)
-
-
-@lean
-def observe_message(time, link, inbox, observed, j):
-    """The newest message of the unit that car j listens to."""
-    observed[14, j] = 0.0
-    observed[15, j] = time
-    if link >= 0 and inbox[SENT, link] > -inf:
-        observed[14, j] = 1.0
-        observed[15, j] = time - inbox[SENT, link]
-        for i in range(M_X, M_INTENTION + 1):
-            observed[15 + i, j] = inbox[i, link]
