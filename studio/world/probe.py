@@ -1,6 +1,7 @@
 """Probes: what the sensors and applications of units give to be recorded, besides the channels that every vehicle has.
 
-A sensor's first target is `follower_1.front.range`, its second `follower_1.front.2.range`; `follower_1.front.count` says how many there are.
+A sensor's first target is `follower_1.front.range`, its second `follower_1.front.2.range`; where there can be
+several, `follower_1.front.count` says how many.
 What an application logs is `follower_1.cacc.spacing_error`; what it shows to the driver `follower_1.cacc.notice`.
 """
 
@@ -54,7 +55,8 @@ def of_sensor(each: Mounted, units: Units) -> Iterator[tuple[int, Probe]]:
     """Those of the sensors of a kind, with the number of their world."""
     for column, (name, unit) in enumerate(zip(each.names, each.unit.tolist(), strict=True)):
         at, world = f"{units.name_of(unit)}.{name}", int(units.world[unit])
-        yield world, Probe(f"{at}.count", "1", f"Targets of {name}", each, "out", 0, column)
+        if each.capacity > 1:
+            yield world, Probe(f"{at}.count", "1", f"Targets of {name}", each, "out", 0, column)
         for slot in range(each.capacity):
             place = at if slot == 0 else f"{at}.{slot + 1}"
             row = 1 + slot * width(each.kind.module.Reading)

@@ -11,8 +11,8 @@ from studio.vehicle import fleet
 from studio.world import change
 from studio.world.board import own
 from studio.world.board.host import Fault
-from studio.world.board.post import freshest, receive
-from studio.world.passes import collision, control, ground, neighbour, queue, satellite, traffic
+from studio.world.board.post import Post, freshest
+from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.view import View
 from studio.world.world import World
@@ -96,8 +96,10 @@ def think(world: World) -> None:
 def sense(world: World) -> None:
     """Satellites tell where one is; units look at themselves and around."""
     v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
-    satellite.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.satellite)
-    own.carry(clock.k, u.vehicle, v.state, v.parameter, v.mind, v.commands, u.satellite, u.now)
+    own.carry(
+        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, world.neighbours.places, u.gps_set, w.of, w.entity, w.seed,
+        r.place_of, r.shadow, u.satellite, u.now,
+    )  # fmt: skip
     seen = view(world) if u.mounted else None
     for each in u.mounted:
         each.run(seen, each.unit, each.stream, each.settings, each.memory, each.out)
@@ -114,27 +116,28 @@ def view(world: World) -> View:
 
 def communicate(world: World) -> None:
     """Beacons go out; what has come in is taken, and laid before the applications."""
-    u, clock = world.units, world.clock
-    for post in u.posts:
-        if post.beacon:
-            post.beacon(clock.k, clock.time, post.sender, u.entity, u.world, post.period, post.settings, u.clock, u.now, post.ring,
-                        post.last, post.fresh)  # fmt: skip
-    dispatch(world)
-    for post in u.posts:
-        receive(clock.time, clock.tick, post.sender.size, post.last, post.ring, post.link_sender, post.arrival, post.inbox)
+    clock = world.clock
+    for post in world.units.posts:
+        own = (post.period, post.settings, post.link_sender, post.inbox)
+        post.exchange(clock.k, clock.tick, *own, *sent(world, post))
     for each in world.open_inboxes:
         freshest(each.first, each.count, each.links, each.post.inbox, each.heard, each.slots)
 
 
 def dispatch(world: World) -> None:
-    """The radio decides about everything that was sent."""
-    u, w, r, time = world.units, world.worlds, world.roads, world.clock.time
-    for post in u.posts:
-        if post.fresh.any():
-            post.transmit(
-                time, post.size, post.stream, post.reach, post.air, u.world, u.entity, w.seed, r.place_of, r.shadow, u.height, u.now,
-                post.sender, post.fresh, post.last, post.ring, post.link_first, post.link_receiver, post.arrival, post.lost,
-            )  # fmt: skip
+    """The radio decides about what applications have sent."""
+    for post in world.units.posts:
+        if post.is_of_applications and post.fresh.any():
+            post.dispatch(*sent(world, post))
+
+
+def sent(world: World, post: Post) -> tuple:
+    """What the radio decides about, and what it looks at for that."""
+    u, w, r = world.units, world.worlds, world.roads
+    return (
+        world.clock.time, post.size, post.stream, post.reach, post.air, u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now,
+        post.sender, post.fresh, post.last, post.ring, post.link_first, post.link_receiver, post.arrival, post.lost,
+    )  # fmt: skip
 
 
 def applications(world: World, refuse: Refuse = let_through) -> None:
@@ -142,7 +145,7 @@ def applications(world: World, refuse: Refuse = let_through) -> None:
     v, u, clock = world.vehicles, world.units, world.clock
     v.app_command[:] = nan
     for hosted in list(world.hosted):
-        for fault in hosted.decide(clock.time, clock.tick, u.clock, u.now, v.app_command):
+        for fault in hosted.decide(clock.time, clock.tick, u.fixed, u.now, v.app_command):
             refuse(fault)
 
 

@@ -4,15 +4,14 @@ A sensor looks at the true world and makes its own errors. `around` finds who is
 from `draw` and `draw_normal`, each with a number of its own, 0 to 15.
 """
 
-from math import cos, sin
 from typing import Any, NamedTuple
 
 from numba import literal_unroll
 
-from studio.compiled import compiled
+from studio.compiled import inlined
 from studio.model.random import normal, uniform
 from studio.world.passes.neighbour import within
-from studio.world.table.unit import BUMPER, HEADING, OWN_FIRST, TRUE_X, TRUE_Y
+from studio.world.table.unit import BUMPER, COSINE, HEADING, OWN_FIRST, SINE, TRUE_X, TRUE_Y
 
 
 class View(NamedTuple):
@@ -84,18 +83,17 @@ class Transmission(NamedTuple):
     delay: float
 
 
-@compiled
+@inlined
 def about(view, unit, sensor, stream):
     """Who is asked."""
     u, v, w = view.unit, view.unit_vehicle[unit], view.unit_world[unit]
-    heading = u[HEADING, unit]
     return Me(
-        sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], heading, cos(heading), sin(heading), u[BUMPER, unit], u[OWN_FIRST, unit],
+        sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit], u[OWN_FIRST, unit],
         u[OWN_FIRST + 2, unit], stream,
     )  # fmt: skip
 
 
-@compiled
+@inlined
 def around(view, me, back, ahead, right, left):
     """How many vehicles of this world have their centre of gravity in a box around the unit: `view.found[0]` and so on, in order.
 
@@ -105,19 +103,19 @@ def around(view, me, back, ahead, right, left):
     return within(me.world, me.x, me.y, me.cosine, me.sine, back, ahead, right, left, view.grid, view.places, view.found)
 
 
-@compiled
+@inlined
 def draw(view, me, number):
     """A number in (0, 1); `number`, 0 to 15, tells the draws of one tick apart."""
     return uniform(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k)
 
 
-@compiled
+@inlined
 def draw_normal(view, me, number):
     """A number of the standard normal distribution; `number`, 0 to 15, tells the draws of one tick apart."""
     return normal(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k)
 
 
-@compiled
+@inlined
 def report(out, me, slot, reading):
     """Writes down target `slot`, 0, 1, ...; numbers only, in the order of the Reading. One too many is not written."""
     row = 1 + slot * len(reading)

@@ -151,8 +151,7 @@ class Units:
     vehicle: np.ndarray  # column of the vehicle that each is mounted on, -1 for a station
     world: np.ndarray  # of each
     entity: np.ndarray  # as chance tells them apart
-    clock: np.ndarray  # [row, unit]
-    height: np.ndarray  # [m] of the antennas
+    fixed: np.ndarray  # clock and antenna, [row, unit]
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]

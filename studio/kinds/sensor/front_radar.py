@@ -40,7 +40,7 @@ class Reading(NamedTuple):
     azimuth: Annotated[float, "rad"] = 0.0  # left positive
 
 
-@lean
+@inlined
 def nearest_car(view, me, settings, kappa):
     """Column of the nearest car in view and in the own corridor, with its place; -1 when there is none.
 
@@ -94,7 +94,7 @@ def closing_rate(view, me, other, forward, left):
     return (ahead * forward + aside * left) / distance
 
 
-@lean
+@inlined
 def measure(view, me, settings, memory, out):
     """One sensor at one tick. A barrier that is nearer than the car takes its place."""
     if settings.range <= 0.0:

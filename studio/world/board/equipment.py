@@ -16,7 +16,7 @@ from studio.scenario.schema import Application
 from studio.world.board.post import Need, Post, post
 from studio.world.board.sensing import Mounted, Sensor, mounted
 from studio.world.setting import Car, Setting
-from studio.world.table.unit import GPS_SET, HEADING, OWN_FIRST, PRESENT, SATELLITE, TRUE_X, TRUE_Y, UNIT
+from studio.world.table.unit import COSINE, GPS_SET, HEADING, OWN_FIRST, PRESENT, SATELLITE, SINE, TRUE_X, TRUE_Y, UNIT
 from studio.world.world import Units, Worlds
 
 STATIONS = 50_000  # stations are numbered from here on, as chance tells them apart
@@ -33,8 +33,7 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: Sequence[Car]) -
         vehicle=np.array([column for w, each in enumerate(settings) for column in columns(each, int(worlds.first[w]))], dtype=np.int64),
         world=np.repeat(np.arange(len(settings)), [len(each) for each in names]),
         entity=np.array([number for w, each in enumerate(settings) for number in entities(each, worlds, w)], dtype=np.int64),
-        clock=np.array([(each.clock.offset, each.clock.drift) for each in parts]).reshape(-1, 2).T.copy(),
-        height=np.array([each.antenna.height for each in parts]),
+        fixed=np.array([(each.clock.offset, each.clock.drift, each.antenna.height) for each in parts]).reshape(-1, 3).T.copy(),
         now=np.zeros((len(UNIT), len(parts))),
         gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
         satellite=np.zeros((len(SATELLITE), len(cars))),
@@ -65,6 +64,7 @@ def stand(settings: Sequence[Setting], units: Units) -> None:
         for name, station in each.scenario.stations.items():
             u, (x, y) = units.number(name, w), each.spots[name]
             units.now[[TRUE_X, TRUE_Y, HEADING, PRESENT], u] = x, y, station.heading, 1.0
+            units.now[[COSINE, SINE], u] = np.cos(station.heading), np.sin(station.heading)
             units.now[[OWN_FIRST + 7, OWN_FIRST + 8], u] = x, y
 
 

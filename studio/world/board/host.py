@@ -79,12 +79,12 @@ class Hosted:
         """The quantities that it logs."""
         return [each for one in port.done(self.application.module) if one.what == port.LOG for each in quantities(one.type)]
 
-    def decide(self, time: float, tick: float, clock: np.ndarray, now: np.ndarray, commands: np.ndarray) -> Iterator["Fault"]:
+    def decide(self, time: float, tick: float, fixed: np.ndarray, now: np.ndarray, commands: np.ndarray) -> Iterator["Fault"]:
         """All its units decide; their commands go to their vehicles' columns. Returns what went wrong."""
         arrays = [array for each in self.wiring for array in each.arrays]
         state = (self.unit, self.column, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
         try:
-            faults = self.run(time, tick, clock, now, commands, *state, *arrays)
+            faults = self.run(time, tick, fixed, now, commands, *state, *arrays)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())

@@ -10,12 +10,14 @@ At a tick: beacons go out, then what has come in by now is taken; what applicati
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, inf, sqrt
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numba import literal_unroll
 
-from studio.compiled import compiled, lean
+from studio.application.contract import Own
+from studio.compiled import inlined, lean
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import width
@@ -25,6 +27,7 @@ from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import walls_between
 from studio.rows import Moving
 from studio.world.table.unit import (
+    DRIFT,
     H_CAME,
     H_MISSED,
     H_NUMBER,
@@ -32,6 +35,8 @@ from studio.world.table.unit import (
     H_STAMP,
     H_TIME,
     HEARD,
+    HEIGHT,
+    OFFSET,
     OWN_FIRST,
     PRESENT,
     S_NUMBER,
@@ -49,34 +54,18 @@ EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick
 SENT_ROWS, HEARD_ROWS = len(SENT), len(HEARD)
 PAIR = 65536  # a link is numbered receiver · PAIR + sender
 
-BEACON = '''"""Sends the beacons of the kind {name}."""
+TEXT = '''"""Messages of the kind {name} on the radio {radio}."""
 
 from studio.application.contract import Own
-from studio.compiled import compiled
-from studio.world.board.post import send
+from studio.compiled import lean
+from studio.world.board.post import arrival_on, draws, receive, send, way_of
 from studio.world.table.unit import PRESENT
-from {module} import SettingsTuple, beacon
+from {radio_module} import SettingsTuple as Radio, transmit
+{imports}
 
-
-@compiled
-def run(k, time, sender, entity, world_of, period, settings, clock, now, ring, last, fresh):
-    for i in range(sender.size):
-        u = sender[i]
-        j = world_of[u]
-        if now[PRESENT, u] > 0.0 and (k + entity[u]) % period[j] == 0:
-            send(i, u, time, clock, beacon(Own({own}), SettingsTuple({settings})), now, ring, last, fresh)
-'''
-
-AIR = '''"""Has the radio {name} decide about all messages that are sent now."""
-
-from studio.compiled import compiled
-from studio.world.board.post import arrival_on, draws, way_of
-from {module} import SettingsTuple, transmit
-
-
-@compiled
-def run(time, size, stream, reach, settings, world_of, entity, seed, place_of, shadow, height, now, sender, fresh, last, ring, link_first,
-        link_receiver, arrival, lost):
+@lean
+def dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
+             link_receiver, arrival, lost):
     for i in range(sender.size):
         if fresh[i] == 0:
             continue
@@ -84,11 +73,25 @@ def run(time, size, stream, reach, settings, world_of, entity, seed, place_of, s
             u, j = link_receiver[link], world_of[sender[i]]
             for number in range(last[i] - fresh[i] + 1, last[i] + 1):
                 slot = number % arrival.shape[0]
-                way = way_of(i, sender[i], u, slot, size, reach[j], place_of[j], shadow, height, now, ring, sender.size)
-                found = transmit(SettingsTuple({settings}), way, draws(entity[u], entity[sender[i]], stream, seed[j], number))
+                way = way_of(i, sender[i], u, slot, size, reach[j], place_of[j], shadow, fixed, now, ring, sender.size)
+                found = transmit(Radio({air}), way, draws(entity[u], entity[sender[i]], stream, seed[j], number))
                 arrival[slot, link] = arrival_on(time, found, way, reach[j], u, link, now, lost)
         fresh[i] = 0
+
+
+@lean
+def exchange(k, tick, period, settings, link_sender, inbox, time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now,
+             sender, fresh, last, ring, link_first, link_receiver, arrival, lost):
+{beacons}
+    dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
+             link_receiver, arrival, lost)
+    receive(time, tick, sender.size, last, ring, link_sender, arrival, inbox)
 '''
+BEACONS = '''    for i in range(sender.size):
+        u = sender[i]
+        j = world_of[u]
+        if now[PRESENT, u] > 0.0 and (k + entity[u]) % period[j] == 0:
+            send(i, u, time, fixed, beacon(Own({own}), SettingsTuple({settings})), now, ring, last, fresh)'''
 
 
 @dataclass
@@ -97,6 +100,7 @@ class Post:
 
     kind: Kind
     radio: Kind
+    is_of_applications: bool  # whether applications send it, besides or instead of beacons
     sender: np.ndarray  # units that send it
     period: np.ndarray  # [ticks] per world, of beacons
     settings: np.ndarray  # of beacons, [row, world]
@@ -111,8 +115,8 @@ class Post:
     arrival: Moving  # [s] float64[slot, link], infinite for a message that is lost
     lost: Moving  # messages lost so far, per link
     inbox: Moving  # [row, link]
-    beacon: Callable | None
-    transmit: Callable
+    dispatch: Callable  # the radio decides about what was sent
+    exchange: Callable  # beacons go out, the radio decides, what has come in is taken
 
     @property
     def size(self) -> float:
@@ -175,10 +179,11 @@ def post(kind: Kind, radio: Kind, need: Need, entity: np.ndarray, number: np.nda
     inbox[H_SENDER] = number[sender[links[0]]]
     ring = np.zeros((len(SENT) + carried, slots * sender.size))
     ring[S_NUMBER] = -1.0
-    has_beacon = hasattr(kind.module, "beacon")
+    has_beacon, loops = hasattr(kind.module, "beacon"), written_for(kind, radio)
     return Post(
         kind=kind,
         radio=radio,
+        is_of_applications=need.at_once > 0,
         sender=sender,
         period=periods,
         settings=np.array([numbers(each) if has_beacon else [] for each in need.beacons]).T.copy(),
@@ -193,8 +198,8 @@ def post(kind: Kind, radio: Kind, need: Need, entity: np.ndarray, number: np.nda
         arrival=np.full((slots, links.shape[1]), inf),
         lost=np.zeros(links.shape[1], dtype=np.int64),
         inbox=inbox,
-        beacon=beacon_loop(kind) if has_beacon else None,
-        transmit=air_loop(radio),
+        dispatch=loops.dispatch,
+        exchange=loops.exchange,
     )
 
 
@@ -210,37 +215,40 @@ def slots_of(radio: Kind, need: Need, periods: np.ndarray, tick: float) -> int:
     return (int(longest / (tick * shortest)) + 2) * max(need.at_once, 1) + 1
 
 
-def beacon_loop(kind: Kind) -> Callable:
-    """Sends the beacons of a kind."""
-    from studio.application.contract import Own
-
-    tuple_of(kind.module, kind.module.Settings)
-    own = ", ".join(f"now[{OWN_FIRST + i}, u]" for i in range(len(Own._fields)))
-    sizes = [each.size for each in shapes(kind.module.Settings)]
-    source = BEACON.format(name=kind.name, module=kind.module.__name__, own=own, settings=spelled(sizes, "settings"))
-    return written(f"beacon_{kind.name}", source, kind).run
-
-
-def air_loop(radio: Kind) -> Callable:
-    """Decides about messages on one kind of radio."""
+def written_for(kind: Kind, radio: Kind) -> ModuleType:
+    """The loops for a kind of message on a kind of radio."""
+    module, has_beacon = kind.module, hasattr(kind.module, "beacon")
     tuple_of(radio.module, radio.module.Settings)
-    sizes = [each.size for each in shapes(radio.module.Settings)]
-    source = AIR.format(name=radio.name, module=radio.module.__name__, settings=spelled(sizes, "settings"))
-    return written(f"radio_{radio.name}", source, radio).run
+    source = TEXT.format(
+        name=kind.name,
+        radio=radio.name,
+        radio_module=radio.module.__name__,
+        air=spelled([each.size for each in shapes(radio.module.Settings)], "air"),
+        imports=f"from {module.__name__} import SettingsTuple, beacon\n" if has_beacon else "",
+        beacons=beacons(module) if has_beacon else "",
+    )
+    return written(f"post_{kind.name}_{radio.name}", source, kind, radio)
+
+
+def beacons(module: ModuleType) -> str:
+    """The lines that send what every unit sends by itself."""
+    tuple_of(module, module.Settings)
+    own = ", ".join(f"now[{OWN_FIRST + i}, u]" for i in range(len(Own._fields)))
+    return BEACONS.format(own=own, settings=spelled([each.size for each in shapes(module.Settings)], "settings"))
 
 
 # -- sending -------------------------------------------------------------------------------------------
 
 
-@compiled
-def send(i, unit, time, clock, payload, now, ring, last, fresh):
+@inlined
+def send(i, unit, time, fixed, payload, now, ring, last, fresh):
     """Sender i, which is `unit`, sends: the message stands in the ring until the radio has decided."""
     last[i] += 1
     senders = last.size
     column = last[i] % (ring.shape[1] // senders) * senders + i
     ring[S_NUMBER, column] = last[i]
     ring[S_TIME, column] = time
-    ring[S_STAMP, column] = time * (1.0 + clock[1, unit]) + clock[0, unit]
+    ring[S_STAMP, column] = time * (1.0 + fixed[DRIFT, unit]) + fixed[OFFSET, unit]
     ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
     row = SENT_ROWS
     for value in literal_unroll(payload):
@@ -249,25 +257,25 @@ def send(i, unit, time, clock, payload, now, ring, last, fresh):
     fresh[i] += 1
 
 
-@compiled
-def way_of(i, sender, receiver, slot, size, reach, place, shadow, height, now, ring, senders):
+@inlined
+def way_of(i, sender, receiver, slot, size, reach, place, shadow, fixed, now, ring, senders):
     """The way from a message's antenna to a receiver's; walls are counted within reach only."""
     column = slot * senders + i
     x0, y0, x1, y1 = ring[S_X, column], ring[S_Y, column], now[TRUE_X, receiver], now[TRUE_Y, receiver]
     distance, walls, inside = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), 0.0, 0.0
     if distance <= reach and shadow.grid.frame[COLUMNS, place] > 0.0:
-        walls, inside = walls_between(shadow, place, x0, y0, height[sender], x1, y1, height[receiver])
+        walls, inside = walls_between(shadow, place, x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver])
     return Way(distance, float(walls), inside, size, now[OWN_FIRST, receiver])
 
 
-@compiled
+@inlined
 def draws(receiver, sender, stream, seed, number):
     """Chance's part in message `number` from one unit to another, which chance knows by these numbers."""
     link = receiver * PAIR + sender
     return Draw(uniform(seed, link, stream, number), uniform(seed, link, stream + 1, number))
 
 
-@compiled
+@inlined
 def arrival_on(time, found, way, reach, receiver, link, now, lost):
     """When a message is there [s]; infinite when it is lost."""
     if found.lost or way.distance > reach or now[PRESENT, receiver] == 0.0:

@@ -17,13 +17,13 @@ from studio.rows import Moving
 
 TEMPLATE = '''"""Asks all sensors of the kind {name}."""
 
-from studio.compiled import compiled
+from studio.compiled import lean
 from studio.world.table.unit import PRESENT
 from studio.world.view import about
 from {module} import {imports}
 
 
-@compiled
+@lean
 def run(view, unit, stream, settings, memory, out):
     for i in range(unit.size):
         out[:, i] = 0.0

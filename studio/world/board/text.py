@@ -27,16 +27,16 @@ from studio.world.table.unit import H_CAME, H_MISSED, H_NUMBER, H_SENDER, H_STAM
 HEAD = '''"""Calls {name} for all its units."""
 
 from studio.application.contract import Clock, Heard, Inbox, Own, Targets
-from studio.compiled import compiled
+from studio.compiled import inlined, lean
 from studio.world.board.text import bad, bad_actuator, bad_count, bad_mask, shaped
 from studio.world.board.post import send
-from studio.world.table.unit import PRESENT
+from studio.world.table.unit import DRIFT, OFFSET, PRESENT
 from {module} import Does, Memory, ParametersTuple, Sees, decide
 {imports}
 {parts}
 
 
-{above}def run(time, tick, clock, now, commands, unit, column, parameters, memory, said, shown, fault, wrong{arguments}):
+{above}def run(time, tick, fixed, now, commands, unit, column, parameters, memory, said, shown, fault, wrong{arguments}):
     faults = 0
     for j in range(unit.size):
         u = unit[j]
@@ -44,7 +44,7 @@ from {module} import Does, Memory, ParametersTuple, Sees, decide
         if now[PRESENT, u] == 0.0:
             fault[j] = 0
             continue
-        offset, rate = clock[0, u], 1.0 + clock[1, u]
+        offset, rate = fixed[OFFSET, u], 1.0 + fixed[DRIFT, u]
         sees = Sees({sees})
         remembered, does = {call}
         f, w = 0, 0.0
@@ -168,7 +168,7 @@ def source(application: Kind) -> str:
         module=module.__name__,
         imports="\n".join(f"from {kind_of(each).module.__name__} import {part_of(each)} as {part_of(each)}{i}" for i, each in seen),
         parts="\n".join(part(i, each) for i, each in seen),
-        above="@compiled\n" if is_compiled(application) else "",
+        above="@lean\n" if is_compiled(application) else "",
         arguments="".join(f", {letter}{i}" for i, each in [*seen, *sent] for letter in WIRES[each.what]),
         sees=", ".join(seeing(each, seen) for each in port.seen(module)),
         call=decide if is_compiled(application) else f"shaped({decide}, module)",
@@ -205,7 +205,7 @@ def part(i: int, each: Port) -> str:
 
 TARGET = """
 
-@compiled
+@inlined
 def read{i}(out, s, most):
     if s < 0:
         return Targets(0, ({none},))
@@ -213,7 +213,7 @@ def read{i}(out, s, most):
 """
 MESSAGE = """
 
-@compiled
+@inlined
 def read{i}(inbox, link, now, offset, rate):
     if link < 0 or inbox[{number}, link] < 0.0:
         return Heard(False, 0.0, now, 0.0, 0.0, Payload{i}({blank}))
@@ -339,7 +339,7 @@ def sends(sent: list[tuple[int, Port]]) -> Iterator[str]:
         for k in range(each.most):
             payload = ", ".join(f"does.{each.name}.message[{k}].{one.name}{at}" for one in of for at in ones(one))
             yield f"if does.{each.name}.count > {k}:"
-            yield f"    send(d{i}[j], u, time, clock, ({payload},), now, a{i}, b{i}, c{i})"
+            yield f"    send(d{i}[j], u, time, fixed, ({payload},), now, a{i}, b{i}, c{i})"
 
 
 def loop(application: Kind) -> Callable:
