@@ -1,5 +1,6 @@
 """When a driver overrules an application: never by default, only for what is named, after his reaction time, until the need is over."""
 
+from dataclasses import dataclass
 from math import inf, nan
 
 import numpy as np
@@ -82,9 +83,24 @@ def prepared(road, *reasons, reaction_time=1.0):
     return job.prepare(job.load(road, {"vehicles.car.intervention": {"reasons": list(reasons), "reaction_time": reaction_time}}))
 
 
+@dataclass
+class Pushing:
+    """An application that always commands the same."""
+
+    commands: dict
+    groups: tuple = ()
+
+    def decide(self, time, tick, clock, now, commands):
+        for place, value in self.commands.items():
+            commands[place] = value
+        return []
+
+
 def commanding(world, row, value, column=0):
-    """An application that always commands the same: nobody writes this again."""
-    world.vehicles.app_command[row, column] = value
+    """The world with such an application in a vehicle, which commanded something else before."""
+    pushing = next((each for each in world.hosted if isinstance(each, Pushing)), Pushing({}))
+    pushing.commands[row, column] = value
+    world.hosted = [pushing]
     return world
 
 
@@ -293,7 +309,7 @@ def test_a_snapshot_holds_how_long_it_has_been_needed(road, after):
         for _ in range(100):
             tick(world)
         digests.append(world.digest())
-    fresh = build([prepared(road, "collision", reaction_time=0.4)])
+    fresh = commanding(build([prepared(road, "collision", reaction_time=0.4)]), APP_ACCELERATION, 0.0)
     restore(fresh, kept)
     for _ in range(100):
         tick(fresh)
