@@ -21,6 +21,7 @@ FLOORS = [
     {"store"},
     {"job"},
     {"rig"},
+    {"workshop"},
     {"warmup"},
     {"scene"},
     {"bench"},

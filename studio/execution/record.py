@@ -1,17 +1,22 @@
 """The record of a run: channels of the recorded vehicles over time, and what happened."""
 
+import traceback
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from studio.errors import UnknownError, nearest
+from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.world import channel
-from studio.world.channel import BY_NAME, CHANNELS, TIME_GAP
+from studio.world.channel import CHANNELS, catalogue
 from studio.world.probe import Reader
 from studio.world.world import World
 
-ROLLING = 0.5  # [m/s] below this speed a time gap says nothing
+ROW = {each.name: row for row, each in enumerate(CHANNELS)}
 CHUNK = 128  # samples that room is made for at a time
 
 
@@ -53,12 +58,18 @@ class Record:
     links: dict[str, float] = field(default_factory=dict)
     probes: dict[str, Traced] = field(default_factory=dict)
 
+    @cached_property
+    def derived(self) -> "Derived":
+        """The channels that follow from those that were recorded."""
+        return Derived(self)
+
     def channel(self, name: str) -> np.ndarray:
-        """One quantity of all vehicles, float64[vehicle, n]."""
-        if name == TIME_GAP.name:
-            speed = self.channel("speed")
-            return np.where(speed > ROLLING, self.channel("gap") / np.maximum(speed, ROLLING), np.nan)
-        return self.values[[each.name for each in CHANNELS].index(name)]
+        """One quantity of all vehicles, float64[vehicle, n]; raises UnknownError with the nearest name."""
+        if name in ROW:
+            return sealed(self.values[ROW[name]])
+        if name not in catalogue():
+            raise UnknownError(f"There is no channel {name!r}; {nearest(name, catalogue())}")
+        return self.derived.trace(name)
 
     def of_followers(self, name: str) -> np.ndarray:
         """One quantity of the vehicles that follow in a chain, float64[vehicle, n]; of all when there is no chain."""
@@ -73,13 +84,60 @@ class Record:
         vehicle, _, quantity = name.partition(".")
         if vehicle not in self.vehicles:
             raise UnknownError(f"No vehicle {vehicle!r} was recorded; {nearest(vehicle, self.vehicles)}")
-        if quantity not in BY_NAME:
-            raise UnknownError(f"There is no channel {quantity!r}; {nearest(quantity, BY_NAME)}")
         return self.channel(quantity)[self.vehicles.index(vehicle)]
 
     def names(self) -> list[str]:
         """All `vehicle.quantity`."""
-        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in BY_NAME] + list(self.probes)
+        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in catalogue()] + list(self.probes)
+
+
+def sealed(values: np.ndarray) -> np.ndarray:
+    """The same values, which cannot be written to: kinds read the record, and nobody changes it."""
+    view = values.view()
+    view.flags.writeable = False
+    return view
+
+
+@dataclass
+class Derived:
+    """Channels that kinds make of others, each once; one that raises has no values."""
+
+    record: Record
+    traces: dict[str, np.ndarray] = field(default_factory=dict)
+    raised: dict[str, str] = field(default_factory=dict)
+
+    def make(self, tell: Callable[[str], None]) -> None:
+        """All of them; those that raise are told with their tracebacks."""
+        for name in registry.known("channel"):
+            self.trace(name)
+        for text in self.raised.values():
+            tell(text)
+
+    def trace(self, name: str) -> np.ndarray:
+        """One of them, float64[vehicle, n]."""
+        if name not in self.traces:
+            self.traces[name] = np.full(self.shape, np.nan)  # what a channel sees that reads itself
+            try:
+                self.traces[name] = sealed(self.made(registry.find("channel", name)))
+            except Exception:
+                self.raised[name] = f"The channel {name!r} raised:\n{traceback.format_exc()}"
+        return self.traces[name]
+
+    def made(self, kind: Kind) -> np.ndarray:
+        """What a kind gives; raises TypeError when it is of another shape."""
+        found = np.asarray(kind.module.trace(self.read), np.float64)
+        if found.shape != self.shape:
+            raise TypeError(f"trace() of {kind.name!r} returned the shape {found.shape}, not {self.shape}, [vehicle, sample]")
+        return found
+
+    def read(self, name: str) -> np.ndarray:
+        """What a kind may read: any other channel, float64[vehicle, n], and `time` [s], float64[n]."""
+        return sealed(self.record.time) if name == "time" else self.record.channel(name)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Vehicles, samples."""
+        return len(self.record.vehicles), self.record.time.size
 
 
 @dataclass(frozen=True)

@@ -135,13 +135,15 @@ class Antenna(Part):
     )
 
 
-AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
 Sensors = Annotated[dict[Name, Annotated[Any, Slot("sensor")]], Field(max_length=MOST_SENSORS)]
 
 
 def front_radar_only() -> dict[str, Any]:
     """What a vehicle has that says nothing about its sensors."""
     return {"front": {"kind": "front_radar"}}
+
+
+AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
 
 
 class Vehicle(Part, defer_build=True):

@@ -1,11 +1,14 @@
-"""Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one."""
+"""Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one, and every kind that follows from them."""
 
+from functools import cache
 from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
 from studio.compiled import lean
+from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.rows import Table
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
@@ -15,7 +18,7 @@ from studio.world.world import World
 
 
 class Channel(NamedTuple):
-    """One quantity of one vehicle over time: where its row stands, -1 for one that is made of others."""
+    """One quantity of one vehicle over time: where its row stands, -1 for one that a kind makes of others."""
 
     name: str
     unit: str
@@ -32,10 +35,23 @@ def channels_of(table: Table) -> list[Channel]:
 
 RECORDED = (VEHICLE, MIND, COMMAND, SATELLITE)
 CHANNELS = tuple(channel for table in RECORDED for channel in channels_of(table))
-TIME_GAP = Channel("time_gap", "s", "Time gap to the car ahead", "gap over the own speed, while the car moves", "derived", -1)
-BY_NAME = {channel.name: channel for channel in (*CHANNELS, TIME_GAP)}
 TABLE_OF = np.array([[table.name for table in RECORDED].index(channel.table) for channel in CHANNELS])
 ROW_OF = np.array([channel.row for channel in CHANNELS])
+
+
+@cache
+def catalogue() -> dict[str, Channel]:
+    """All channels by name: the rows, then the kinds."""
+    made = [derived(kind) for kind in registry.known("channel").values()]
+    return {channel.name: channel for channel in (*CHANNELS, *made)}
+
+
+def derived(kind: Kind) -> Channel:
+    """The channel that a kind makes of others."""
+    return Channel(kind.name, kind.module.UNIT, kind.title, kind.explanation.partition("\n\n")[0], "derived", -1)
+
+
+registry.listen(catalogue.cache_clear)
 
 
 def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> None:

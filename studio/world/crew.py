@@ -51,8 +51,8 @@ def unknown(one: port.Port, kind: Kind, where: str) -> Iterator[Problem]:
 def blind(kind: Kind, unit: str, scenario: Scenario, where: str) -> Iterator[Problem]:
     """A unit without the sensor that an application looks through."""
     part = scenario.vehicles.get(unit) or scenario.stations.get(unit)
-    for one in port.seen(kind.module) if part else []:
-        if one.what == TARGETS:
+    for one in port.seen(kind.module):
+        if part and one.what == TARGETS:
             names = [name for name, sensor in part.sensors.items() if sensor.kind == one.kind]
             if not names:
                 remedy = f"add it: sensors: {{{one.name}: {{kind: {one.kind}}}}}"

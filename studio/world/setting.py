@@ -24,7 +24,7 @@ from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
 from studio.world import crew
-from studio.world.channel import BY_NAME
+from studio.world.channel import catalogue as channels
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
 from studio.world.way import MOST_WORKS, Works
@@ -163,7 +163,7 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     for name, trigger in scenario.triggers.items():
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
     for i, name in enumerate(scenario.recording.channels):
-        check(f"recording.channels.{i}", name, set(BY_NAME), "channel")
+        check(f"recording.channels.{i}", name, set(channels()), "channel")
     for name, change in scenario.changes.items():
         if (route := getattr(change.do, "route", None)) is not None:
             check(f"changes.{name}.do.route", route, set(scenario.routes), "route of this scenario")
@@ -184,9 +184,8 @@ def reserved(scenario: Scenario, where: str) -> list[Problem]:
         for i, unit in enumerate(application.units):
             if unit in application.senders(i):
                 found.append(Problem(f"{where}: applications.{group}.listens_to.{i}", "is the unit itself", repr(unit)))
-    for name in scenario.stations.keys() & scenario.vehicles.keys():
-        found.append(Problem(f"{where}: stations.{name}", "is the name of a vehicle", repr(name), remedy="choose another name"))
-    return found
+    both = [name for name in scenario.stations if name in scenario.vehicles]
+    return found + [Problem(f"{where}: stations.{name}", "is the name of a vehicle", repr(name), remedy="choose another") for name in both]
 
 
 def untimely(scenario: Scenario, where: str) -> list[Problem]:

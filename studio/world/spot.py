@@ -22,8 +22,9 @@ def spot(of: Spot, network: Network, where: str) -> tuple[float, float]:
     if of.x is not None and of.y is not None:
         return of.x, of.y
     assert of.road is not None  # a spot has this or coordinates
-    if of.road not in network.road_ids:
-        refuse(Problem(f"{where}.road", "is not on the map", repr(of.road), remedy=nearest(of.road, network.road_ids)))
+    roads = network.roads
+    if of.road not in roads:
+        refuse(Problem(f"{where}.road", "is not on the map", repr(of.road), remedy=nearest(of.road, roads)))
     points = lane_line(network, network.lanes_of(of.road)[0]).points
     length = (points.shape[1] - 1) * PATH_SPACING
     if of.along > length:

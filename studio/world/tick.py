@@ -95,10 +95,10 @@ def think(world: World) -> None:
 
 def sense(world: World) -> None:
     """Satellites tell where one is; units look at themselves and around."""
-    v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
+    v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
     own.carry(
-        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, world.neighbours.places, u.gps_set, w.of, w.entity, w.seed,
-        r.place_of, r.shadow, u.satellite, u.now,
+        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
+        r.shadow, u.satellite, u.now,
     )  # fmt: skip
     seen = view(world) if u.mounted else None
     for each in u.mounted:
@@ -109,8 +109,8 @@ def view(world: World) -> View:
     """The world as sensors see it."""
     v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
     return View(
-        clock.k, clock.time, clock.tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid,
-        g.places, g.found, o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+        clock.k, clock.time, clock.tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed,
+        g.grid, g.places, g.found, o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
     )  # fmt: skip
 
 

@@ -88,8 +88,8 @@ def about(view, unit, sensor, stream):
     """Who is asked."""
     u, v, w = view.unit, view.unit_vehicle[unit], view.unit_world[unit]
     return Me(
-        sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit], u[OWN_FIRST, unit],
-        u[OWN_FIRST + 2, unit], stream,
+        sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit],
+        u[OWN_FIRST, unit], u[OWN_FIRST + 2, unit], stream,
     )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Front radar: the nearest car or barrier in the own driving corridor, as a radar with target selection reports it.
 
-The corridor is the arc that the own motion predicts (studio/model/sensor.py). Range and range rate carry white noise, as in Massow & Radusch
-2018, section 2.3; the direction is exact. A cone of plastic sends nothing back.
+The corridor is the arc that the own motion predicts (studio/model/sensor.py). Range and range rate carry white noise, as in Massow &
+Radusch 2018, section 2.3; the direction is exact. A cone of plastic sends nothing back.
 """
 
 from math import atan2, sqrt

@@ -1,8 +1,8 @@
 """Hosts: how applications see, decide and act at every tick.
 
-A loop over all units of an application is written for it once, from its ports, into the cache of compiled code. A compiled application's loop is
-compiled; an ordinary one's is the same text, and runs as Python. So a developer starts in Python and writes @compiled above `decide` when
-the idea holds, and nothing else changes.
+A loop over all units of an application is written for it once, from its ports, into the cache of compiled code. That of a compiled
+application is compiled; that of an ordinary one is the same text, and runs as Python. So a developer starts in Python and writes
+@compiled above `decide` when the idea holds, and nothing else changes.
 
 What an application returns is looked at before anything of it counts: a result that is not finite, out of range or not its to give is a
 fault, and the run of that unit's world fails with it.
@@ -97,7 +97,8 @@ class Hosted:
             where = f"{self.application.name} on {self.names[j]}: {name}"
             problem = Problem(where, REASONS[reason], f"{self.wrong[j]:g}", allowed(name), REMEDIES[reason])
             when = f"at tick {round(time / tick)} ({time:g} s)"
-            text = f"The application {self.application.name!r} on {self.names[j]!r} gave {name} = {self.wrong[j]:g} {when}, which {REASONS[reason]}"
+            who = f"The application {self.application.name!r} on {self.names[j]!r}"
+            text = f"{who} gave {name} = {self.wrong[j]:g} {when}, which {REASONS[reason]}"
             yield Fault(self.group_of(j), ApplicationError(text, [problem]))
 
     def raised(self, error: BaseException) -> "Fault":

@@ -4,9 +4,9 @@ from studio.compiled import lean
 from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y
-from studio.world.table.mind import V_DESIRED, WISH
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.satellite import fix
+from studio.world.table.mind import V_DESIRED, WISH
 from studio.world.table.unit import BUMPER, COSINE, GPS_EAST, GPS_NORTH, HEADING, OWN_FIRST, PRESENT, SINE, TRUE_X, TRUE_Y
 
 

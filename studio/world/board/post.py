@@ -80,18 +80,18 @@ def dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, s
 
 
 @lean
-def exchange(k, tick, period, settings, link_sender, inbox, time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now,
-             sender, fresh, last, ring, link_first, link_receiver, arrival, lost):
+def exchange(k, tick, period, settings, link_sender, inbox, time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed,
+             now, sender, fresh, last, ring, link_first, link_receiver, arrival, lost):
 {beacons}
     dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
              link_receiver, arrival, lost)
     receive(time, tick, sender.size, last, ring, link_sender, arrival, inbox)
 '''
-BEACONS = '''    for i in range(sender.size):
+BEACONS = """    for i in range(sender.size):
         u = sender[i]
         j = world_of[u]
         if now[PRESENT, u] > 0.0 and (k + entity[u]) % period[j] == 0:
-            send(i, u, time, fixed, beacon(Own({own}), SettingsTuple({settings})), now, ring, last, fresh)'''
+            send(i, u, time, fixed, beacon(Own({own}), SettingsTuple({settings})), now, ring, last, fresh)"""
 
 
 @dataclass

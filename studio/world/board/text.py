@@ -113,10 +113,10 @@ def shaped(answer: Any, module: ModuleType) -> tuple[Any, Any]:
 
 def check_port(given: Any, each: Port) -> None:
     """What stands at a port is of its type."""
-    of = each.type if each.what == LOG else TYPES[each.what]
+    of: Any = each.type if each.what == LOG else TYPES[each.what]
     if not isinstance(given, of):
         raise TypeError(f"decide() returned {short(given)} at {each.name}, not a {of.__name__}")
-    if each.what == OUTBOX:
+    if isinstance(given, Outbox):
         payload = registry.find("message", each.kind).module.Payload
         if not isinstance(given.message, tuple) or len(given.message) < each.most:
             raise TypeError(f"{each.name}.message holds {short(given.message)}; a tuple of {each.most} payloads is meant")
