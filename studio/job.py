@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from studio.application import setup
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
 from studio.errors import Problem, ScenarioError, UnknownError
@@ -26,7 +25,7 @@ from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
 from studio.provenance import provenance
-from studio.scenario import file
+from studio.scenario import file, setup
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source

@@ -3,7 +3,7 @@
 import numpy as np
 import yaml
 
-from studio.application.setup import complete
+from studio.scenario.setup import complete
 from studio.vehicle.state import V_X
 from studio.world.build import build
 from studio.world.setting import setting

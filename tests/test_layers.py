@@ -9,10 +9,10 @@ import pytest
 FLOORS = [
     {"errors", "conventions", "rows", "cache", "source", "sample", "process", "compiled", "portable"},
     {"model"},
+    {"application"},
     {"kind"},
     {"road"},
     {"scenario"},
-    {"application"},
     {"vehicle"},
     {"world"},
     {"execution"},

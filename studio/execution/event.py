@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from studio.execution.record import Chain, Happening
+from studio.scenario.schema import REASONS
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.setting import Setting
@@ -32,8 +33,9 @@ def chains(setting: Setting) -> tuple[Chain, ...]:
     """Groups in which everybody listens to the vehicle ahead of it in the list."""
     found = []
     for name, group in setting.scenario.applications.items():
-        order = [*group.listens_to[:1], *group.vehicles]
-        if group.listens_to and group.listens_to == order[:-1]:
+        ahead = [group.senders(i)[0] for i in range(len(group.units)) if group.senders(i)]
+        order = [*ahead[:1], *group.units]
+        if ahead and ahead == order[:-1]:
             found.append(Chain(name, group.application, tuple(order)))
     return tuple(found)
 
@@ -77,6 +79,7 @@ class Teller:
             notice.ARRIVED: self.arrived,
             notice.COMPANY: self.company,
             notice.WAITS: self.waits,
+            notice.TAKES_OVER: self.takes_over,
         }
 
     def tell(self, watch: Watch) -> Iterator[tuple[int, Happening]]:
@@ -125,3 +128,7 @@ class Teller:
     def waits(self, when: float, world: int, subject: int, _other: int) -> tuple[float, str, str]:
         """A named vehicle has come to a stand at a red light."""
         return when, "waits at a red light", self.world.names[world][subject]
+
+    def takes_over(self, when: float, world: int, subject: int, other: int) -> tuple[float, str, str]:
+        """A driver has begun to overrule the application of his vehicle."""
+        return when, f"driver takes over: {REASONS[other].replace('_', ' ')}", self.world.names[world][subject]

@@ -4,6 +4,7 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
 from studio.world.channel import CHANNELS, catalogue
+from studio.world.probe import Reader
 from studio.world.world import World
 
 ROW = {each.name: row for row, each in enumerate(CHANNELS)}
@@ -36,6 +38,14 @@ class Chain:
     vehicles: tuple[str, ...]
 
 
+class Traced(NamedTuple):
+    """What a probe has read over time, its unit and label."""
+
+    values: np.ndarray
+    unit: str
+    label: str
+
+
 @dataclass(frozen=True)
 class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings."""
@@ -46,6 +56,7 @@ class Record:
     happenings: tuple[Happening, ...]
     chains: tuple[Chain, ...] = ()
     links: dict[str, float] = field(default_factory=dict)
+    probes: dict[str, Traced] = field(default_factory=dict)
 
     @cached_property
     def derived(self) -> "Derived":
@@ -68,6 +79,8 @@ class Record:
 
     def trace(self, name: str) -> np.ndarray:
         """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""
+        if name in self.probes:
+            return self.probes[name].values
         vehicle, _, quantity = name.partition(".")
         if vehicle not in self.vehicles:
             raise UnknownError(f"No vehicle {vehicle!r} was recorded; {nearest(vehicle, self.vehicles)}")
@@ -75,7 +88,7 @@ class Record:
 
     def names(self) -> list[str]:
         """All `vehicle.quantity`."""
-        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in catalogue()]
+        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in catalogue()] + list(self.probes)
 
 
 def sealed(values: np.ndarray) -> np.ndarray:
@@ -129,11 +142,12 @@ class Derived:
 
 @dataclass(frozen=True)
 class Chunk:
-    """Room for CHUNK samples: their times, values [sample, channel, vehicle], and the ages of all links [sample, link]."""
+    """Room for CHUNK samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
 
     time: np.ndarray
     values: np.ndarray
     ages: np.ndarray
+    probes: np.ndarray
 
 
 @dataclass
@@ -146,7 +160,9 @@ class Recorder:
     columns: np.ndarray
     every: int
     vehicle_share: list[slice]
-    link_share: list[slice]
+    links: int
+    reader: Reader
+    probe_share: list[slice]
     count: int = 0
     chunks: list[Chunk] = field(default_factory=list)
 
@@ -160,12 +176,13 @@ class Recorder:
             chunk.time[place] = world.clock.time
             channel.sample(world, self.columns, k, chunk.values[place])
             channel.link_ages(world, chunk.ages[place])
+            self.reader.read(chunk.probes[place])
             self.count += 1
 
     def chunk(self) -> Chunk:
         """An empty one."""
-        links = self.link_share[-1].stop
-        return Chunk(np.empty(CHUNK), np.empty((CHUNK, len(CHANNELS), self.columns.size)), np.empty((CHUNK, links)))
+        values = np.empty((CHUNK, len(CHANNELS), self.columns.size))
+        return Chunk(np.empty(CHUNK), values, np.empty((CHUNK, self.links)), np.empty((CHUNK, len(self.reader.probes))))
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -183,11 +200,15 @@ class Recorder:
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)
 
-    def mean_ages(self, world: int, count: int) -> np.ndarray:
+    def traced(self, world: int, count: int) -> dict[str, Traced]:
+        """What the probes of one world have read, by name; its first samples."""
+        share = self.probe_share[world]
+        values = self.joined([chunk.probes[:, share] for chunk in self.chunks], np.zeros((0, share.stop - share.start)), count)
+        return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.reader.probes[share])}
+
+    def mean_ages(self, count: int) -> np.ndarray:
         """Mean age [s] of the newest message on every link; not a number for a link that never had both ends."""
-        share = self.link_share[world]
-        none = np.zeros((0, share.stop - share.start))
-        ages = self.joined([chunk.ages[:, share] for chunk in self.chunks], none, count)
+        ages = self.joined([chunk.ages for chunk in self.chunks], np.zeros((0, self.links)), count)
         known = np.isfinite(ages)
         with np.errstate(invalid="ignore"):
             return np.where(known, ages, 0.0).sum(axis=0) / known.sum(axis=0)

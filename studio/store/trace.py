@@ -21,7 +21,7 @@ def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
     columns = {"time": record.time} | {name: record.trace(name) for name in names}
     fields = [field("time", "s", "Time")]
     for name in names:
-        channel = catalogue()[name.partition(".")[2]]
+        channel = record.probes.get(name) or catalogue()[name.partition(".")[2]]
         fields.append(field(name, channel.unit, channel.label))
     table = pa.table(list(columns.values()), schema=pa.schema(fields))
     buffer = io.BytesIO()

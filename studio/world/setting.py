@@ -12,6 +12,7 @@ import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
+from studio.kind.driver import Driver
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
 from studio.road.ways import path as road_path
@@ -19,11 +20,13 @@ from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X
 from studio.road.ways.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
+from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
+from studio.world import crew
 from studio.world.channel import catalogue as channels
 from studio.world.site import Site, joins, place_problems, sites
+from studio.world.spot import spots
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
@@ -44,7 +47,7 @@ class Car:
     station: float  # [m] of the centre of gravity
     speed: float  # [m/s]
     driver: Driver
-    sensor: FrontSensor
+    intervention: Intervention
     colour: str
     gps: Gps
     returns: bool = False
@@ -59,6 +62,7 @@ class Setting:
     cars: tuple[Car, ...]
     sites: tuple[Site, ...]
     works: Works
+    spots: dict[str, tuple[float, float]]  # [m] where the stations stand
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -78,7 +82,7 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     works = Works(found)
     check_works(cars, works, where)
     filled = tuple(cars + traffic(scenario, network, models, cars, works))
-    return Setting(scenario, network, filled, found, works)
+    return Setting(scenario, network, filled, found, works, spots(scenario, network, where))
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -139,6 +143,7 @@ def refuse(found: list[Problem], where: str) -> None:
 def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     """Every vehicle, route, model and sender that is named must exist."""
     vehicles, known_models, found = set(scenario.vehicles), set(catalogue.vehicle_names()), []
+    units = vehicles | set(scenario.stations)
 
     def check(path: str, name: str, known, kind: str) -> None:
         if name not in known:
@@ -151,9 +156,10 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     if not catalogue.is_path(scenario.traffic.model, ".yaml", ".yml"):
         check("traffic.model", scenario.traffic.model, known_models, "vehicle of the catalogue")
     for group, application in scenario.applications.items():
-        for field in ("vehicles", "listens_to"):
-            for i, name in enumerate(getattr(application, field)):
-                check(f"applications.{group}.{field}.{i}", name, vehicles, "vehicle of this scenario")
+        for i, name in enumerate(application.units):
+            check(f"applications.{group}.units.{i}", name, units, "unit of this scenario")
+            for sender in application.senders(i):
+                check(f"applications.{group}.listens_to.{i}", sender, units, "unit of this scenario")
     for name, trigger in scenario.triggers.items():
         check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
     for i, name in enumerate(scenario.recording.channels):
@@ -164,33 +170,22 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
         for field, moment in (("start", change.start), ("end", change.end)):
             if moment.vehicle is not None:
                 check(f"changes.{name}.{field}.vehicle", moment.vehicle, vehicles, "vehicle of this scenario")
-    return found + reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
+    return found + reserved(scenario, where) + untimely(scenario, where) + crew.problems(scenario, where)
 
 
 def reserved(scenario: Scenario, where: str) -> list[Problem]:
-    """Names that the traffic has, and a vehicle that listens to itself."""
+    """Names that the traffic has, or vehicle and station both, and a unit that listens to itself."""
     found = [
         Problem(f"{where}: vehicles.{name}", "is a name of the traffic", repr(name), remedy="choose another name")
         for name in scenario.vehicles
         if re.fullmatch(r"traffic_\d+", name)
     ]
     for group, application in scenario.applications.items():
-        for vehicle, heard in zip(application.vehicles, application.listens_to, strict=False):
-            if vehicle == heard:
-                found.append(Problem(f"{where}: applications.{group}.listens_to", "is the vehicle itself", repr(vehicle)))
-    return found
-
-
-def doubled(scenario: Scenario, where: str) -> list[Problem]:
-    """A vehicle's pedals belong to one application."""
-    owner, found = {}, []
-    for group, application in scenario.applications.items():
-        for name in application.vehicles:
-            if name in owner:
-                what = f"runs {owner[name]!r} already; a vehicle has one application"
-                found.append(Problem(f"{where}: applications.{group}.vehicles", what, repr(name)))
-            owner[name] = group
-    return found
+        for i, unit in enumerate(application.units):
+            if unit in application.senders(i):
+                found.append(Problem(f"{where}: applications.{group}.listens_to.{i}", "is the unit itself", repr(unit)))
+    both = [name for name in scenario.stations if name in scenario.vehicles]
+    return found + [Problem(f"{where}: stations.{name}", "is the name of a vehicle", repr(name), remedy="choose another") for name in both]
 
 
 def untimely(scenario: Scenario, where: str) -> list[Problem]:
@@ -198,17 +193,13 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     tick, found = scenario.clock.tick, []
     spans = {
         "clock.duration": scenario.clock.duration,
-        "radio.period": scenario.radio.period,
         "recording.period": scenario.recording.period,
     }
+    spans |= {f"messages.{name}.period": part.period for name, part in scenario.messages if hasattr(part, "period")}
     for path, period in spans.items():
         ratio = period / tick
         if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
             found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
-    longest = scenario.radio.delay + scenario.radio.delay_variation
-    kept = (RING - 1) * scenario.radio.period
-    if longest > kept:
-        found.append(Problem(f"{where}: radio.delay", "is longer than messages are kept", f"{longest} s", f"≤ {kept:g} s"))
     return found
 
 
@@ -279,7 +270,7 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour, vehicle.gps)
+    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.intervention, vehicle.colour, vehicle.gps)
 
 
 def check_works(cars: list[Car], works: Works, where: str) -> None:
@@ -328,7 +319,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
                 station,
                 speed,
                 driver,
-                FrontSensor(range=0.0),
+                Intervention(),
                 PAINTS[i % len(PAINTS)],
                 Gps(drift=0.0, noise=0.0),
                 returns=True,

@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from studio import job
-from studio.application.setup import complete
+from studio.scenario.setup import complete
 from studio.world.build import build
 from studio.world.setting import setting
 from studio.world.tick import tick

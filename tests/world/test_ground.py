@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import yaml
 
-from studio.application.setup import complete
 from studio.errors import ScenarioError
 from studio.execution.simulation import simulation
+from studio.scenario.setup import complete
 from studio.vehicle.contact import MU
 from studio.vehicle.state import V_X
 from studio.world.build import build

@@ -12,6 +12,7 @@ from typing import Any
 from studio.errors import Problem, ScenarioError
 from studio.scenario.finding import short
 from studio.scenario.schema import VERSION
+from studio.scenario.text import doors as part
 from studio.scenario.text.document import applied
 from studio.scenario.text.patch import Layout, Operation, operation
 from studio.scenario.text.source import Source
@@ -129,12 +130,12 @@ def free(name: str, taken: set[str]) -> str:
 
 
 # Version 3 names kinds. Each part of the change is a function of its own; their patches are about different sections.
-DOORS: tuple[Migration, ...] = ()
+DOORS: tuple[Migration, ...] = (part.sensors, part.units, part.messages, part.channels)
 
 
 def doors(now: Source) -> tuple[list[Operation], list[str]]:
     """2 to 3: what can be replaced names its kind."""
-    found = [part(now) for part in DOORS]
+    found = [each(now) for each in DOORS]
     return [each for patch, _ in found for each in patch], [each for _, told in found for each in told]
 
 

@@ -1,7 +1,7 @@
 """Notices: what has happened in a tick, found by compiled code and written into a table that is emptied now and then.
 
 A notice is a row of numbers; words are made of it only when somebody reads the table. Everything is noticed once, but for
-company and waiting at red lights, which come and go.
+company, waiting at red lights and drivers who overrule applications, which come and go.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from studio.compiled import lean
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X
-from studio.world.table.mind import AHEAD, RED_STATION, STATION
+from studio.world.table.mind import ACTS_COLLISION, AHEAD, RED_STATION, STATION
 from studio.world.world import World
 
 NOTICE = Table("notice", Role.RECORD, per="notice")
@@ -20,13 +20,14 @@ N_TIME = NOTICE.row("time", "s", "at the end of the tick in which it was found")
 N_KIND = NOTICE.row("kind", "1", "what has happened")
 N_WORLD = NOTICE.row("world", "1", "number of the world")
 N_SUBJECT = NOTICE.row("subject", "1", "number of the trigger, change or follower in the batch, of the collision or vehicle in its world")
-N_OTHER = NOTICE.row("other", "1", "number of the vehicle that has come between, -1 for none")
-TRIGGERED, BEGUN, ENDED, HIT, ROLLED_OVER, ARRIVED, COMPANY, WAITS = range(8)
+N_OTHER = NOTICE.row("other", "1", "number of the vehicle that has come between, or of the reason; -1 for none")
+TRIGGERED, BEGUN, ENDED, HIT, ROLLED_OVER, ARRIVED, COMPANY, WAITS, TAKES_OVER = range(9)
 
 AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits
 STANDING = 0.1  # [m/s]
 ROLLED = 1.0  # [rad] a vehicle that leans farther has rolled over
-TOLD_OF_A_VEHICLE = 3  # kinds of notices that one vehicle may give in one tick
+REASONS = 3  # for which a driver overrules an application
+TOLD_OF_A_VEHICLE = 3 + REASONS  # notices that one vehicle may give in one tick
 
 
 @dataclass
@@ -45,6 +46,7 @@ class Watch:
     hits_told: np.ndarray  # per world
     vehicles_told: np.ndarray  # [rolled over or arrived, vehicle]
     waiting: np.ndarray  # int64[vehicle], 1 while it stands at a red light
+    acting: np.ndarray  # int64[reason, vehicle], 1 while its driver overrules its application
     between: np.ndarray  # per follower, the number of the car between it and the one that it listens to
     table: np.ndarray
     count: np.ndarray  # int64[1]
@@ -73,6 +75,7 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         hits_told=np.zeros(w.first.size, dtype=np.int64),
         vehicles_told=np.zeros((2, n), dtype=np.int64),
         waiting=np.zeros(n, dtype=np.int64),
+        acting=np.zeros((REASONS, n), dtype=np.int64),
         between=np.full(sizes.size, -1),
         table=np.zeros((len(NOTICE), 2 * most)),
         count=np.zeros(1, dtype=np.int64),
@@ -89,6 +92,7 @@ def notice(world: World, at: Watch) -> None:
     notice_vehicles(time, v.state, world.worlds.of, world.worlds.number, at.named, at.vehicles_told, at.table, at.count)
     notice_company(time, v.mind, world.worlds.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
     notice_waiting(time, v.state, v.mind, v.parameter, world.worlds.of, world.worlds.number, at.named, at.waiting, at.table, at.count)
+    notice_drivers(time, v.mind, world.worlds.of, world.worlds.number, at.acting, at.table, at.count)
 
 
 @lean
@@ -154,6 +158,17 @@ def notice_waiting(time, state, mind, parameter, world_of, number, named, waitin
         if waits and waiting[v] == 0:
             note(time, WAITS, world_of[v], number[v], -1, table, count)
         waiting[v] = 1 if waits else 0
+
+
+@lean
+def notice_drivers(time, mind, world_of, number, acting, table, count):
+    """Drivers who have begun to overrule their application, and for which reason."""
+    for i in range(REASONS):
+        for v in range(number.size):
+            acts = mind[ACTS_COLLISION + i, v] != 0.0
+            if acts and acting[i, v] == 0:
+                note(time, TAKES_OVER, world_of[v], number[v], i, table, count)
+            acting[i, v] = 1 if acts else 0
 
 
 @lean
