@@ -17,6 +17,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from studio.application import port
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.scenario.schema import Scenario
@@ -62,11 +63,17 @@ def provenance(scenario: Scenario) -> Provenance:
 def used(scenario: Scenario) -> Iterator[Kind]:
     """Every kind that a run of a scenario uses: those that it names, and all that judge or follow from what is recorded."""
     parts = {type(part) for part in parts_of(scenario)}
-    applications = {group.application for group in scenario.applications.values()}
+    applications = [registry.find("application", group.application) for group in scenario.applications.values()]
     for kind in registry.every():
-        is_named = vars(kind.module).get("Chosen") in parts or (kind.sort == "application" and kind.name in applications)
+        is_named = vars(kind.module).get("Chosen") in parts or kind in applications or kind.name in heard_or_sent(kind.sort, applications)
         if is_named or kind.sort in ("metric", "channel"):
             yield kind
+
+
+def heard_or_sent(sort: str, applications: Sequence[Kind]) -> set[str]:
+    """The messages that applications have ports for; there are no others on the air."""
+    modules = [each.module for each in applications] if sort == "message" else []
+    return {one.kind for module in modules for one in (*port.seen(module), *port.done(module)) if one.what in (port.INBOX, port.OUTBOX)}
 
 
 def parts_of(value: Any) -> Iterator[BaseModel]:

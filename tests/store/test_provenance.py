@@ -19,20 +19,27 @@ from tests.patience import PATIENCE
 APPLICATION = '''"""Brakes by what its helper says."""
 from typing import NamedTuple
 from studio.kind.settings import Part
-from studio.application.contract import LEAVE, Command
+from studio.application.contract import ACCELERATION, Command, Own, accelerate
 from studio.compiled import compiled
 {line}
 KIND = "application"
 TITLE = "Helped"
+COMMANDS = ACCELERATION
 class Parameters(Part):
     """None."""
 class Memory(NamedTuple):
     """None."""
-    u: float = 0.0
+    idle: float = 0.0
+class Sees(NamedTuple):
+    """The own car."""
+    own: Own
+class Does(NamedTuple):
+    """Brakes."""
+    command: Command
 @compiled
-def decide(parameters, memory, observation):
+def decide(parameters, memory, sees):
     """One tick."""
-    return memory, Command(acceleration=braking(observation.own.speed), steering=LEAVE)
+    return memory, Does(accelerate(braking(sees.own.speed)))
 '''
 HELPER = """from studio.compiled import compiled
 @compiled
@@ -82,7 +89,9 @@ def test_every_kind_of_a_run_stands_in_its_row(sample, tmp_path):
     runs = open_runs(tmp_path / "runs.db")
     loaded = job.load(sample, {"clock.duration": 0.1})
     row = job.run(loaded, runs=runs).row
-    assert {"application.cacc", "channel.time_gap", "metric.min_ttc"} <= set(row.kinds) and "application.acc" not in row.kinds
+    named = {"application.cacc", "message.awareness", "sensor.front_radar", "driver.attentive", "radio.ad_hoc"}
+    judging = {f"{sort}.{name}" for sort in ("metric", "channel") for name in registry.known(sort)}
+    assert set(row.kinds) == named | judging
     assert row.kinds["application.cacc"] == registry.find("application", "cacc").digest
     assert row == runs.find(row.run) and set(runs.sources(row)) == set(row.kinds)
     assert runs.sources(row)["application.cacc"]["cacc.py"].startswith('"""Cooperative adaptive')
