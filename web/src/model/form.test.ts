@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { applications, document, source } from "../test/scenario";
+import { document, source } from "../test/scenario";
 import {
   changedIn,
   exchanged,
@@ -32,7 +32,7 @@ describe("the form", () => {
       "applications",
       "radio",
       "vehicles",
-      "triggers",
+      "script",
     ]);
   });
 
@@ -66,9 +66,9 @@ describe("the form", () => {
   });
 
   it("chooses the variant that a constant names, and shows no constant", () => {
-    expect(paths()).toContain("triggers.0.width");
-    expect(paths()).not.toContain("triggers.0.duration");
-    expect(paths()).not.toContain("triggers.0.maneuver");
+    expect(paths()).toContain("script.0.width");
+    expect(paths()).not.toContain("script.0.duration");
+    expect(paths()).not.toContain("script.0.kind");
   });
 
   it("names entries by their keys and properties by their titles", () => {
@@ -77,24 +77,26 @@ describe("the form", () => {
     expect(vehicles?.sections[0]?.sections[0]?.title).toBe("Start");
   });
 
-  it("says in the title which of several changes of the road it is", () => {
-    const kinds = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
-    const alternative = ([change, properties]: [string, object]) => ({
+  it("says in the title which of several kinds it is", () => {
+    const alternatives = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
+    const alternative = ([name, properties]: [string, object]) => ({
       type: "object",
-      properties: { change: { const: change }, ...properties },
+      properties: { kind: { const: name }, ...properties },
     });
-    const entry = {
-      type: "object",
-      properties: { do: { oneOf: Object.entries(kinds).map(alternative), title: "Change" } },
-    };
-    const changing = {
+    const action = { oneOf: Object.entries(alternatives).map(alternative), sort: "action", title: "Do" };
+    const until = { anyOf: [{ oneOf: action.oneOf, sort: "condition" }, { type: "null" }], title: "Until" };
+    const entry = { type: "object", properties: { do: action, until } };
+    const scripted = {
       ...source(),
-      schema: { properties: { changes: { type: "object", additionalProperties: entry, title: "Changes" } } },
-      document: { changes: { slow: { do: { change: "limit", speed: 8.3 } }, ice: { do: { change: "friction", width: 2 } } } },
+      kinds: ["limit", "friction"].map((name) => ({ sort: "action", name }) as never),
+      schema: { properties: { script: { type: "object", additionalProperties: entry, title: "Script" } } },
+      document: {
+        script: { slow: { do: { kind: "limit", speed: 8.3 }, until: null }, ice: { do: { kind: "friction", width: 2 } } },
+      },
     };
-    const [all] = sections(changing);
-    expect(all?.sections.map(({ sections: [inner] }) => inner?.title)).toEqual(["Change: limit", "Change: friction"]);
-    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual(["changes.slow.do.speed", "changes.ice.do.width"]);
+    const [all] = sections(scripted);
+    expect(all?.sections.map(({ sections: [inner] }) => inner?.title)).toEqual(["Do: limit", "Do: friction"]);
+    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual(["script.slow.do.speed", "script.ice.do.width"]);
   });
 
   it("marks what is changed and counts it", () => {
@@ -122,37 +124,54 @@ describe("two forms", () => {
   });
 });
 
-describe("exchanging an application", () => {
-  const [exchange] = exchangesOf(sections(source()));
-  const acc = applications[1];
-  if (!exchange || !acc) throw new Error("the fixture has an application to exchange");
+describe("exchanging a kind", () => {
+  const [exchange, sensor] = exchangesOf(sections(source()));
+  if (!exchange || !sensor) throw new Error("the fixture has an application and a sensor to exchange");
   const before = {
     "applications.platoon.parameters.headway": 0.9,
     "applications.platoon.parameters.k_p": 0.5,
+    "vehicles.leader.sensors.front.range": 80,
+    "vehicles.leader.sensors.front.rate_noise": 0.2,
     "radio.delay": 0.1,
   };
-  const after = exchanged(before, exchange, acc);
+  const after = exchanged(before, exchange, "acc");
+  const [front, lidar] = ["vehicles.leader.sensors.front", exchanged({}, sensor, "lidar")];
 
-  it("finds the select of its group", () => {
-    expect(exchange).toMatchObject({
-      path: "applications.platoon.application",
-      group: "platoon",
-      initial: "cacc",
-    });
+  it("finds the places, and what may stand there", () => {
+    expect(exchange).toMatchObject({ path: "applications.platoon.application", sort: "application", initial: "cacc" });
+    expect(sensor).toMatchObject({ path: `${front}.kind`, base: front, value: "radar", description: "by radio waves" });
+    expect(sensor.choices.map(({ title }) => title)).toEqual(["Beams", "Radar"]);
   });
 
-  it("keeps parameters that the new one has too and drops the others", () => {
+  it("keeps settings that the new one has too and drops the others", () => {
     expect(after).toEqual({
       "applications.platoon.parameters.headway": 0.9,
+      "vehicles.leader.sensors.front.range": 80,
+      "vehicles.leader.sensors.front.rate_noise": 0.2,
       "radio.delay": 0.1,
       "applications.platoon.application": "acc",
     });
+    expect(exchanged(before, sensor, "lidar")).toEqual({
+      "applications.platoon.parameters.headway": 0.9,
+      "applications.platoon.parameters.k_p": 0.5,
+      [`${front}.range`]: 80,
+      "radio.delay": 0.1,
+      [`${front}.kind`]: "lidar",
+    });
   });
 
-  it("shows the new one's parameters, with its defaults where the document has none", () => {
+  it("shows the new one's settings, as the file gives them, or else its own defaults", () => {
     expect(paths(after)).toContain("applications.platoon.parameters.gap_gain");
     expect(paths(after)).not.toContain("applications.platoon.parameters.k_p");
     expect(field("applications.platoon.parameters.gap_gain", after).value).toBe(0.1);
+    expect(field("applications.platoon.parameters.headway", exchanged({}, exchange, "acc")).value).toBe(0.6);
+    expect(field("applications.platoon.parameters.standstill", after).value).toBe(3);
+    expect(field(`${front}.range`, lidar)).toMatchObject({ value: 60, unit: "m", minimum: 0, changed: false });
+    expect(paths(lidar)).not.toContain(`${front}.rate_noise`);
+  });
+
+  it("shows a setting that has to be given as an empty one", () => {
+    expect(field(`${front}.beams`, lidar)).toMatchObject({ value: null, kind: "integer" });
   });
 
   it("lays out objects that a program has set", () => {
@@ -163,11 +182,8 @@ describe("exchanging an application", () => {
   });
 
   it("is no change when it goes back", () => {
-    const cacc = applications[0];
-    expect(cacc && exchanged(after, exchange, cacc)).toEqual({
-      "applications.platoon.parameters.headway": 0.9,
-      "radio.delay": 0.1,
-    });
+    expect(exchanged(lidar, sensor, "radar")).toEqual({});
+    expect(changedIn(sections(source(lidar))[2] as never)).toBe(1);
   });
 });
 
@@ -177,6 +193,8 @@ describe("search and problems", () => {
       "radio.delay",
     ]);
     expect(matching(sections(source()), "nothing like this")).toEqual([]);
+    const waves = matching(sections(source()), "radio waves");
+    expect(exchangesOf(waves).map(({ path }) => path)).toEqual(["vehicles.leader.sensors.front.kind"]);
   });
 
   it("puts a problem at its field, and one of nowhere at the top", () => {
@@ -217,15 +235,16 @@ describe("suggestions", () => {
 });
 
 describe("units and values by path", () => {
-  it("finds the unit of an exchanged application's parameter by its name", () => {
+  it("finds the unit of an exchanged kind's setting by its name", () => {
     const units = unitsOf(source());
     expect(unitAt(units, "radio.delay")).toBe("s");
     expect(unitAt(units, "applications.platoon.parameters.gap_gain")).toBe("1/s");
+    expect(unitAt(units, "vehicles.leader.sensors.front.range")).toBe("m");
     expect(unitAt(units, "radio.unknown")).toBe("");
   });
 
   it("reads through objects and lists", () => {
-    expect(valueAt(document, "triggers.0.width")).toBe(2);
+    expect(valueAt(document, "script.0.width")).toBe(2);
     expect(valueAt(document, "radio.nothing.deeper")).toBeUndefined();
   });
 });

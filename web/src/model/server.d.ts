@@ -108,7 +108,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/applications": {
+    "/api/kinds": {
         parameters: {
             query?: never;
             header?: never;
@@ -116,10 +116,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Applications
-         * @description The registered applications with the schemas of their parameters.
+         * Kinds
+         * @description All kinds with the schemas of their settings, sort by sort, and the files that are broken.
          */
-        get: operations["applications_api_applications_get"];
+        get: operations["kinds_api_kinds_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -613,20 +613,21 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /**
-         * Application
-         * @description A registered application and the schema of its parameters.
+         * BrokenKind
+         * @description A file that gave no kind, and why.
          */
-        Application: {
+        BrokenKind: {
             /** Name */
             name: string;
-            /** Title */
-            title: string;
-            /** Description */
-            description: string;
-            /** Parameters */
-            parameters: {
-                [key: string]: unknown;
-            };
+            /** File */
+            file: string;
+            /**
+             * What
+             * @description in one line
+             */
+            what: string;
+            /** Traceback */
+            traceback: string;
         };
         /**
          * BuildingCount
@@ -777,6 +778,18 @@ export interface components {
             type: "event";
         };
         /**
+         * Given
+         * @description A number that a kind gives; `size` of them under one name.
+         */
+        Given: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Size */
+            size: number;
+        };
+        /**
          * Glossary
          * @description The words of the results: what channels and metrics are called, their units, and what they mean.
          */
@@ -801,6 +814,47 @@ export interface components {
             scenarios_folder: string;
             /** @description what is compiled before the first run; null when that is done */
             compiling: components["schemas"]["Compiling"] | null;
+        };
+        /**
+         * Kind
+         * @description A kind that can be named in a scenario, and what may be set of it.
+         */
+        Kind: {
+            /** Sort */
+            sort: string;
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /**
+             * Source
+             * @description where it comes from: built in, a package, or its file
+             */
+            source: string;
+            /**
+             * Description
+             * @description what its file says about it
+             */
+            description: string;
+            /**
+             * Settings
+             * @description JSON schema of its settings, or of an application's parameters; null when it has none
+             */
+            settings: {
+                [key: string]: unknown;
+            } | null;
+            /** Gives */
+            gives: components["schemas"]["Given"][];
+        };
+        /**
+         * Kinds
+         * @description All kinds, sort by sort, and the files that are broken.
+         */
+        Kinds: {
+            /** Kinds */
+            kinds: components["schemas"]["Kind"][];
+            /** Broken */
+            broken: components["schemas"]["BrokenKind"][];
         };
         /**
          * Layout
@@ -1711,6 +1765,23 @@ export interface components {
             type: "refused";
         };
         /**
+         * Revision
+         * @description What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was.
+         */
+        Revision: {
+            /** Folder */
+            folder: string;
+            /** Commit */
+            commit: string;
+            /** Patch */
+            patch: string;
+            /**
+             * Is Cut
+             * @description whether the patch was too long to be kept as a whole
+             */
+            is_cut: boolean;
+        };
+        /**
          * Run
          * @description A run in the database; `parameters` are those that were set, by path.
          */
@@ -1755,7 +1826,7 @@ export interface components {
         };
         /**
          * RunDetail
-         * @description A run with its scenario, what can be plotted of it, and what happened.
+         * @description A run with its scenario, what can be plotted of it, what happened, and of what code it is made.
          */
         RunDetail: {
             /** Run */
@@ -1795,6 +1866,27 @@ export interface components {
             metrics: {
                 [key: string]: components["schemas"]["Metric"];
             };
+            /**
+             * Kinds
+             * @description digests of all kinds that it used, by sort.name
+             */
+            kinds: {
+                [key: string]: string;
+            };
+            /**
+             * Host
+             * @description name of the machine; null for a run of an older studio
+             */
+            host: string | null;
+            /**
+             * Versions
+             * @description of Python and of the packages that compute
+             */
+            versions: {
+                [key: string]: string;
+            };
+            /** Revisions */
+            revisions: components["schemas"]["Revision"][];
             /** Document */
             document: {
                 [key: string]: unknown;
@@ -1829,7 +1921,7 @@ export interface components {
         };
         /**
          * ScenarioDetail
-         * @description A scenario with its full document and the schema of its file.
+         * @description A scenario with its full document, what of it stands in the file, and the schema of its file.
          */
         ScenarioDetail: {
             /** Id */
@@ -1842,8 +1934,18 @@ export interface components {
             attribution: string;
             /** Scenario Hash */
             scenario_hash: string;
-            /** Document */
+            /**
+             * Document
+             * @description with all defaults
+             */
             document: {
+                [key: string]: unknown;
+            };
+            /**
+             * Given
+             * @description as it stands in the file, in the present version of the format: without defaults
+             */
+            given: {
                 [key: string]: unknown;
             };
             /** Schema */
@@ -2304,7 +2406,7 @@ export interface operations {
             };
         };
     };
-    applications_api_applications_get: {
+    kinds_api_kinds_get: {
         parameters: {
             query?: never;
             header?: never;
@@ -2319,7 +2421,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Application"][];
+                    "application/json": components["schemas"]["Kinds"];
                 };
             };
             /** @description Not Found */

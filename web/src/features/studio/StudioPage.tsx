@@ -93,7 +93,6 @@ interface ParametersProps {
 
 /** The left side. Its parts change only with the form, not ten times a second with the run. */
 const Parameters = memo(function Parameters({ id, form, draft, update, other }: ParametersProps) {
-  const { applications } = form;
   const { changes } = draft;
   return (
     <aside className={classes.panel} aria-label="Parameters">
@@ -103,14 +102,10 @@ const Parameters = memo(function Parameters({ id, form, draft, update, other }: 
       {form.sections ? (
         <ParameterPanel
           sections={form.sections}
-          applications={applications}
           problems={form.problems}
           parent={draft.parent}
           onChange={(field, value) => update({ changes: withChange(changes, field, value) })}
-          onExchange={(exchange, name) => {
-            const next = applications.find((known) => known.name === name);
-            if (next) update({ changes: exchanged(changes, exchange, next) });
-          }}
+          onExchange={(exchange, name) => update({ changes: exchanged(changes, exchange, name) })}
           onResetAll={() => update({ changes: {} })}
           onForgetParent={() => update({ parent: null })}
         />
