@@ -65,10 +65,20 @@ def runs(
 
 
 @commands.command()
-def show(run: Annotated[int, typer.Argument(help="Number of the run.")], db: Db = DEFAULT_DB, as_json: AsJson = False) -> None:  # fmt: skip
-    """Shows one run: what was set, and every metric."""
-    row = existing(db).find(run)
-    print_json(run_json(row)) if as_json else print_run(row)
+def show(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    db: Db = DEFAULT_DB,
+    sources: Annotated[bool, typer.Option("--sources", help="The texts of the kinds that it used, and what was not committed.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Shows one run: what was set, and every metric; or the texts of its kinds."""
+    runs = existing(db)
+    row = runs.find(run)
+    if sources:
+        texts, patches = runs.sources(row), {each["folder"]: runs.text(each["patch"]) for each in row.revisions}
+        print_json({"kinds": texts, "patches": patches}) if as_json else print_sources(row, texts, patches)
+    else:
+        print_json(run_json(row)) if as_json else print_run(row)
 
 
 @commands.command()
@@ -178,6 +188,7 @@ def print_run(row) -> None:
         "time": f"{text(row.sim_time_s)} s simulated in {text(row.wall_time_s)} s",
         "state": (row.state_hash or "none")[:16],
         "code": row.code_version,
+        "kinds": ", ".join(name for name in row.kinds if not name.startswith(("metric.", "channel."))) or "none by name",
     }
     for name, value in lines.items():
         print(f"{name:9} {value}")
@@ -190,6 +201,15 @@ def print_run(row) -> None:
             ["metric", "value", "better"],
             [[f"{name} [{each.unit}]", text(each.value), each.goal or ""] for name, each in row.metrics.items()],
         )
+
+
+def print_sources(row, texts: dict[str, dict[str, str]], patches: dict[str, str]) -> None:
+    """The texts of a run's kinds, then what was changed since the last commits."""
+    for name, files in texts.items():
+        for file, content in files.items():
+            print(f"# ---- {name} {row.kinds[name]}: {file}\n{content}")
+    for each in row.revisions:
+        print(f"# ---- {each['folder']}: {each['commit']}{', cut' if each['is_cut'] else ''}\n{patches[each['folder']]}")
 
 
 def settings(parameters: dict[str, Any]) -> str:

@@ -5,6 +5,8 @@
     metrics     run, name → value, unit, goal
     events      run → time, text, vehicle
     traces      run → one Parquet file with a column per channel
+    kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
+    texts       digest → text                  files of kinds, and patches; equal ones stand once
 
 SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
 """
@@ -18,7 +20,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 1
+LAYOUT = 2
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -41,6 +43,10 @@ TABLES = {
             "unmet": str,
             "process": int,
             "process_started": float,
+            "kinds": str,
+            "host": str,
+            "versions": str,
+            "revisions": str,
         },
         "run",
         (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
@@ -48,6 +54,8 @@ TABLES = {
     "metrics": ({"run": int, "name": str, "value": float, "unit": str, "goal": str}, ("run", "name"), (("run", "runs", "run"),)),
     "events": ({"run": int, "time": float, "text": str, "vehicle": str}, None, (("run", "runs", "run"),)),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
+    "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
+    "texts": ({"digest": str, "text": str}, "digest", ()),
 }  # fmt: skip
 
 
@@ -82,6 +90,7 @@ def prepared(database: Database, path: Path) -> Database:
         )
     if layout == 0:
         refuse_foreign(database, path)
+    if layout < LAYOUT:
         make_tables(database)
     database.execute("pragma foreign_keys = on")
     database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
@@ -100,12 +109,17 @@ def refuse_foreign(database: Database, path: Path) -> None:
 
 
 def make_tables(database: Database) -> None:
-    """Tables and indices of this layout; another process may be doing the same."""
+    """Tables, columns and indices of this layout that are not there; another process may be doing the same.
+
+    A layout only ever adds: what an older studio has written stays, and is empty in the columns that it did not know.
+    """
     patiently(database.enable_wal)
     patiently(lambda: database.conn.execute("begin immediate"))
     with database.conn:
         for name, (columns, key, foreign) in TABLES.items():
-            database.table(name).create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
+            table = database.table(name).create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
+            for column in [each for each in columns if each not in table.columns_dict]:
+                table.add_column(column, columns[column])
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
         database.execute(f"pragma user_version = {LAYOUT}")
