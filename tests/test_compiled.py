@@ -110,7 +110,7 @@ def test_compiled_functions_of_a_file_are_known():
     assert compiled_functions(PACKAGE / "compiled.py") == []
 
 
-OF_A_FOLDER = '''
+OF_A_FOLDER = """
 from typing import NamedTuple
 from studio.compiled import compiled
 class Pair(NamedTuple):
@@ -119,7 +119,7 @@ class Pair(NamedTuple):
 @compiled
 def total(pair):
     return pair.first + pair.second
-'''
+"""
 SHARED = "from studio.compiled import compiled\n@compiled\ndef first(pair):\n    return pair[0]\n"
 
 
