@@ -100,7 +100,7 @@ def test_what_must_not_be_ends_the_run_and_names_all(made, command, above):
     """Application, unit, field, value, tick; the run is failed and has its record until there."""
     late = f"{command} if sees.clock.time > 0.19 else accelerate(0.0)".replace("0.0 / max(sees.own.yaw_rate * 0.0, 0.0)", "zero / zero")
     body = DECIDE.replace("accelerate(parameters.u)", late).replace("    return", "    zero = np.float64(sees.own.speed * 0.0)\n    return")
-    made(tried="import numpy as np\n" + HEAD + above + body)
+    made(tried=HEAD + "import numpy as np\n" + above + body)
     found = run({"mine": {"units": ["follower_2"], "application": "tried"}})
     named, why = WRONG[command]
     assert found.status == "failed" and found.error.startswith(f"The application 'tried' on 'follower_2' gave {named} at tick 10 (0.2 s)")
@@ -186,8 +186,8 @@ def decide(parameters, memory, sees):
 
 def refused(applications, **changes):
     """What is said about a scenario, place by place."""
+    loaded = job.load(SAMPLE, {"applications": applications} | changes)
     with pytest.raises(ScenarioError) as caught:
-        loaded = job.load(SAMPLE, {"applications": applications} | changes)
         job.check(loaded)
     return "\n".join(map(str, caught.value.problems))
 

@@ -9,7 +9,7 @@ from studio.execution import record as recording
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.kind import registry
-from studio.vehicle.parameter import MASS
+from studio.vehicle.parameter import AREA
 from tests.broken import BROKEN
 from tests.conftest import ROOT
 
@@ -75,7 +75,7 @@ def test_a_state_that_is_none_ends_its_world_only():
     each = [loaded(1), loaded(2)]
     together = simulation(*map(job.prepare, each))
     together.advance(10)
-    together.world.vehicles.parameter[MASS, together.world.worlds.first[1] + 2] = np.nan
+    together.world.vehicles.parameter[AREA, together.world.worlds.first[1] + 2] = np.nan
     as_fast_as_possible(together)
     same(job.outcome(each[0], together, 0), outcomes([each[0]])[0])
     failed = together.cases[1]
