@@ -21,6 +21,7 @@ Several processes may compile at once: whoever comes first compiles a function, 
 cache. So they share the work, and nothing is compiled twice.
 """
 
+import hashlib
 import uuid
 from collections.abc import Callable, Generator
 from contextlib import contextmanager, suppress
@@ -35,7 +36,7 @@ from numba.core.caching import UserProvidedCacheLocator
 from numba.core.compiler_lock import global_compiler_lock
 
 from studio.cache import cache_root, forget_old, touch
-from studio.source import closure, digest_of
+from studio.source import PACKAGE, closure, digest_of
 
 LOOK_AGAIN = 0.01  # [s] between two looks whether another process has finished a function
 config: Any = numba.config  # its names are made from the environment while it is loaded
@@ -43,8 +44,12 @@ CPU = config.CPU_NAME or get_host_cpu_name()
 
 
 def folder_of(path: Path) -> Path:
-    """Where the machine code of a file is kept, for this machine's kind of processor."""
-    return CACHE / f"{path.parent.name}.{path.stem}-{digest_of(*closure(path))}-{CPU}"
+    """Where the machine code of a file is kept, for this machine's kind of processor.
+
+    Kept code names the modules of its types, and modules of a user's folder are named after where it lies: moved, it has code of its own.
+    """
+    moved = "" if path.is_relative_to(PACKAGE) else f"-{hashlib.sha256(str(path.parent).encode()).hexdigest()[:8]}"
+    return CACHE / f"{path.parent.name}.{path.stem}{moved}-{digest_of(*closure(path))}-{CPU}"
 
 
 class Locator(UserProvidedCacheLocator):

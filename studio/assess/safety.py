@@ -4,7 +4,9 @@ import numpy as np
 
 from studio.assess.metric import metric
 from studio.execution.record import Record
+from studio.world.table.event import EVENTS, HIT
 
+COLLISION = EVENTS[HIT].name
 CLOSING = 0.1  # [m/s] slower than this nobody comes nearer: it would take minutes, and sensors could not tell
 
 
@@ -57,4 +59,4 @@ def max_deceleration(record: Record) -> float:
 @metric("collisions", unit="1", goal="lower", title="Collisions")
 def collisions(record: Record) -> float:
     """Pairs of vehicles, traffic included, whose bodies touched."""
-    return float(sum(event.text.startswith("collision") for event in record.happenings))
+    return float(sum(event.kind == COLLISION for event in record.happenings))

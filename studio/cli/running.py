@@ -36,7 +36,7 @@ def run(
     with progress("starting") as report:
         result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
     if as_json:
-        print_json(run_json(result.row))
+        print_json(run_json(result.row) | events_json(result.record.happenings))
     else:
         print_run(result.row)
     if result.status == "failed":
@@ -66,9 +66,15 @@ def runs(
 
 @commands.command()
 def show(run: Annotated[int, typer.Argument(help="Number of the run.")], db: Db = DEFAULT_DB, as_json: AsJson = False) -> None:  # fmt: skip
-    """Shows one run: what was set, and every metric."""
-    row = existing(db).find(run)
-    print_json(run_json(row)) if as_json else print_run(row)
+    """Shows one run: what was set, every metric, and what happened."""
+    kept = existing(db)
+    row, events = kept.find(run), kept.events(run)
+    if as_json:
+        print_json(run_json(row) | events_json(events))
+        return
+    print_run(row)
+    if events:
+        print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
 
 
 @commands.command()
@@ -163,6 +169,11 @@ def run_json(row) -> dict[str, Any]:
     plain = asdict(row)
     plain["metrics"] = {name: asdict(each) for name, each in row.metrics.items()}
     return plain
+
+
+def events_json(events) -> dict[str, Any]:
+    """What happened, as scripts read it."""
+    return {"events": [each.as_json() for each in events]}
 
 
 def print_run(row) -> None:

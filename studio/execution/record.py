@@ -5,21 +5,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.errors import UnknownError, nearest
+from studio.execution.happening import Happening
 from studio.world import channel
 from studio.world.channel import BY_NAME, CHANNELS, TIME_GAP
 from studio.world.world import World
 
 ROLLING = 0.5  # [m/s] below this speed a time gap says nothing
 CHUNK = 128  # samples that room is made for at a time
-
-
-@dataclass(frozen=True)
-class Happening:
-    """Something that happened: when [s], what, to which vehicle."""
-
-    time: float
-    text: str
-    vehicle: str
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from studio.errors import Problem, nearest
+from studio.kind import registry
 from studio.scenario.schema import located
 
 
@@ -16,7 +17,10 @@ def problems(error: ValidationError, where: str, model: type, *, under: str = ""
 
 def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Problem:
     """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
-    path = under + located(model.model_json_schema(), finding["loc"])[0] or "the scenario"
+    path, node = located(model.model_json_schema(), finding["loc"])
+    path = under + path or "the scenario"
+    if finding["type"].startswith("union_tag"):
+        return kind_problem(finding, f"{where}: {path}.kind", list(node["discriminator"]["mapping"]))
     what = finding["msg"].removeprefix("Value error, ")
     value, remedy = short(finding["input"]), ""
     if finding["type"] == "extra_forbidden":
@@ -25,6 +29,16 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
     elif finding["type"] == "missing":
         what, value, remedy = "is missing", "", "add it"
     return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
+
+
+def kind_problem(finding: ErrorDetails, where: str, known: list[str]) -> Problem:
+    """A kind that is not registered, or none at all."""
+    if "tag" not in finding.get("ctx", {}):
+        return Problem(where, "is missing", allowed=", ".join(known), remedy="add it")
+    tag = finding["ctx"]["tag"]
+    broken = next((each for each in registry.broken() if each.name == tag), None)
+    remedy = f"{broken.file} cannot be used: {broken.error}" if broken else nearest(tag, known)
+    return Problem(where, "names no kind that may stand here", repr(tag), ", ".join(known), remedy)
 
 
 def lower(text: str) -> str:

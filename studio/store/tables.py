@@ -3,7 +3,7 @@
     scenarios   hash → document            what was run, by content
     runs        run → scenario, parent, seed, status, ...
     metrics     run, name → value, unit, goal
-    events      run → time, text, vehicle
+    events      run → time, kind, text, vehicle, units, x, y, numbers
     traces      run → one Parquet file with a column per channel
 
 SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
@@ -18,7 +18,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 1
+LAYOUT = 2
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -46,9 +46,34 @@ TABLES = {
         (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
     ),
     "metrics": ({"run": int, "name": str, "value": float, "unit": str, "goal": str}, ("run", "name"), (("run", "runs", "run"),)),
-    "events": ({"run": int, "time": float, "text": str, "vehicle": str}, None, (("run", "runs", "run"),)),
+    "events": (
+        {
+            "run": int,
+            "time": float,
+            "text": str,
+            "vehicle": str,
+            "kind": str,
+            "units": str,
+            "x": float,
+            "y": float,
+            "numbers": str,
+        },
+        None,
+        (("run", "runs", "run"),),
+    ),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
 }  # fmt: skip
+
+# What makes the next layout of a file that has an older one, by the layout that it has.
+STEPS: dict[int, tuple[str, ...]] = {
+    1: (
+        "alter table events add column kind text",
+        "alter table events add column units text",
+        "alter table events add column x float",
+        "alter table events add column y float",
+        "alter table events add column numbers text",
+    ),
+}
 
 
 def open_database(path: Path) -> Database:
@@ -83,6 +108,8 @@ def prepared(database: Database, path: Path) -> Database:
     if layout == 0:
         refuse_foreign(database, path)
         make_tables(database)
+    elif layout < LAYOUT:
+        bring_up(database)
     database.execute("pragma foreign_keys = on")
     database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
     database.execute("commit")
@@ -108,6 +135,17 @@ def make_tables(database: Database) -> None:
             database.table(name).create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
+        database.execute(f"pragma user_version = {LAYOUT}")
+
+
+def bring_up(database: Database) -> None:
+    """Gives an older file the present layout; what stands in it stays. Another process may be doing the same."""
+    patiently(lambda: database.conn.execute("begin immediate"))
+    with database.conn:
+        layout = database.execute("pragma user_version").fetchone()[0]
+        for step in range(layout, LAYOUT):
+            for change in STEPS[step]:
+                database.execute(change)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 

@@ -15,13 +15,13 @@ from studio.vehicle.state import VEHICLE, WHEEL
 from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
-from studio.world.table.street import COLLISION, LINE, MOMENT, OBSTACLE, PIECE, SWEEP
+from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
 from studio.world.table.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET
 
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
     MIND, SCRIPT, DRIVER, SENSOR, MESSAGE, SENSOR_SET, GPS_SET, RADIO_SET,
-    LINE, MOMENT, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
+    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 

@@ -1,6 +1,6 @@
-"""Control: who commands what. Triggers start scripted maneuvers; maneuver, application and driver share the actuators.
+"""Control: who commands what. Maneuvers of the script, applications and drivers share the actuators.
 
-Order of precedence on the pedals: a scripted maneuver, then the application, then the driver. A driver whose application
+Order of precedence on pedals and wheel: a scripted maneuver, then the application, then the driver. A driver whose application
 drives still brakes for a red light, for a car that merges first, and when a collision is near: an application need see none
 of them. What an application does not command stays the driver's.
 
@@ -21,11 +21,12 @@ from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, R
 from studio.vehicle.state import A_X, ACCELERATOR, ACTIVE, CLUTCH, DELTA, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X, YAW_RATE, X, Y
 from studio.world.table.mind import (
     AHEAD_SPEED,
+    DRIVES,
     GAP,
-    SCRIPT_BRAKE,
-    SCRIPT_SPEED,
-    SCRIPT_UNTIL,
+    SCRIPT_ACCELERATION,
+    SCRIPT_STEERING,
     STEER_WISH,
+    STEERS,
     STOPPING,
     V_DESIRED,
     WISH,
@@ -42,29 +43,6 @@ HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
 ) = range(len(ACTUATORS))  # fmt: skip
-
-
-@lean
-def fire(time, trigger_time, trigger_vehicle, trigger_script, fired, script):
-    """Starts the maneuvers whose time has come."""
-    for i in range(trigger_time.size):
-        if fired[i] == 0 and time >= trigger_time[i] - 1e-9:
-            fired[i] = 1
-            v = trigger_vehicle[i]
-            script[SCRIPT_BRAKE, v] = trigger_script[SCRIPT_BRAKE, i]
-            script[SCRIPT_UNTIL, v] = time + trigger_script[SCRIPT_UNTIL, i]
-            script[SCRIPT_SPEED, v] = trigger_script[SCRIPT_SPEED, i]
-
-
-@inlined
-def is_scripted(v, time, state, script):
-    """Whether a maneuver commands the pedals; it ends with its time, or once its speed is reached."""
-    if time >= script[SCRIPT_UNTIL, v] - 1e-9:
-        return False
-    if state[V_X, v] <= script[SCRIPT_SPEED, v]:
-        script[SCRIPT_UNTIL, v] = -inf
-        return False
-    return True
 
 
 @inlined
@@ -167,26 +145,39 @@ def take_over(v, column, state, parameter, mind, app_command, commands):
 
 
 @inlined
-def steer(v, column, parameter, mind, app_command, commands):
-    """Steering: a torque at the wheel, or an angle; the driver's when the application commands neither."""
-    angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
+def scripted(acceleration):
+    """What a maneuver asks for [m/s²], within the bounds of the interface; what is not finite stays so, and ends the run as failed."""
+    if not acceleration >= STRONGEST_BRAKE:
+        return acceleration if isnan(acceleration) else STRONGEST_BRAKE
+    return min(acceleration, STRONGEST_DRIVE)
+
+
+@inlined
+def steer(v, column, parameter, script, mind, app_command, commands):
+    """Steering: a torque at the wheel, or an angle; the maneuver's, else the application's, else the driver's."""
     limit = parameter[STEER_MAX, v]
+    if script[STEERS, v] != 0.0:
+        angle = script[SCRIPT_STEERING, v]
+        commands[U_STEER, column] = angle if isnan(angle) else min(max(angle, -limit), limit)
+        commands[U_STEER_TORQUE, column] = nan
+        return
+    angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
     commands[U_STEER, column] = min(max(angle, -limit), limit)
     commands[U_STEER_TORQUE, column] = app_command[APP_STEERING_TORQUE, v]
 
 
 @lean
-def command(k, time, state, ground, parameter, script, mind, app_command, commands):
+def command(k, state, ground, parameter, script, mind, app_command, commands):
     """Writes this tick's commands into the ring."""
     n = state.shape[1]
     for v in range(n):
         column = (k % RING) * n + v
-        steer(v, column, parameter, mind, app_command, commands)
+        steer(v, column, parameter, script, mind, app_command, commands)
         commands[U_GEAR, column] = app_command[APP_GEAR, v]
         if state[ACTIVE, v] == 0.0:
             pedals(v, column, STRONGEST_BRAKE, state, ground, parameter, commands)
-        elif is_scripted(v, time, state, script):
-            pedals(v, column, -script[SCRIPT_BRAKE, v], state, ground, parameter, commands)
+        elif script[DRIVES, v] != 0.0:
+            pedals(v, column, scripted(script[SCRIPT_ACCELERATION, v]), state, ground, parameter, commands)
         else:
             pedals(v, column, request(v, state, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
             take_over(v, column, state, parameter, mind, app_command, commands)

@@ -1,4 +1,4 @@
-"""Drivers: what they are like, what they know and want at this tick, and the maneuvers that a trigger has set going."""
+"""Drivers: what they are like, what they know and want at this tick, and what maneuvers of the script command."""
 
 from studio.rows import Role, Table
 
@@ -33,7 +33,8 @@ STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next light permi
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
 
-SCRIPT = Table("script", Role.STATE, per="vehicle")
-SCRIPT_BRAKE = SCRIPT.row("deceleration", "m/s²", "scripted braking")
-SCRIPT_UNTIL = SCRIPT.row("until", "s", "end of the maneuver")
-SCRIPT_SPEED = SCRIPT.row("to_speed", "m/s", "speed at which it ends earlier")
+SCRIPT = Table("script", Role.DERIVED, per="vehicle")
+DRIVES = SCRIPT.row("drives", "1", "1 while a maneuver of the script commands the pedals")
+SCRIPT_ACCELERATION = SCRIPT.row("acceleration", "m/s²", "that it asks for")
+STEERS = SCRIPT.row("steers", "1", "1 while a maneuver of the script commands the wheel")
+SCRIPT_STEERING = SCRIPT.row("steering", "rad", "road wheel angle that it asks for")
