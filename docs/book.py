@@ -73,11 +73,11 @@ def written() -> dict[str, str]:
 
 def made() -> dict[str, str]:
     """The pages that are made from the code."""
-    from docs.reference import application, catalogue, channel, command, event, metric, module, rest, scenario, vehicle
+    from docs.reference import catalogue, channel, command, event, kind, module, rest, scenario, vehicle
 
-    single = {"scenario": scenario, "vehicle": vehicle, "catalogue": catalogue, "channels": channel, "metrics": metric, "events": event,
-              "applications": application, "commands": command, "rest": rest}  # fmt: skip
-    return {f"reference/{name}.md": each.page() for name, each in single.items()} | module.pages()
+    single = {"scenario": scenario, "vehicle": vehicle, "catalogue": catalogue, "channels": channel, "events": event,
+              "commands": command, "rest": rest}  # fmt: skip
+    return {f"reference/{name}.md": each.page() for name, each in single.items()} | kind.pages() | module.pages()
 
 
 def lay_out(folder: Path) -> None:

@@ -29,7 +29,6 @@ from typing import Any
 import numpy as np
 
 from studio import job
-from studio.application import setup
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.errors import Problem, ServerError
 from studio.execution.simulation import Simulation, simulation
@@ -38,7 +37,7 @@ from studio.road.drawn.motorway import motorway
 from studio.road.library.place import imported
 from studio.road.library.reader import reader_of
 from studio.road.ways.conflict import zones
-from studio.scenario import catalogue
+from studio.scenario import catalogue, setup
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.projection import Scene
@@ -134,7 +133,7 @@ def crowd_document(count: int) -> dict[str, Any]:
         "routes": {name: {"roads": [road], "speeds": [{"at": 0, "speed": 30}]} for name, road in ROADS.items()},
         "vehicles": {name: crowd_vehicle(i) for i, name in enumerate(names)},
         "applications": {
-            f"platoon_{k}": {"application": "cacc", "vehicles": members[1:], "listens_to": members[:-1]}
+            f"platoon_{k}": {"application": "cacc", "units": members[1:], "listens_to": members[:-1]}
             for k, members in enumerate(platoons)
             if len(members) > 1
         },

@@ -46,10 +46,10 @@ CPU = config.CPU_NAME or get_host_cpu_name()
 def folder_of(path: Path) -> Path:
     """Where the machine code of a file is kept, for this machine's kind of processor.
 
-    Kept code names the modules of its types, and modules of a user's folder are named after where it lies: moved, it has code of its own.
+    Users' modules are named by their folders, and their code names them: the same file in two folders has two places.
     """
-    moved = "" if path.is_relative_to(PACKAGE) else f"-{hashlib.sha256(str(path.parent).encode()).hexdigest()[:8]}"
-    return CACHE / f"{path.parent.name}.{path.stem}{moved}-{digest_of(*closure(path))}-{CPU}"
+    outside = "" if path.is_relative_to(PACKAGE) else f"{hashlib.sha256(str(path.parent).encode()).hexdigest()[:8]}-"
+    return CACHE / f"{path.parent.name}.{path.stem}-{outside}{digest_of(*closure(path))}-{CPU}"
 
 
 class Locator(UserProvidedCacheLocator):
@@ -97,6 +97,7 @@ def compiled(function: Any = None, **options: Any) -> Any:
     # numba numbers the files of a function's machine code. Two processes that compile it for different types at the same
     # time would both write number 1, and one would be taken for the other; so every process has names of its own.
     file = dispatcher._cache._cache_file
+    file._load_index = partial(readable, file._load_index)
     file._data_name_pattern = file._data_name_pattern.replace("{number:d}", f"{{number:d}}-{uuid.uuid4().hex[:12]}")
     dispatcher.compile = partial(compile_alone, dispatcher.compile, f"{file._index_path}.lock")
     return dispatcher
@@ -104,6 +105,14 @@ def compiled(function: Any = None, **options: Any) -> Any:
 
 lean = compiled(_nrt=False)
 inlined = compiled(forceinline=True, _nrt=False)
+
+
+def readable(load: Callable[[], dict]) -> dict:
+    """What there is of a function; nothing when some of it is for the types of a module that is not loaded now: a user's own."""
+    try:
+        return load()
+    except (ImportError, AttributeError):
+        return {}
 
 
 def compile_alone(compile, lock: str, signature):

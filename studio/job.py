@@ -17,14 +17,14 @@ from typing import Any
 
 import numpy as np
 
-from studio.application import setup
 from studio.assess.measure import measure_all, unmet
-from studio.assess.metric import Measured, registered
-from studio.errors import Problem, ScenarioError, nearest
+from studio.assess.metric import Measured
+from studio.errors import Problem, ScenarioError, UnknownError
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
-from studio.scenario import file
+from studio.kind import registry
+from studio.scenario import file, setup
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source
@@ -63,7 +63,7 @@ class Loaded:
 
 @dataclass(frozen=True)
 class Run:
-    """A run that is over: its record, metrics, and its row when it was saved."""
+    """A run that is over: its record, metrics, and its row when it was saved. `error` tells why it failed, and which kinds raised."""
 
     record: Record
     metrics: dict[str, Measured]
@@ -107,12 +107,12 @@ def loaded(source: Source, path: Path, changes: dict[str, Any] | None = None) ->
 
 def check_goals(loaded: Loaded) -> None:
     """Goals must be about metrics that exist; raises ScenarioError."""
-    where, metrics = loaded.path.name, registered()
-    wrong = [
-        Problem(f"{where}: goals.{name}", "is no metric", remedy=nearest(name, metrics))
-        for name in loaded.scenario.goals
-        if name not in metrics
-    ]
+    where, wrong = loaded.path.name, []
+    for name in loaded.scenario.goals:
+        try:
+            registry.find("metric", name)
+        except UnknownError as error:
+            wrong.append(Problem(f"{where}: goals.{name}", error.message))
     if wrong:
         raise ScenarioError(f"{where} is not a valid scenario.", wrong)
 
@@ -173,14 +173,16 @@ def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
     """What a finished simulation brought for one of its worlds."""
     wall = time.perf_counter() - finished.started
     case, record = finished.cases[number], finished.record(number)
-    metrics = measure_all(record)
+    told: list[str] = [case.error] if case.error else []
+    record.derived.make(told.append)
+    metrics = measure_all(record, told.append)
     return Run(
         record=record,
         metrics=metrics,
         unmet=unmet(loaded.scenario.goals, metrics),
         channels=tuple(loaded.scenario.recording.channels),
         status=case.status,
-        error=case.error,
+        error="\n".join(told) or None,
         state_hash=case.state_hash,
         sim_time_s=round(case.time, 9),
         wall_time_s=round(wall, 3),

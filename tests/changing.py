@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from studio.application.setup import complete
 from studio.scenario import file
+from studio.scenario.setup import complete
 from studio.vehicle.state import V_X
 from studio.world.build import build
 from studio.world.setting import setting

@@ -34,6 +34,16 @@ def sample_setting():
     return job.prepare(job.load(SAMPLE, {"clock.duration": 10}))
 
 
+@pytest.fixture
+def own_kinds():
+    """Loads a folder of kinds as `--kinds` does; they are gone again when the test is over."""
+    from studio.kind import registry
+
+    kept = list(registry.every())
+    yield registry.load_folder
+    registry.restore(kept)
+
+
 # What takes longest comes first, so that no process is left alone with it at the end.
 LONGEST_FIRST = (
     "tests/world/test_random_routes.py",

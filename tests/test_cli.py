@@ -160,7 +160,10 @@ def test_what_is_wrong_in_a_file_has_its_line_and_in_an_old_one_its_migration(tm
         (("run", "{sample}", "--parent", "99"), ["99", "the newest is 2"]),
         (("run", "missing.yaml"), ["missing.yaml", "does not exist"]),
         (("run", "{sample}", "--db", "no/such/runs.db"), ["runs.db", "cannot be opened"]),
-        (("run", "{sample}", "--applications", "nowhere"), ["nowhere", "folder"]),
+        (("run", "{sample}", "--kinds", "nowhere"), ["nowhere", "folder"]),
+        (("kinds", "--kinds", "nowhere"), ["nowhere", "folder"]),
+        (("new", "metric", "min_ttc"), ["min_ttc", "built in"]),
+        (("conform", "nowhere.py"), ["nowhere.py", "does not exist"]),
         (("show", "99"), ["no run 99", "the newest is 2"]),
         (("compare", "1", "99"), ["no run 99"]),
         (("runs", "--db", "absent.db"), ["absent.db", "does not exist"]),
@@ -201,11 +204,57 @@ def test_an_application_that_raises_fails_its_run(folder, sample, tmp_path):
     assert 0.5 <= run["sim_time_s"] < 0.6
 
 
-def test_an_application_that_does_not_load(folder, sample, tmp_path):
+def test_a_file_that_does_not_load_hurts_nobody_else(folder, sample, tmp_path):
+    """It is told with its traceback; a scenario that needs it is refused with the same."""
     cwd, *_ = folder
-    (tmp_path / "mine.py").write_text("import no_such_module")
-    code, _, errors = studio("check", sample, "--applications", tmp_path, cwd=cwd)
-    assert code == 2 and "mine.py" in errors and "no_such_module" in errors
+    (tmp_path / "mine.py").write_text('KIND = "application"\nimport no_such_module')
+    command = ("check", sample, "--kinds", tmp_path)
+    code, out, errors = studio(*command, cwd=cwd)
+    assert code == 0 and "is valid" in out and "mine.py" in errors and "Traceback" in errors and "no_such_module" in errors
+    code, _, errors = studio(*command, "--set", "applications.platoon.application=mine", cwd=cwd)
+    assert code == 2 and "applications.platoon.application" in errors and "cannot be used" in errors and "no_such_module" in errors
+
+
+METRIC = '''"""Does something."""
+KIND, TITLE, UNIT, BETTER = "metric", "Mine", "m", "higher"
+def measure(record):
+    """Number [m]."""
+    return 1.0
+'''
+
+
+def test_kinds_are_listed(tmp_path):
+    """Those of the studio and one's own, with where they come from; broken files too."""
+    (tmp_path / "mine.py").write_text(METRIC)
+    (tmp_path / "broken.py").write_text(METRIC.replace("measure", "measured"))
+    (tmp_path / "helper.py").write_text("VALUE = 1")
+    code, out, errors = studio("kinds", "--kinds", ".", "--json", cwd=tmp_path)
+    listed = json.loads(out)
+    assert code == 0 and all(set(each) == {"kind", "name", "title", "source"} for each in listed)
+    assert {"kind": "metric", "name": "mine", "title": "Mine", "source": str(tmp_path / "mine.py")} in listed
+    assert {"kind": "channel", "name": "time_gap", "title": "Time gap to the car ahead", "source": "built in"} in listed
+    assert "broken.py: measure: is missing" in errors and "helper" not in out + errors
+    code, out, _ = studio("kinds", "--applications", tmp_path, cwd=tmp_path)
+    assert code == 0 and "broken file" in out and "mine.py" in out and "Least time to collision" in out
+    assert studio("kinds", cwd=tmp_path)[1].count("mine") == 0
+
+
+def test_a_kind_is_begun_and_tried(tmp_path):
+    code, out, _ = studio("new", "metric", "mine", cwd=tmp_path)
+    assert code == 0 and {path.name for path in tmp_path.iterdir()} == {"mine.py", "test_mine.py", "mine.yaml", "motorway.xodr"}
+    assert "studio run mine.yaml --kinds ." in out
+    code, out, _ = studio("conform", "mine.py", cwd=tmp_path)
+    assert code == 0 and out.count("\nok ") >= 4 and "failed" not in out
+    assert studio("new", "metric", "mine", cwd=tmp_path)[0] == 2
+    (tmp_path / "mine.py").write_text(METRIC.replace("return 1.0", "return 1 / 0"))
+    code, out, _ = studio("conform", "mine", "--kinds", ".", cwd=tmp_path)
+    assert code == 1 and "failed" in out and "ZeroDivisionError" in out
+    (tmp_path / "mine.py").write_text(METRIC.replace("UNIT", "UNITS"))
+    code, out, _ = studio("conform", "mine.py", cwd=tmp_path)
+    assert code == 1 and "UNIT: is missing" in out
+    code, out, _ = studio("conform", "metric.min_ttc", cwd=tmp_path)
+    assert code == 0 and out.startswith("metric min_ttc (built in)")
+    assert "did you mean 'min_ttc'" in studio("conform", "min_tc", cwd=tmp_path)[2]
 
 
 def test_vehicles(tmp_path):

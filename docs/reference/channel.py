@@ -22,7 +22,7 @@ STORED = ("name", "unit", "role", "recorded as", "meaning")
 
 def page() -> str:
     """Channels, then rows."""
-    channels = table(RECORDED, [[code(each.name), each.unit, each.label] for each in channel.BY_NAME.values()])
+    channels = table(RECORDED, [[code(each.name), each.unit, each.label] for each in channel.catalogue().values()])
     return "\n".join([HEAD, channels, ROWS, *map(rows, TABLES)])
 
 

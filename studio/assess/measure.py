@@ -1,22 +1,29 @@
 """Measuring: every metric of a record, and the goals that are not met."""
 
 import math
+import traceback
+from collections.abc import Callable
 
-from studio.assess import comfort, cooperation, safety, string_stability, traffic  # noqa: F401 - they register
-from studio.assess.metric import Measured, Metric, registered
+from studio.assess.metric import Measured
 from studio.execution.record import Record
+from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.scenario.schema import Goal
 
 
-def measure_all(record: Record) -> dict[str, Measured]:
-    """Every metric of a record."""
-    return {name: measured(each, record) for name, each in registered().items()}
+def measure_all(record: Record, tell: Callable[[str], None] = lambda text: None) -> dict[str, Measured]:
+    """Every metric of a record; one that raises measures nothing, and is told with its traceback."""
+    return {name: measured(each, record, tell) for name, each in registry.known("metric").items()}
 
 
-def measured(each: Metric, record: Record) -> Measured:
-    """One metric of a record."""
-    value = float(each.measure(record)) if record.time.size else math.nan
-    return Measured(value if math.isfinite(value) else None, each.unit, each.goal)
+def measured(kind: Kind, record: Record, tell: Callable[[str], None]) -> Measured:
+    """One metric of a record. Not a number means that there was nothing to measure: it is empty then, and meets no goal."""
+    try:
+        value = float(kind.module.measure(record)) if record.time.size else math.nan
+    except Exception:
+        tell(f"The metric {kind.name!r} raised:\n{traceback.format_exc()}")
+        value = math.nan
+    return Measured(value if math.isfinite(value) else None, kind.module.UNIT, kind.module.BETTER)
 
 
 def unmet(goals: dict[str, Goal], metrics: dict[str, Measured]) -> list[str]:

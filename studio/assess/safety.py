@@ -2,11 +2,8 @@
 
 import numpy as np
 
-from studio.assess.metric import metric
 from studio.execution.record import Record
-from studio.world.table.event import EVENTS, HIT
 
-COLLISION = EVENTS[HIT].name
 CLOSING = 0.1  # [m/s] slower than this nobody comes nearer: it would take minutes, and sensors could not tell
 
 
@@ -30,33 +27,3 @@ def time_to_collision(gap: np.ndarray, speed: np.ndarray, ahead_speed: np.ndarra
 def ttc(record: Record) -> np.ndarray:
     """TTC [s] of every recorded vehicle over time."""
     return time_to_collision(record.channel("gap"), record.channel("speed"), record.channel("ahead_speed"))
-
-
-@metric("min_ttc", unit="s", goal="higher", title="Least time to collision")
-def min_ttc(record: Record) -> float:
-    """Least TTC of any recorded vehicle."""
-    return smallest(ttc(record))
-
-
-@metric("min_gap", unit="m", goal="higher", title="Least gap")
-def min_gap(record: Record) -> float:
-    """Least bumper-to-bumper distance to the vehicle ahead."""
-    return smallest(record.channel("gap"))
-
-
-@metric("min_time_gap", unit="s", goal="higher", title="Least time gap of a follower")
-def min_time_gap(record: Record) -> float:
-    """Least gap over own speed, while rolling."""
-    return smallest(record.of_followers("time_gap"))
-
-
-@metric("max_deceleration", unit="m/s²", goal="lower", title="Strongest deceleration of a follower")
-def max_deceleration(record: Record) -> float:
-    """How hard the cars had to brake that were not told to by the script."""
-    return -smallest(record.of_followers("acceleration"))
-
-
-@metric("collisions", unit="1", goal="lower", title="Collisions")
-def collisions(record: Record) -> float:
-    """Pairs of vehicles, traffic included, whose bodies touched."""
-    return float(sum(event.kind == COLLISION for event in record.happenings))

@@ -8,7 +8,6 @@ import itertools
 
 import numpy as np
 
-from studio.assess.metric import metric
 from studio.execution.record import Chain, Record
 
 QUIET = 0.05  # [m/s²] root mean square below which there is no disturbance to pass on
@@ -23,16 +22,3 @@ def gains(record: Record, chain: Chain) -> list[float]:
     """Gain of every hop of a chain that had something to pass on."""
     levels = [strength(record, vehicle) for vehicle in chain.vehicles if vehicle in record.vehicles]
     return [level / ahead for ahead, level in itertools.pairwise(levels) if ahead > QUIET]
-
-
-@metric("worst_hop_gain", unit="1", goal="lower", title="Greatest gain from car to car")
-def worst_hop_gain(record: Record) -> float:
-    """Over all chains of the record."""
-    return max((gain for chain in record.chains for gain in gains(record, chain)), default=float("nan"))
-
-
-@metric("platoon_gain", unit="1", goal="lower", title="Gain from the first to the last car")
-def platoon_gain(record: Record) -> float:
-    """Product of the gains of each chain; the worst chain counts."""
-    found = [gains(record, chain) for chain in record.chains]
-    return max((float(np.prod(each)) for each in found if each), default=float("nan"))

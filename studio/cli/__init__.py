@@ -9,7 +9,7 @@ import sys
 
 import typer
 
-from studio.cli import machine, mapping, running, serving, vehicle
+from studio.cli import kind, machine, mapping, running, serving, vehicle
 from studio.errors import RunError, StudioError
 
 app = typer.Typer(
@@ -19,7 +19,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-for group in (serving, running, vehicle, mapping, machine):
+for group in (serving, running, kind, vehicle, mapping, machine):
     app.add_typer(group.commands)
 
 

@@ -5,8 +5,12 @@ from typing import Annotated, Any
 
 import typer
 
+from studio.cli.progress import told
+
 Db = Annotated[Path, typer.Option("--db", help="The run database; made when there is none.")]
-Applications = Annotated[Path | None, typer.Option("--applications", help="A folder of Python files, each an application of your own.")]
+Kinds = Annotated[
+    Path | None, typer.Option("--kinds", "--applications", metavar="FOLDER", help="A folder of Python files, each a kind of your own.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object instead of a table.")]
 Sets = Annotated[list[str] | None, typer.Option("--set", metavar="PATH=VALUE", help="Change a field; can be repeated.")]
 ScenarioFile = Annotated[Path, typer.Argument(metavar="SCENARIO", help="A scenario file (YAML).")]
@@ -23,9 +27,12 @@ def changes(assignments: list[str] | None) -> dict[str, Any]:
     return dict(parse_assignment(each) for each in assignments or [])
 
 
-def load_applications(folder: Path | None) -> None:
-    """Registers the user's own applications."""
+def load_kinds(folder: Path | None) -> None:
+    """Registers the user's own kinds; files that are broken are told on standard error, and hurt nobody who does not need them."""
     if folder:
-        from studio.kind.registry import load_folder
+        from studio.kind import registry
 
-        load_folder(folder)
+        registry.load_folder(folder)
+        for each in registry.broken():
+            if Path(each.file).parent == folder.resolve():
+                told(f"{each.error}\n")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from studio.cli.option import DEFAULT_DB, Applications, AsJson, Db, ScenarioFile, Sets, changes, load_applications
+from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, ScenarioFile, Sets, changes, load_kinds
 from studio.cli.output import print_json, print_table, signed, text
 from studio.cli.progress import compile_first, progress
 from studio.errors import Problem, UnknownError
@@ -22,14 +22,14 @@ def run(
     seed: Annotated[int | None, typer.Option(help="Seed of every random number; default: the scenario's.")] = None,
     parent: Annotated[int | None, typer.Option(help="The run that this one refines.")] = None,
     db: Db = DEFAULT_DB,
-    applications: Applications = None,
+    kinds: Kinds = None,
     as_json: AsJson = False,
 ) -> None:
     """Runs a scenario as fast as possible and saves the run."""
     from studio import job
     from studio.store.runs import open_runs
 
-    load_applications(applications)
+    load_kinds(kinds)
     loaded = job.load(scenario, changes(set_))
     tell_migrated(loaded)
     compile_first()
@@ -103,12 +103,12 @@ def compare(
 
 
 @commands.command()
-def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications = None) -> None:
+def check(scenario: ScenarioFile, set_: Sets = None, kinds: Kinds = None) -> None:
     """Checks a scenario file: fields, names, map, routes and starts."""
     with progress("checking"):
         from studio import job
 
-        load_applications(applications)
+        load_kinds(kinds)
         loaded = job.load(scenario, changes(set_))
         prepared = job.prepare(loaded)
     tell_migrated(loaded)
@@ -116,8 +116,9 @@ def check(scenario: ScenarioFile, set_: Sets = None, applications: Applications 
 
 
 @commands.command()
-def migrate(scenario: ScenarioFile) -> None:
+def migrate(scenario: ScenarioFile, kinds: Kinds = None) -> None:
     """Rewrites an old scenario file in place as the present version of the format has it; what moves loses its comments."""
+    load_kinds(kinds)
     from studio import job
     from studio.scenario import file
     from studio.scenario.schema import VERSION
@@ -142,8 +143,9 @@ def tell_migrated(loaded) -> None:
 
 
 @commands.command()
-def schema() -> None:
+def schema(kinds: Kinds = None) -> None:
     """Prints the JSON schema of scenario files."""
+    load_kinds(kinds)
     from studio.scenario.schema import Scenario
 
     print_json(Scenario.model_json_schema())

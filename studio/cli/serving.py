@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from studio.cli.option import DEFAULT_DB, Applications, Db
+from studio.cli.option import DEFAULT_DB, Db, Kinds, load_kinds
 from studio.cli.output import print_json
 
 commands = typer.Typer()
@@ -17,13 +17,14 @@ def serve(
     port: Annotated[int, typer.Option(help="Port to serve on.", min=0, max=65535)] = 8000,
     db: Db = DEFAULT_DB,
     scenarios: Annotated[Path | None, typer.Option(help="Folder of scenario files; default: ./scenarios, else the samples.")] = None,
-    applications: Applications = None,
+    kinds: Kinds = None,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in a browser.")] = True,
 ) -> None:  # fmt: skip
     """Serves the page, the scene and the REST API."""
     from studio.server.serve import serve as start
 
-    start(host=host, port=port, db=db, scenarios=scenarios, applications=applications, browser=browser)
+    load_kinds(kinds)
+    start(host=host, port=port, db=db, scenarios=scenarios, kinds=kinds, browser=browser)
 
 
 @commands.command()

@@ -13,10 +13,11 @@ import numpy as np
 
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Chain
+from studio.scenario.schema import REASONS
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.setting import Setting
-from studio.world.table.event import COMPANY_CAME, COMPANY_LEFT, EVENTS, SCRIPT_BEGUN, SCRIPT_ENDED
+from studio.world.table.event import COMPANY_CAME, COMPANY_LEFT, EVENTS, SCRIPT_BEGUN, SCRIPT_ENDED, TAKES_OVER
 from studio.world.world import World
 
 NOBODY = -1
@@ -36,8 +37,9 @@ def chains(setting: Setting) -> tuple[Chain, ...]:
     """Groups in which everybody listens to the vehicle ahead of it in the list."""
     found = []
     for name, group in setting.scenario.applications.items():
-        order = [*group.listens_to[:1], *group.vehicles]
-        if group.listens_to and group.listens_to == order[:-1]:
+        ahead = [group.senders(i)[0] for i in range(len(group.units)) if group.senders(i)]
+        order = [*ahead[:1], *group.units]
+        if ahead and ahead == order[:-1]:
             found.append(Chain(name, group.application, tuple(order)))
     return tuple(found)
 
@@ -76,6 +78,7 @@ class Teller:
             SCRIPT_ENDED: self.turned,
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
+            TAKES_OVER: self.takes_over,
         }
 
     def tell(self, watch: Watch) -> Iterator[tuple[int, Happening]]:
@@ -101,3 +104,8 @@ class Teller:
         follower = self.followers[subject]
         between = () if other == NOBODY else (self.world.names[world][other],)
         return happening(kind, when, (follower.name, *between, follower.ahead), place=place)
+
+    def takes_over(self, kind, when, world, subject, _other, place, value) -> Happening:
+        """A driver has begun to overrule the application of his vehicle."""
+        reason = REASONS[int(value)].replace("_", " ")
+        return happening(kind, when, (self.world.names[world][subject],), place=place, reason=reason)

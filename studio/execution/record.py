@@ -1,16 +1,23 @@
 """The record of a run: channels of the recorded vehicles over time, and what happened."""
 
+import traceback
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
+from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.world import channel
-from studio.world.channel import BY_NAME, CHANNELS, TIME_GAP
+from studio.world.channel import CHANNELS, catalogue
+from studio.world.probe import Reader
 from studio.world.world import World
 
-ROLLING = 0.5  # [m/s] below this speed a time gap says nothing
+ROW = {each.name: row for row, each in enumerate(CHANNELS)}
 CHUNK = 128  # samples that room is made for at a time
 
 
@@ -23,6 +30,14 @@ class Chain:
     vehicles: tuple[str, ...]
 
 
+class Traced(NamedTuple):
+    """What a probe has read over time, its unit and label."""
+
+    values: np.ndarray
+    unit: str
+    label: str
+
+
 @dataclass(frozen=True)
 class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings."""
@@ -33,13 +48,20 @@ class Record:
     happenings: tuple[Happening, ...]
     chains: tuple[Chain, ...] = ()
     links: dict[str, float] = field(default_factory=dict)
+    probes: dict[str, Traced] = field(default_factory=dict)
+
+    @cached_property
+    def derived(self) -> "Derived":
+        """The channels that follow from those that were recorded."""
+        return Derived(self)
 
     def channel(self, name: str) -> np.ndarray:
-        """One quantity of all vehicles, float64[vehicle, n]."""
-        if name == TIME_GAP.name:
-            speed = self.channel("speed")
-            return np.where(speed > ROLLING, self.channel("gap") / np.maximum(speed, ROLLING), np.nan)
-        return self.values[[each.name for each in CHANNELS].index(name)]
+        """One quantity of all vehicles, float64[vehicle, n]; raises UnknownError with the nearest name."""
+        if name in ROW:
+            return sealed(self.values[ROW[name]])
+        if name not in catalogue():
+            raise UnknownError(f"There is no channel {name!r}; {nearest(name, catalogue())}")
+        return self.derived.trace(name)
 
     def of_followers(self, name: str) -> np.ndarray:
         """One quantity of the vehicles that follow in a chain, float64[vehicle, n]; of all when there is no chain."""
@@ -49,25 +71,75 @@ class Record:
 
     def trace(self, name: str) -> np.ndarray:
         """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""
+        if name in self.probes:
+            return self.probes[name].values
         vehicle, _, quantity = name.partition(".")
         if vehicle not in self.vehicles:
             raise UnknownError(f"No vehicle {vehicle!r} was recorded; {nearest(vehicle, self.vehicles)}")
-        if quantity not in BY_NAME:
-            raise UnknownError(f"There is no channel {quantity!r}; {nearest(quantity, BY_NAME)}")
         return self.channel(quantity)[self.vehicles.index(vehicle)]
 
     def names(self) -> list[str]:
         """All `vehicle.quantity`."""
-        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in BY_NAME]
+        return [f"{vehicle}.{quantity}" for vehicle in self.vehicles for quantity in catalogue()] + list(self.probes)
+
+
+def sealed(values: np.ndarray) -> np.ndarray:
+    """The same values, which cannot be written to: kinds read the record, and nobody changes it."""
+    view = values.view()
+    view.flags.writeable = False
+    return view
+
+
+@dataclass
+class Derived:
+    """Channels that kinds make of others, each once; one that raises has no values."""
+
+    record: Record
+    traces: dict[str, np.ndarray] = field(default_factory=dict)
+    raised: dict[str, str] = field(default_factory=dict)
+
+    def make(self, tell: Callable[[str], None]) -> None:
+        """All of them; those that raise are told with their tracebacks."""
+        for name in registry.known("channel"):
+            self.trace(name)
+        for text in self.raised.values():
+            tell(text)
+
+    def trace(self, name: str) -> np.ndarray:
+        """One of them, float64[vehicle, n]."""
+        if name not in self.traces:
+            self.traces[name] = np.full(self.shape, np.nan)  # what a channel sees that reads itself
+            try:
+                self.traces[name] = sealed(self.made(registry.find("channel", name)))
+            except Exception:
+                self.raised[name] = f"The channel {name!r} raised:\n{traceback.format_exc()}"
+        return self.traces[name]
+
+    def made(self, kind: Kind) -> np.ndarray:
+        """What a kind gives; raises TypeError when it is of another shape."""
+        found = np.asarray(kind.module.trace(self.read), np.float64)
+        if found.shape != self.shape:
+            raise TypeError(f"trace() of {kind.name!r} returned the shape {found.shape}, not {self.shape}, [vehicle, sample]")
+        return found
+
+    def read(self, name: str) -> np.ndarray:
+        """What a kind may read: any other channel, float64[vehicle, n], and `time` [s], float64[n]."""
+        return sealed(self.record.time) if name == "time" else self.record.channel(name)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Vehicles, samples."""
+        return len(self.record.vehicles), self.record.time.size
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Room for CHUNK samples: their times, values [sample, channel, vehicle], and the ages of all links [sample, link]."""
+    """Room for CHUNK samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
 
     time: np.ndarray
     values: np.ndarray
     ages: np.ndarray
+    probes: np.ndarray
 
 
 @dataclass
@@ -80,7 +152,9 @@ class Recorder:
     columns: np.ndarray
     every: int
     vehicle_share: list[slice]
-    link_share: list[slice]
+    links: int
+    reader: Reader
+    probe_share: list[slice]
     count: int = 0
     chunks: list[Chunk] = field(default_factory=list)
 
@@ -94,12 +168,13 @@ class Recorder:
             chunk.time[place] = world.clock.time
             channel.sample(world, self.columns, k, chunk.values[place])
             channel.link_ages(world, chunk.ages[place])
+            self.reader.read(chunk.probes[place])
             self.count += 1
 
     def chunk(self) -> Chunk:
         """An empty one."""
-        links = self.link_share[-1].stop
-        return Chunk(np.empty(CHUNK), np.empty((CHUNK, len(CHANNELS), self.columns.size)), np.empty((CHUNK, links)))
+        values = np.empty((CHUNK, len(CHANNELS), self.columns.size))
+        return Chunk(np.empty(CHUNK), values, np.empty((CHUNK, self.links)), np.empty((CHUNK, len(self.reader.probes))))
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -117,11 +192,15 @@ class Recorder:
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)
 
-    def mean_ages(self, world: int, count: int) -> np.ndarray:
+    def traced(self, world: int, count: int) -> dict[str, Traced]:
+        """What the probes of one world have read, by name; its first samples."""
+        share = self.probe_share[world]
+        values = self.joined([chunk.probes[:, share] for chunk in self.chunks], np.zeros((0, share.stop - share.start)), count)
+        return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.reader.probes[share])}
+
+    def mean_ages(self, count: int) -> np.ndarray:
         """Mean age [s] of the newest message on every link; not a number for a link that never had both ends."""
-        share = self.link_share[world]
-        none = np.zeros((0, share.stop - share.start))
-        ages = self.joined([chunk.ages[:, share] for chunk in self.chunks], none, count)
+        ages = self.joined([chunk.ages for chunk in self.chunks], np.zeros((0, self.links)), count)
         known = np.isfinite(ages)
         with np.errstate(invalid="ignore"):
             return np.where(known, ages, 0.0).sum(axis=0) / known.sum(axis=0)

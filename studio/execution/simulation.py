@@ -5,16 +5,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.application.host import Hosted
-from studio.errors import ApplicationError, Problem, ScenarioError
+from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Record, Recorder
 from studio.vehicle import broken
+from studio.world.board.host import Fault
 from studio.world.build import build
 from studio.world.line import starts
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
+from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED
 from studio.world.tick import environment, gather, look, meet, part
@@ -84,6 +85,7 @@ class Simulation:
             return
         self.recorder.take(self.world, self.world.clock.k)
         part(self.world)
+        self.check_drivers()
         self.check()
         notice.notice(self.world, self.watch)
         if self.world.clock.k >= self.ticks and not self.is_over:
@@ -116,11 +118,11 @@ class Simulation:
         if not self.is_over:
             self.end("stopped")
 
-    def refuse(self, hosted: Hosted, error: ApplicationError) -> None:
+    def refuse(self, fault: Fault) -> None:
         """An application has failed, and the runs of its worlds with it."""
-        for number in sorted({group.world for group in hosted.groups}):
+        for number in sorted({group.world for group in fault.groups or (fault.group,)}):
             if not self.cases[number].is_over:
-                self.fail(number, error.message)
+                self.fail(number, fault.error.message)
 
     def fail(self, number: int, reason: str) -> None:
         """Ends a world as failed; its vehicles leave the batch."""
@@ -129,6 +131,14 @@ class Simulation:
         self.close(number, "failed")
         self.cases[number].happen(happening(FAILED, self.time, reason=reason.splitlines()[0]))
         self.world.leave(number)
+
+    def check_drivers(self) -> None:
+        """Ends the worlds in which a driver wants what is no number, and names vehicle, driver and time."""
+        for column, kind in self.world.unfit_wishes() if self.world.unfit else []:
+            number = int(self.world.worlds.of[column])
+            if not self.cases[number].is_over:
+                name, time = self.world.names[number][int(self.world.worlds.number[column])], self.time - self.world.clock.tick
+                self.fail(number, f"the driver {kind!r} of {name} wants an acceleration or steering that is not finite at {time:.3f} s")
 
     def check(self) -> None:
         """Ends the worlds with a state that is not finite any more, and names vehicle, time and the first quantity that broke."""
@@ -151,6 +161,7 @@ class Simulation:
             happenings=tuple(case.happenings),
             chains=chains(case.setting),
             links=self.link_ages(number, count),
+            probes=recorder.traced(number, count),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
@@ -165,14 +176,12 @@ class Simulation:
 
     def link_ages(self, number: int, count: int) -> dict[str, float]:
         """Mean age [s] of the newest message on each link of one world, named sender→receiver."""
-        share, units, numbers = self.recorder.link_share[number], self.world.units, self.world.worlds.number
-        if not count:
-            return {}
-        names, means = self.world.names[number], self.recorder.mean_ages(number, count)
+        units, means = self.world.units, self.recorder.mean_ages(count) if count else np.zeros(0)
+        ends = [(s, r) for post in units.posts for s, r in zip(post.sender[post.link_sender], post.link_receiver, strict=True)]
         return {
-            f"{names[numbers[sender]]}→{names[numbers[receiver]]}": float(mean)
-            for sender, receiver, mean in zip(units.link_sender[share], units.link_receiver[share], means, strict=True)
-            if np.isfinite(mean)
+            f"{units.name_of(sender)}→{units.name_of(receiver)}": float(mean)
+            for (sender, receiver), mean in zip(ends, means, strict=False)
+            if units.world[receiver] == number and np.isfinite(mean)
         }
 
 
@@ -208,13 +217,15 @@ def check_clocks(settings: tuple[Setting, ...]) -> None:
 def recorder(settings: tuple[Setting, ...], world: World) -> Recorder:
     """Records the named vehicles of all worlds, and their traffic where it is wanted."""
     counts = [len(each.cars) if each.scenario.recording.traffic else len(each.scenario.vehicles) for each in settings]
-    links = [sum(len(group.listens_to) for group in each.scenario.applications.values()) for each in settings]
     recording = settings[0].scenario.recording
+    found = probes(world)
     return Recorder(
         columns=np.concatenate([first + np.arange(count) for first, count in zip(world.worlds.first, counts, strict=True)]),
         every=round(recording.period / world.clock.tick),
         vehicle_share=shares(counts),
-        link_share=shares(links),
+        links=sum(post.link_receiver.size for post in world.units.posts),
+        reader=Reader([probe for each in found for probe in each]),
+        probe_share=shares([len(each) for each in found]),
     )
 
 

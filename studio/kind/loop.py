@@ -1,13 +1,9 @@
-"""Loops over what a kind is asked for: written once per kind, into the cache of compiled code.
-
-numba keeps machine code only of functions that stand in a file, so the loop that calls a kind's function stands in one.
-"""
+"""Loops that are written for a kind: numba keeps machine code only of functions that stand in a file, so they get one in the cache."""
 
 import hashlib
 import os
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 from types import ModuleType
 
 from studio.cache import touch
@@ -15,33 +11,24 @@ from studio.compiled import CACHE
 from studio.kind.registry import Kind
 
 
-def written(kind: Kind, source: str) -> ModuleType:
-    """The module with this text, which calls the functions of a kind."""
-    key = hashlib.sha256(f"{source}{kind.digest}".encode()).hexdigest()[:16]
-    path = CACHE / f"{kind.sort}_{kind.name}_{key}.py"
-    if not path.exists():
-        draft = path.with_suffix(f".{os.getpid()}")
-        draft.write_text(source, encoding="utf-8")
-        draft.replace(path)
-    touch(path)
-    return load(path)
+def written(name: str, source: str, *kinds: Kind) -> ModuleType:
+    """The module with this text, for these kinds; the same text for the same files is the same module."""
+    key = hashlib.sha256("\n".join([source, *(kind.digest for kind in kinds)]).encode()).hexdigest()[:16]
+    name = f"{name}_{key}"
+    if name not in sys.modules:
+        path = CACHE / f"{name}.py"
+        if not path.exists():
+            draft = path.with_suffix(f".{os.getpid()}")
+            draft.write_text(source, encoding="utf-8")
+            draft.replace(path)
+        touch(path)
+        load(name, str(path))
+    return sys.modules[name]
 
 
-def load(path: Path) -> ModuleType:
-    """A module from a file, which has a name for itself."""
-    if path.stem not in sys.modules:
-        spec = spec_from_file_location(path.stem, path)
-        assert spec and spec.loader, "a file whose name ends in .py has a loader"
-        module = module_from_spec(spec)
-        spec.loader.exec_module(module)
-        sys.modules[path.stem] = module
-    return sys.modules[path.stem]
-
-
-def fields(row: str, count: int) -> str:
-    """Arguments that are rows of an array, at its column j.
-
-    >>> fields("settings", 2)
-    'settings[0, j], settings[1, j]'
-    """
-    return ", ".join(f"{row}[{i}, j]" for i in range(count))
+def load(name: str, path: str) -> None:
+    """Loads a file as a module of this name."""
+    spec = spec_from_file_location(name, path)
+    assert spec and spec.loader, "a file whose name ends in .py has a loader"
+    sys.modules[name] = module_from_spec(spec)
+    spec.loader.exec_module(sys.modules[name])

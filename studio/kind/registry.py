@@ -10,11 +10,12 @@ import pkgutil
 import threading
 import traceback
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
 from importlib.metadata import entry_points
+from inspect import cleandoc
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -43,6 +44,11 @@ class Kind:
     def title(self) -> str:
         """One line for people."""
         return self.module.TITLE
+
+    @property
+    def explanation(self) -> str:
+        """What it does and where its figures come from, as its file says."""
+        return cleandoc(self.module.__doc__ or "")
 
     @property
     def is_built_in(self) -> bool:
@@ -79,11 +85,18 @@ class Broken:
     file: str
     error: KindError
 
+    @property
+    def what(self) -> str:
+        """What is wrong in one line: the end of a traceback, or the first thing that does not fit."""
+        text = self.error.message.strip().splitlines()
+        return str(self.error.problems[0]) if self.error.problems and len(text) == 1 else text[-1]
+
 
 _registered: dict[tuple[str, str], Kind] = {}
 _broken: dict[str, Broken] = {}
+_reserved: dict[tuple[str, str], str] = {}
 _loading = threading.RLock()  # the page asks for several things at once
-_loaded = False
+_loaded = False  # or being loaded: their files ask for what is there already
 _listeners: list[Callable[[], None]] = []
 
 
@@ -93,18 +106,20 @@ def stream(name: str) -> int:
 
 
 def listen(listener: Callable[[], None]) -> None:
-    """Has a function called whenever a kind was added."""
+    """Has a function called whenever a kind was added or taken away."""
     _listeners.append(listener)
+
+
+def reserve(sort: str, names: Iterable[str], source: str) -> None:
+    """Keeps names of a sort for what the studio has of it besides kinds."""
+    _reserved.update({(sort, name): source for name in names})
 
 
 def register(name: str, module: ModuleType, source: str = "") -> Kind:
     """Adds a kind; raises KindError when its name is taken or the contract of its sort is not kept."""
     sort = sort_of(module)
-    if (sort.name, name) in _registered:
-        taken = _registered[sort.name, name]
-        problem = Problem(
-            f"{sort.name} {name!r}", "is registered twice", where_of(module), remedy=f"rename one; the other is {taken.source}"
-        )
+    if taken := taken_by(sort.name, name):
+        problem = Problem(f"{sort.name} {name!r}", "is registered twice", where_of(module), remedy=f"rename one; the other is {taken}")
         raise KindError(f"The name of the {sort.name} {name!r} is taken.", [problem])
     wrong = list(problems(module, sort))
     if wrong:
@@ -112,9 +127,28 @@ def register(name: str, module: ModuleType, source: str = "") -> Kind:
     file = getattr(module, "__file__", None)
     digest = digest_of(*closure(Path(file))) if file else name
     _registered[sort.name, name] = Kind(sort.name, name, module, source or str(file or module.__name__), digest)
+    tell_listeners()
+    return _registered[sort.name, name]
+
+
+def tell_listeners() -> None:
+    """Something has been added, or taken away."""
     for listener in _listeners:
         listener()
-    return _registered[sort.name, name]
+
+
+def restore(kinds: Iterable[Kind]) -> None:
+    """Goes back to these kinds, with nothing broken: as it was before a folder came in."""
+    _registered.clear()
+    _registered.update({(kind.sort, kind.name): kind for kind in kinds})
+    _broken.clear()
+    tell_listeners()
+
+
+def taken_by(sort: str, name: str) -> str:
+    """Who has a name already; "" when it is free."""
+    present = _registered.get((sort, name))
+    return present.source if present else _reserved.get((sort, name), "")
 
 
 def sort_of(module: ModuleType) -> Sort:

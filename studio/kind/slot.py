@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from pydantic import BaseModel, Field, GetCoreSchemaHandler, create_model
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from studio.errors import UnknownError
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.kind.settings import Part
@@ -39,11 +40,20 @@ class Slot:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         choices = {name: handler.generate_schema(chosen(kind)) for name, kind in registry.known(self.sort).items()}
         union = core_schema.tagged_union_schema(choices, discriminator="kind", ref=None)
-        return core_schema.no_info_before_validator_function(self.named, union) if self.usual else union
+        return core_schema.no_info_before_validator_function(self.named, union)
 
     def named(self, given: Any) -> Any:
-        """With the usual kind where none is named."""
-        return {"kind": self.usual} | given if isinstance(given, dict) and "kind" not in given else given
+        """With the usual kind where none is named; raises PydanticCustomError for a kind that there is not."""
+        if not isinstance(given, dict):
+            return given
+        named = {"kind": self.usual} | given if self.usual else given
+        if "kind" not in named:
+            return named
+        try:
+            registry.find(self.sort, str(named["kind"]))
+        except UnknownError as error:
+            raise PydanticCustomError("unknown_kind", "{what}", {"what": error.message}) from None
+        return named
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,10 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic_core import PydanticUndefined
 
+from studio.application import port
 from studio.errors import Problem
-from studio.kind.plain import unfit
+from studio.kind.driver import Driver
+from studio.kind.number import unplain
 from studio.kind.quantity import quantities
 from studio.kind.settings import named
 
@@ -65,6 +67,15 @@ def settings(value: Any) -> str:
     return next((f"{name}: {what}" for name, field in value.model_fields.items() if (what := unlabelled(field))), "")
 
 
+def person(value: Any) -> str:
+    """Settings of a driver: numbers, and those that every driver has."""
+    if what := settings(value):
+        return what
+    if not issubclass(value, Driver):
+        return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
+    return unplain(value)
+
+
 def needy(value: Any) -> str:
     """A pydantic model whose fields may have to be given."""
     if not (isinstance(value, type) and issubclass(value, BaseModel)):
@@ -74,7 +85,7 @@ def needy(value: Any) -> str:
 
 def waited(value: Any) -> str:
     """A pydantic model of plain numbers, whose fields may have to be given."""
-    return needy(value) or unfit(value)
+    return needy(value) or unplain(value)
 
 
 def told_and_done(module: ModuleType) -> str:
@@ -82,8 +93,8 @@ def told_and_done(module: ModuleType) -> str:
     if not hasattr(module, "act"):
         return "" if hasattr(module, "effects") else "has neither act nor effects"
     settings = getattr(module, "Settings", BaseModel)
-    if unfit(settings):
-        return f"Settings.{unfit(settings)}"
+    if unplain(settings):
+        return f"Settings: {unplain(settings)}"
     field = settings.model_fields.get("vehicle")
     return "" if field and named(field) == "vehicle" else "has act, but no vehicle that it is about"
 
@@ -104,6 +115,25 @@ def record(value: Any) -> str:
     except (TypeError, NameError) as error:
         return str(error)
     return f'{without[0]} has no unit: write {without[0]}: Annotated[float, "m"] = 0.0' if without else ""
+
+
+def remembered(value: Any) -> str:
+    """A NamedTuple of numbers."""
+    try:
+        return bundle(value) or ("" if quantities(value) else "has no field: give it one that stays as it is")
+    except (TypeError, NameError) as error:
+        return str(error)
+
+
+def mask(value: Any) -> str:
+    """A sum of bits."""
+    return "" if isinstance(value, int) and not isinstance(value, bool) and 0 < value < 256 else f"is {value!r}, no actuators"
+
+
+def sentences(value: Any) -> str:
+    """Lines for a driver."""
+    is_fine = isinstance(value, tuple) and value and all(isinstance(each, str) and each.strip() for each in value)
+    return "" if is_fine else f"is {value!r}, no sentences"
 
 
 def bundle(value: Any) -> str:
@@ -160,6 +190,7 @@ SORTS = {
             TITLE,
             Need("Settings", "what is set for all units of a scenario", settings, "class Settings(Part): ..."),
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
+            Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
             Need("transmit", "one message on its way to one receiver", function("settings", "way", "draw", compiled=True),
                  "def transmit(settings, way, draw)"),
         )),
@@ -174,7 +205,7 @@ SORTS = {
         )),
         Sort("driver", "a person at the wheel", (
             TITLE,
-            Need("Settings", "what a driver is like", settings, "class Settings(Part): ..."),
+            Need("Settings", "what a driver is like", person, "class Settings(Driver): ..."),
             Need("decide", "pedals and steering wheel at one tick", function("settings", "sees", compiled=True),
                  "def decide(settings, sees)"),
         )),
@@ -207,8 +238,12 @@ SORTS = {
         Sort("application", "what a developer invents", (
             TITLE,
             Need("Parameters", "what its developer tunes, with unit and range", settings, "class Parameters(Part): ..."),
-            Need("Memory", "what it remembers from tick to tick", bundle, "class Memory(NamedTuple): ..."),
-            Need("decide", "one tick", function("parameters", "memory", "observation"), "def decide(parameters, memory, observation)"),
+            Need("Memory", "what it remembers from tick to tick", remembered, "class Memory(NamedTuple): ..."),
+            Need("Sees", "its ports: what it sees", bundle, "class Sees(NamedTuple): ..."),
+            Need("Does", "its ports: what it does", bundle, "class Does(NamedTuple): ..."),
+            Need("COMMANDS", "the actuators that it may command", mask, "COMMANDS = ACCELERATION | STEERING", optional=True),
+            Need("NOTICES", "the sentences that it may show to the driver", sentences, 'NOTICES = ("Brake!",)', optional=True),
+            Need("decide", "one tick", function("parameters", "memory", "sees"), "def decide(parameters, memory, sees)"),
         )),
     )
 }  # fmt: skip
@@ -219,6 +254,7 @@ def problems(module: ModuleType, sort: Sort) -> Iterator[Problem]:
     where = where_of(module)
     if not (module.__doc__ or "").strip():
         yield Problem(where, "has no docstring", remedy="say in its first lines what it does and where its figures come from")
+    yield from ports(module, sort, where)
     for need in sort.needs:
         value = getattr(module, need.name, MISSING)
         if value is MISSING and not need.optional:
@@ -227,6 +263,12 @@ def problems(module: ModuleType, sort: Sort) -> Iterator[Problem]:
             yield Problem(located(where, value), f"{need.name} {what}", allowed=need.example, remedy=need.meaning)
     if what := sort.whole(module):
         yield Problem(where, what, remedy=sort.remedy)
+
+
+def ports(module: ModuleType, sort: Sort, where: str) -> Iterator[Problem]:
+    """What is wrong with the ports of an application."""
+    if sort.name == "application" and not bundle(getattr(module, "Sees", None)) and not bundle(getattr(module, "Does", None)):
+        yield from port.problems(module, where)
 
 
 MISSING = object()

@@ -11,6 +11,7 @@ from math import atan2, sqrt
 
 from studio.compiled import compiled
 
+COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STOP_FIRM = 4.0  # [m/s²] a driver who would have to brake harder than this for an amber drives on
 STOP_CLOSE = 2.0  # [m] where a driver stops before the line
 SETTLING = 0.7  # [s] in which a speed above the desired one dies away

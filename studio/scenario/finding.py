@@ -6,7 +6,6 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from studio.errors import Problem, nearest
-from studio.kind import registry
 from studio.scenario.schema import located
 
 
@@ -19,7 +18,7 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
     """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
     path, node = located(model.model_json_schema(), finding["loc"])
     path = under + path or "the scenario"
-    if finding["type"].startswith("union_tag"):
+    if finding["type"] in ("unknown_kind", "union_tag_not_found"):
         return kind_problem(finding, f"{where}: {path}.kind", list(node["discriminator"]["mapping"]))
     what = finding["msg"].removeprefix("Value error, ")
     value, remedy = short(finding["input"]), ""
@@ -32,13 +31,10 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
 
 
 def kind_problem(finding: ErrorDetails, where: str, known: list[str]) -> Problem:
-    """A kind that is not registered, or none at all."""
-    if "tag" not in finding.get("ctx", {}):
+    """A kind that cannot be had, or none at all."""
+    if finding["type"] == "union_tag_not_found":
         return Problem(where, "is missing", allowed=", ".join(known), remedy="add it")
-    tag = finding["ctx"]["tag"]
-    broken = next((each for each in registry.broken() if each.name == tag), None)
-    remedy = f"{broken.file} cannot be used: {broken.error}" if broken else nearest(tag, known)
-    return Problem(where, "names no kind that may stand here", repr(tag), ", ".join(known), remedy)
+    return Problem(where, lower(finding["msg"]), repr(finding["input"].get("kind")), ", ".join(known))
 
 
 def lower(text: str) -> str:

@@ -7,16 +7,19 @@ are the names that `--set`, the page and the run database use.
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, Field, model_validator
 
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.kind import registry
-from studio.kind.settings import Name, Part, RouteName, VehicleName, number
-from studio.kind.slot import Slot
+from studio.kind.settings import Name, Part, RouteName, UnitName, number
+from studio.kind.slot import Every, Slot
 
 LONGEST = 3600.0  # [s] a run
+MOST_SENSORS = 16  # of one unit
+Reason = Literal["collision", "red_light", "right_of_way"]
+REASONS: tuple[Reason, ...] = get_args(Reason)  # why a driver may overrule an application
 VERSION = 3  # of the format; scenario/text/migration.py reads older files
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
@@ -86,25 +89,13 @@ class Place(Part):
         return self
 
 
-class Driver(Part):
-    """Who sits at the wheel."""
+class Intervention(Part):
+    """When the driver overrules an application that has the pedals: never, unless reasons are named."""
 
-    acceleration: float = number(1.4, unit="m/s²", title="Comfortable acceleration", gt=0.1, le=5)
-    deceleration: float = number(2.0, unit="m/s²", title="Comfortable deceleration", gt=0.1, le=8)
-    time_headway: float = number(1.2, unit="s", title="Wanted headway", ge=0.3, le=5)
-    standstill_gap: float = number(2.0, unit="m", title="Gap at rest", ge=0.5, le=10)
-    speed_factor: float = number(1.0, unit="1", title="Wanted over permitted speed", ge=0.3, le=1.5)
-    steering_gain: float = number(2.0, unit="1/s", title="Steering gain", description="how fast an offset is steered away", ge=0.1, le=10)
-    yaw_damping: float = number(0.1, unit="s", title="Yaw damping", ge=0, le=1)
-
-
-class FrontSensor(Part):
-    """The radar that looks ahead. A reach of 0 means: none."""
-
-    range: float = number(120.0, unit="m", title="Reach", ge=0, le=300)
-    opening_angle: float = number(0.7, unit="rad", title="Opening angle", description="from edge to edge", gt=0, le=3.2)
-    range_noise: float = number(0.1, unit="m", title="Noise of the range", description="standard deviation", ge=0, le=10)
-    rate_noise: float = number(0.05, unit="m/s", title="Noise of the range rate", description="standard deviation", ge=0, le=5)
+    reasons: list[Reason] = Field([], max_length=len(REASONS), title="Reasons", description="collision, red_light, right_of_way")
+    reaction_time: float = number(
+        1.0, unit="s", title="Reaction time", description="that it has to be needed before the driver acts", ge=0, le=5
+    )
 
 
 class Gps(Part):
@@ -127,7 +118,33 @@ class Gps(Part):
     )
 
 
-class Vehicle(Part):
+class UnitClock(Part):
+    """The clock of a unit: what its applications and messages take for the time."""
+
+    offset: float = number(0.0, unit="s", title="Offset", description="ahead of the true time at the start", ge=-10, le=10)
+    drift: float = number(0.0, unit="1", title="Drift", description="seconds that it gains a second; quartz: 20e-6", ge=-1e-3, le=1e-3)
+
+
+class Antenna(Part):
+    """Where a unit sends from and hears."""
+
+    height: float = number(
+        1.5, unit="m", title="Height", description="above the road; houses that are lower weaken nothing", ge=0.2, le=100
+    )
+
+
+Sensors = Annotated[dict[Name, Annotated[Any, Slot("sensor")]], Field(max_length=MOST_SENSORS)]
+
+
+def front_radar_only() -> dict[str, Any]:
+    """What a vehicle has that says nothing about its sensors."""
+    return {"front": {"kind": "front_radar"}}
+
+
+AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
+
+
+class Vehicle(Part, defer_build=True):
     """One named car."""
 
     model: str = Field(
@@ -140,28 +157,73 @@ class Vehicle(Part):
     route: RouteName = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
-    driver: Driver = Field(default_factory=Driver, title="Driver")
-    sensor: FrontSensor = Field(default_factory=FrontSensor, title="Front sensor")
+    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Driver")
+    intervention: Intervention = Field(default_factory=Intervention, title="Driver's intervention")
+    sensors: Sensors = Field(
+        default_factory=front_radar_only, validate_default=True, title="Sensors", description="by name, as applications ask for them"
+    )
     gps: Gps = Field(default_factory=Gps, title="Satellite position")
+    clock: UnitClock = Field(default_factory=UnitClock, title="Clock of the unit")
+    antenna: Antenna = Field(default_factory=Antenna, title="Antenna")
     colour: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] = Field("#2f6fde", title="Colour")
 
 
-class Application(Part):
-    """One application on one or several cars; every car has its own instance."""
+class Spot(Part):
+    """A place beside the roads: along a road of the map, or at coordinates of the map."""
 
-    application: str = Field(..., title="Application", description="a registered name")
-    vehicles: list[VehicleName] = Field(..., min_length=1, title="On these vehicles")
-    listens_to: list[VehicleName] = Field([], title="Listening to", description="whose messages each of them uses, one each")
-    parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    road: str | None = Field(None, max_length=100, title="Beside the road")
+    along: float = number(0.0, unit="m", title="From the start of the road", ge=0)
+    aside: float = number(5.0, unit="m", title="To the left of its kerb lane", description="negative: to the right", ge=-200, le=200)
+    x: float | None = Field(None, title="East", json_schema_extra={"unit": "m"})
+    y: float | None = Field(None, title="North", json_schema_extra={"unit": "m"})
 
     @model_validator(mode="after")
-    def one_sender_each(self):
-        if self.listens_to and len(self.listens_to) != len(self.vehicles):
-            raise ValueError(f"{len(self.vehicles)} vehicles but {len(self.listens_to)} in `listens_to`: one for each")
+    def one_way_to_say_it(self):
+        if (self.x is None) != (self.y is None) or (self.x is None) == (self.road is None):
+            raise ValueError("give either `road` with `along` and `aside`, or `x` and `y`")
         return self
 
 
-class Traffic(Part):
+class Station(Part, defer_build=True):
+    """A unit that stands at a place: a road-side unit, a garage. It knows where it is."""
+
+    position: Spot = Field(..., title="Place")
+    heading: float = number(
+        0.0, unit="rad", title="Heading", description="that its sensors look along; 0 is east, left positive", ge=-7, le=7
+    )
+    sensors: Sensors = Field({}, title="Sensors", description="by name, as applications ask for them")
+    clock: UnitClock = Field(default_factory=UnitClock, title="Clock of the unit")
+    antenna: Antenna = Field(default=Antenna(height=6.0), title="Antenna")
+
+
+class Application(Part):
+    """One application on one or several units; every unit has its own instance."""
+
+    application: str = Field(..., title="Application", description="a registered name")
+    units: list[UnitName] = Field(..., min_length=1, title="On these units", description="vehicles or stations")
+    listens_to: list[UnitName | list[UnitName]] = Field(
+        [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
+    )
+    parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    priority: int = Field(
+        0, ge=-100, le=100, title="Priority", description="of several applications that command an actuator, the highest does"
+    )
+
+    @model_validator(mode="after")
+    def one_sender_each(self):
+        if self.listens_to and len(self.listens_to) != len(self.units):
+            raise ValueError(f"{len(self.units)} units but {len(self.listens_to)} in `listens_to`: one for each")
+        return self
+
+    def senders(self, place: int) -> list[str]:
+        """Whom the unit at a place of the list listens to; none named: everybody."""
+        if not self.listens_to:
+            return []
+        given = self.listens_to[place]
+        return [given] if isinstance(given, str) else given
+
+
+class Traffic(Part, defer_build=True):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
     count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
@@ -174,13 +236,11 @@ class Traffic(Part):
     )
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
-    driver: Driver = Field(default_factory=Driver, title="Drivers")
+    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
 
 
-class Entry(Part):
+class Entry(Part, defer_build=True):
     """One thing that happens: when it begins, when it ends, and what is done meanwhile."""
-
-    model_config = ConfigDict(defer_build=True)
 
     when: Annotated[Any, Slot("condition")] = Field(
         {"kind": "time", "at": 0.0}, validate_default=True, title="When", description="left out: from the start"
@@ -222,30 +282,6 @@ class Weather(Part):
     )
 
 
-class Radio(Part):
-    """The ad hoc radio that all units share."""
-
-    period: float = number(0.1, unit="s", title="Message period", ge=0.01, le=2)
-    delay: float = number(0.02, unit="s", title="Delay", description="mean, sender's to receiver's application", ge=0, le=1)
-    delay_variation: float = number(0.005, unit="s", title="Variation of the delay", description="half width", ge=0, le=1)
-    loss: float = number(0.01, unit="1", title="Loss rate", ge=0, le=1)
-    loss_per_metre: float = number(0.0, unit="1/m", title="Loss per distance", ge=0, le=0.1)
-    range: float = number(300.0, unit="m", title="Range", gt=0, le=5000)
-    buildings: bool = Field(
-        True,
-        title="Shadowed by buildings",
-        description="9 dB a wall and 0.4 dB a metre inside (Sommer et al., WONS 2011) count as distance",
-    )
-    path_loss_exponent: float = number(
-        2.0,
-        unit="1",
-        title="Path loss exponent",
-        description="how fast power falls with distance, which makes the shadow a distance: 2 in free space, 2.7 to 3 in cities",
-        ge=1.5,
-        le=6,
-    )
-
-
 class Recording(Part):
     """What is kept of a run."""
 
@@ -261,10 +297,8 @@ class Goal(Part):
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
 
 
-class Scenario(Part):
+class Scenario(Part, defer_build=True):
     """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
-
-    model_config = ConfigDict(defer_build=True)
 
     version: Literal[3] = Field(VERSION, title="Version of this format")
     title: str = Field(..., min_length=1, max_length=120, title="Title")
@@ -274,26 +308,29 @@ class Scenario(Part):
     seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
     routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
+    stations: dict[Name, Station] = Field({}, title="Stations", description="units that stand at a place")
     applications: dict[Name, Application] = Field({}, title="Applications")
     traffic: Traffic = Field(default_factory=Traffic, title="Traffic")
     weather: Weather = Field(default_factory=Weather, title="Weather")
     script: dict[Name, Entry] = Field({}, title="Script", description="what happens, to vehicles and to the road")
-    radio: Radio = Field(default_factory=Radio, title="Radio")
+    radio: Annotated[Any, Slot("radio", usual="ad_hoc")] = Field(default_factory=dict, validate_default=True, title="Radio")
+    messages: Annotated[Any, Every("message")] = Field(
+        default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
+    )
     recording: Recording = Field(default_factory=Recording, title="Recording")
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
 
 
-SLOTTED: tuple[type[BaseModel], ...] = (Entry, Scenario)  # parts with places for kinds, the inner ones first
+WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)
 
 
-def renew() -> None:
-    """A kind has come in: parts that have been in use already are made again, so that it may stand in them."""
-    for part in SLOTTED:
-        if Scenario.__pydantic_complete__:
-            part.model_rebuild(force=True)
+def make_anew() -> None:
+    """A kind has come in: what may stand in a slot is another. Before anybody has asked nothing is made."""
+    for model in WITH_SLOTS if Scenario.__pydantic_complete__ else ():
+        model.model_rebuild(force=True)
 
 
-registry.listen(renew)
+registry.listen(make_anew)
 
 
 def unit_at(model: type[BaseModel], path: str) -> str:

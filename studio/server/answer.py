@@ -117,7 +117,7 @@ class Application(BaseModel):
 def application(kind: Kind) -> Application:
     """What the page needs to know about one."""
     schema = kind.module.Parameters.model_json_schema()
-    return Application(name=kind.name, title=kind.title, description=(kind.module.__doc__ or "").strip(), parameters=schema)
+    return Application(name=kind.name, title=kind.title, description=kind.explanation, parameters=schema)
 
 
 class Quantity(BaseModel):

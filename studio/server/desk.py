@@ -28,11 +28,11 @@ class Desk:
 
     db: Path
     scenarios: Path
-    applications: Path | None
+    kinds: Path | None
 
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)
-        self.lives = Lives(db=self.db, first=first, applications=self.applications, on_frame=self.on_frame)
+        self.lives = Lives(db=self.db, first=first, kinds=self.kinds, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)

@@ -216,9 +216,9 @@ class Listener:
 class Lives:
     """All live runs, and the process that waits for the next one."""
 
-    def __init__(self, *, db: Path, first: Path | None, applications: Path | None,
+    def __init__(self, *, db: Path, first: Path | None, kinds: Path | None,
                  on_frame: Callable[[LiveRun, Frame], None]) -> None:  # fmt: skip
-        self.db, self.first, self.applications, self.on_frame = db, first, applications, on_frame
+        self.db, self.first, self.kinds, self.on_frame = db, first, kinds, on_frame
         self.runs: dict[int, LiveRun] = {}
         self.spare: Child | None = None
         self.starting = 0
@@ -228,7 +228,7 @@ class Lives:
         """Starts the process for the next run, unless it waits already."""
         with self.lock:
             if self.spare is None or not self.spare.is_alive():
-                self.spare = Child.begin(worker.main, self.first, self.applications)
+                self.spare = Child.begin(worker.main, self.first, self.kinds)
 
     def take(self) -> Child:
         """The process that waits."""

@@ -7,10 +7,9 @@ from starlette.responses import Response
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
-from studio.assess import measure  # noqa: F401 - it imports every built-in metric
-from studio.assess.metric import Metric, registered
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
 from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.scenario.schema import Scenario
 from studio.scenario.text.document import digest
 from studio.scenario.text.patch import Operation, operations
@@ -128,14 +127,14 @@ def applications() -> list[answer.Application]:
 def glossary() -> answer.Glossary:
     """What channels and metrics are called, their units, and what they mean."""
     channels = [
-        answer.Quantity(name=each.name, unit=each.unit, label=each.label, meaning=each.meaning) for each in channel.BY_NAME.values()
+        answer.Quantity(name=each.name, unit=each.unit, label=each.label, meaning=each.meaning) for each in channel.catalogue().values()
     ]
-    return answer.Glossary(channels=channels, metrics=[measure_of(each) for each in registered().values()])
+    return answer.Glossary(channels=channels, metrics=[measure_of(each) for each in registry.known("metric").values()])
 
 
-def measure_of(each: Metric) -> answer.Measure:
+def measure_of(kind: Kind) -> answer.Measure:
     """A metric as it is told."""
-    return answer.Measure(name=each.name, title=each.title, unit=each.unit, goal=each.goal, explanation=each.explanation)
+    return answer.Measure(name=kind.name, title=kind.title, unit=kind.module.UNIT, goal=kind.module.BETTER, explanation=kind.explanation)
 
 
 @router.get("/runs")

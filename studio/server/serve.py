@@ -20,13 +20,13 @@ FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent i
 PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
 
 
-def serve(*, host: str, port: int, db: Path, scenarios: Path | None, applications: Path | None, browser: bool) -> None:
-    """Serves until it is interrupted. Raises StoreError, ServerError or KindError before it starts."""
+def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: Path | None, browser: bool) -> None:
+    """Serves until it is interrupted. Raises StoreError or ServerError before it starts."""
     listening = listen(host, port)
     try:
         open_database(db).conn.close()
         folder = scenario_folder(scenarios)
-        app = application(db, folder, applications, host)
+        app = application(db, folder, kinds, host)
     except BaseException:
         listening.close()
         raise
@@ -45,21 +45,17 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, application
     uvicorn.Server(config).run(sockets=[listening])
 
 
-def application(db: Path, folder: Path, applications: Path | None, host: str):
-    """The ASGI application. Applications of the user's own are loaded before: what is wrong with them is told at once."""
-    if applications:
-        from studio.kind.registry import load_folder
-
-        load_folder(applications)
-    return SameOrigin(Door(page.app, lambda: inner(db, folder, applications)), host=host)
+def application(db: Path, folder: Path, kinds: Path | None, host: str):
+    """The ASGI application. Live runs load the folder of kinds again, each in its process."""
+    return SameOrigin(Door(page.app, lambda: inner(db, folder, kinds)), host=host)
 
 
-def inner(db: Path, folder: Path, applications: Path | None):
+def inner(db: Path, folder: Path, kinds: Path | None):
     """REST and scene; imported here, behind the door."""
     from studio.server.app import create_app
     from studio.server.desk import Desk
 
-    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), applications=applications))
+    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=kinds.resolve() if kinds else None))
 
 
 def listen(host: str, port: int) -> socket.socket:

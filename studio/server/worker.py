@@ -185,11 +185,11 @@ class Live:
             self.pipe.send(("samples", record.time, values))
 
 
-def main(pipe: Connection, first: Path | None, applications: Path | None) -> None:
+def main(pipe: Connection, first: Path | None, kinds: Path | None) -> None:
     """The process: gets ready, waits for its order, runs it."""
     try:
-        if applications:
-            load_folder(applications)
+        if kinds:
+            load_folder(kinds)
         warm(first)
         pipe.send(("ready",))
         order, *values = pipe.recv()

@@ -10,7 +10,7 @@ from tsdownsample import MinMaxDownsampler
 
 from studio.errors import UnknownError, nearest
 from studio.execution.record import Record
-from studio.world.channel import BY_NAME
+from studio.world.channel import catalogue
 
 UNIT, LABEL = b"unit", b"label"
 
@@ -21,7 +21,7 @@ def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
     columns = {"time": record.time} | {name: record.trace(name) for name in names}
     fields = [field("time", "s", "Time")]
     for name in names:
-        channel = BY_NAME[name.partition(".")[2]]
+        channel = record.probes.get(name) or catalogue()[name.partition(".")[2]]
         fields.append(field(name, channel.unit, channel.label))
     table = pa.table(list(columns.values()), schema=pa.schema(fields))
     buffer = io.BytesIO()

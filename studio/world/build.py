@@ -3,23 +3,23 @@
 build([settings])   →  World         arrays, one column per vehicle, world after world
 """
 
-from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from studio.application.contract import ACTUATORS
-from studio.application.host import Group, Hosted, compiled_loop, first_memory, is_compiled, observation_rows, python_loop
+from studio.application.port import ACTUATORS
 from studio.conventions import GRAVITY
-from studio.kind import registry
-from studio.kind.registry import Kind
+from studio.kind.driver import Driver
 from studio.model.driver import sight_speed
 from studio.road.network import shadow
-from studio.scenario.schema import Application, Driver, Weather
-from studio.vehicle.command import RING, U_DRIVE
+from studio.scenario.schema import REASONS, Intervention, Weather
+from studio.vehicle.command import U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground
 from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
 from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
+from studio.world.board.crew import hosts
+from studio.world.board.equipment import units_of
 from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.obstacle import obstacles_of
@@ -28,12 +28,12 @@ from studio.world.passes.control import wheel_torque
 from studio.world.passes.neighbour import neighbours
 from studio.world.passes.queue import queues
 from studio.world.script import script_of
+from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
 from studio.world.snapshot import gather, origin_of
-from studio.world.table.mind import DRIVER, GAP, MIND, SIGHT, STATION
+from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
-from studio.world.table.unit import GPS_SET, MESSAGE, RADIO_SET, SENSOR, SENSOR_SET, SENT
-from studio.world.world import Clock, Conflicts, Events, Roads, Units, Vehicles, World, Worlds
+from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
 
 MOST_HITS = 64  # collisions that are reported per world
 
@@ -51,19 +51,23 @@ def build(settings: Sequence[Setting]) -> World:
     known: Zones = {}
     met = conflicts(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
     roads = roads_of(settings, lines, table, stops, met)
+    units = units_of(settings, worlds, cars)
+    hosted, open_inboxes = hosts(settings, units, clock.tick)
     world = World(
         clock=Clock(clock.tick, clock.step),
         vehicles=vehicles,
         worlds=worlds,
         roads=roads,
-        units=units_of(settings, worlds, cars),
+        units=units,
         events=events_of(settings),
         script=script_of(settings, worlds, lines),
         detours=detours_of(settings, worlds, lines, table, known),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
         queues=queues(vehicles.size),
-        hosted=hosts(settings, worlds),
+        seats=seats([car.driver for car in cars]),
+        hosted=hosted,
+        open_inboxes=open_inboxes,
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
     )
@@ -104,9 +108,10 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     mind[GAP] = np.nan  # nobody has looked yet
+    mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY]] = np.inf
     return Vehicles(
         **vars(fleet(starts, ground=ground_of(cars))),
-        drivers=np.array([driver_rows(car.driver, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
+        drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
         app_command=np.full((len(ACTUATORS), n), np.nan),
@@ -127,11 +132,20 @@ def at_start(setting: Setting) -> Vehicles:
     return vehicles_of(setting.cars, [setting.scenario.weather] * len(setting.cars))
 
 
-def driver_rows(driver: Driver, weather: Weather) -> list[float]:
-    """What a driver is like, how far one sees, and how fast this lets him go: braking in comfort, or as hard as the road lets."""
-    braking = min(driver.deceleration, weather.friction * GRAVITY)
-    own = [getattr(driver, row.name) for row in DRIVER[:SIGHT]]
-    return [*own, weather.visibility, sight_speed(weather.visibility, braking)]
+def driver_rows(car: Car, weather: Weather) -> list[float]:
+    """What a driver is like, how far one sees, how fast this lets him go, and for what he overrules an application."""
+    own = [getattr(car.driver, row.name) for row in DRIVER[:SIGHT]]
+    return [*own, weather.visibility, speed_within_sight(car.driver, weather), *minded(car.intervention)]
+
+
+def speed_within_sight(driver: Driver, weather: Weather) -> float:
+    """Speed [m/s] from which a driver stops within sight: braking in comfort, or as hard as the road lets."""
+    return sight_speed(weather.visibility, min(driver.deceleration, weather.friction * GRAVITY))
+
+
+def minded(intervention: Intervention) -> list[float]:
+    """Whether a driver overrules an application for each of the reasons, and his reaction time [s]."""
+    return [*(float(reason in intervention.reasons) for reason in REASONS), intervention.reaction_time]
 
 
 def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, met: Conflicts) -> Roads:
@@ -200,96 +214,9 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
     }
 
 
-def units_of(settings: Sequence[Setting], worlds: Worlds, cars: list[Car]) -> Units:
-    """Sensors, radio, and a link for every car that listens to another."""
-    n = len(cars)
-    links = [link for w, each in enumerate(settings) for link in links_of(each, int(worlds.first[w]))]
-    receiver, sender = np.array(links, dtype=np.int64).reshape(-1, 2).T.copy()
-    sent = np.zeros((len(MESSAGE), RING * n))
-    inbox = np.zeros((len(MESSAGE), len(links)))
-    sent[SENT] = inbox[SENT] = -np.inf
-    return Units(
-        sensor_set=np.array([[getattr(car.sensor, row.name) for row in SENSOR_SET] for car in cars]).T.copy(),
-        sensors=np.zeros((len(SENSOR), n)),
-        gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
-        radio_set=np.array([[getattr(each.scenario.radio, row.name) for row in RADIO_SET] for each in settings]).T.copy(),
-        sent=sent,
-        link_receiver=receiver,
-        link_sender=sender,
-        inbox=inbox,
-    )
-
-
-def links_of(each: Setting, first: int) -> list[tuple[int, int]]:
-    """Receiver and sender columns, in the order of the groups."""
-    numbers = {name: first + i for i, name in enumerate(each.names)}
-    return [
-        (numbers[receiver], numbers[sender])
-        for group in each.scenario.applications.values()
-        for receiver, sender in zip(group.vehicles, group.listens_to, strict=False)
-    ]
-
-
 def events_of(settings: Sequence[Setting]) -> Events:
     """No collisions yet."""
     return Events(hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
-
-
-class Crew(NamedTuple):
-    """The cars of an application group before they are hosted: their columns, and the link that each listens to, -1 for none."""
-
-    world: int
-    place: int
-    name: str
-    group: Application
-    columns: np.ndarray
-    links: np.ndarray
-
-
-def hosts(settings: Sequence[Setting], worlds: Worlds) -> list[Hosted]:
-    """Every application, a compiled one once for all groups of all worlds, in the order in which the files name them."""
-    together: dict[tuple[str, int], list[Crew]] = {}
-    for crew in crews(settings, worlds):
-        own = -1 if is_compiled(registry.find("application", crew.group.application)) else crew.place
-        together.setdefault((crew.group.application, own), []).append(crew)
-    return [hosted(registry.find("application", name), found) for (name, _), found in together.items()]
-
-
-def crews(settings: Sequence[Setting], worlds: Worlds) -> Iterator[Crew]:
-    """Every application group of every world."""
-    link, place = 0, 0
-    for w, (each, first) in enumerate(zip(settings, worlds.first, strict=True)):
-        numbers = {name: first + i for i, name in enumerate(each.names)}
-        for name, group in each.scenario.applications.items():
-            heard = len(group.listens_to)
-            columns = np.array([numbers[vehicle] for vehicle in group.vehicles], dtype=np.int64)
-            links = np.arange(link, link + heard) if heard else np.full(columns.size, -1)
-            yield Crew(w, place, name, group, columns, links)
-            link, place = link + heard, place + 1
-
-
-def hosted(application: Kind, found: list[Crew]) -> Hosted:
-    """Some groups of one application on their host."""
-    columns = np.concatenate([crew.columns for crew in found])
-    ends = np.cumsum([crew.columns.size for crew in found]).tolist()
-    return Hosted(
-        application=application,
-        groups=[
-            Group(crew.world, crew.place, crew.name, slice(end - crew.columns.size, end)) for crew, end in zip(found, ends, strict=True)
-        ],
-        columns=columns,
-        links=np.concatenate([crew.links for crew in found]),
-        parameters=np.concatenate([parameters_of(application, crew) for crew in found], axis=1),
-        memory=np.tile(np.array(first_memory(application))[:, None], columns.size),
-        observed=np.zeros((len(observation_rows()), columns.size)),
-        run=compiled_loop(application) if is_compiled(application) else python_loop(application),
-    )
-
-
-def parameters_of(application: Kind, crew: Crew) -> np.ndarray:
-    """Parameters of all cars of a group, [row, car]."""
-    values = [float(value) for value in application.module.Parameters.model_validate(crew.group.parameters).model_dump().values()]
-    return np.tile(np.array(values)[:, None], crew.columns.size)
 
 
 def settle(world: World) -> None:

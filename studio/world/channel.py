@@ -1,21 +1,24 @@
-"""Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one."""
+"""Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one, and every kind that follows from them."""
 
+from functools import cache
 from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
 from studio.compiled import lean
+from studio.kind import registry
+from studio.kind.registry import Kind
 from studio.rows import Table
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
 from studio.world.table.mind import MIND
-from studio.world.table.unit import SENSOR, SENT
+from studio.world.table.unit import H_NUMBER, H_TIME, PRESENT, SATELLITE
 from studio.world.world import World
 
 
 class Channel(NamedTuple):
-    """One quantity of one vehicle over time: where its row stands, -1 for one that is made of others."""
+    """One quantity of one vehicle over time: where its row stands, -1 for one that a kind makes of others."""
 
     name: str
     unit: str
@@ -30,12 +33,25 @@ def channels_of(table: Table) -> list[Channel]:
     return [Channel(row.name, row.unit, row.label, row.meaning, table.name, i) for i, row in enumerate(table) if row.label]
 
 
-RECORDED = (VEHICLE, MIND, COMMAND, SENSOR)
+RECORDED = (VEHICLE, MIND, COMMAND, SATELLITE)
 CHANNELS = tuple(channel for table in RECORDED for channel in channels_of(table))
-TIME_GAP = Channel("time_gap", "s", "Time gap to the car ahead", "gap over the own speed, while the car moves", "derived", -1)
-BY_NAME = {channel.name: channel for channel in (*CHANNELS, TIME_GAP)}
 TABLE_OF = np.array([[table.name for table in RECORDED].index(channel.table) for channel in CHANNELS])
 ROW_OF = np.array([channel.row for channel in CHANNELS])
+
+
+@cache
+def catalogue() -> dict[str, Channel]:
+    """All channels by name: the rows, then the kinds."""
+    made = [derived(kind) for kind in registry.known("channel").values()]
+    return {channel.name: channel for channel in (*CHANNELS, *made)}
+
+
+def derived(kind: Kind) -> Channel:
+    """The channel that a kind makes of others."""
+    return Channel(kind.name, kind.module.UNIT, kind.title, kind.explanation.partition("\n\n")[0], "derived", -1)
+
+
+registry.listen(catalogue.cache_clear)
 
 
 def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> None:
@@ -44,11 +60,11 @@ def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> Non
     A vehicle that has arrived has no values any more.
     """
     v = world.vehicles
-    gather(columns, (k % RING) * world.size, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.sensors, values)
+    gather(columns, (k % RING) * world.size, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values)
 
 
 @lean
-def gather(columns, commanded, table_of, row_of, state, mind, commands, sensors, values):
+def gather(columns, commanded, table_of, row_of, state, mind, commands, satellite, values):
     """The pass behind it; `commanded` is the first column of the tick's commands."""
     for c in range(row_of.size):
         if table_of[c] == 0:
@@ -58,7 +74,7 @@ def gather(columns, commanded, table_of, row_of, state, mind, commands, sensors,
         elif table_of[c] == 2:
             pick(commands[row_of[c]], columns, commanded, values[c])
         else:
-            pick(sensors[row_of[c]], columns, 0, values[c])
+            pick(satellite[row_of[c]], columns, 0, values[c])
     for i in range(columns.size):
         if state[ACTIVE, columns[i]] == 0.0:
             values[:, i] = nan
@@ -72,17 +88,20 @@ def pick(row, columns, start, values):
 
 
 def link_ages(world: World, ages: np.ndarray) -> None:
-    """Age [s] of the newest message on every link, the time since the start while none has come.
+    """True age [s] of the newest message on every link, the time since the start while none has come.
 
     Not a number once one of its ends has left.
     """
-    u = world.units
-    age(world.clock.time, world.vehicles.state, u.link_receiver, u.link_sender, u.inbox, ages)
+    first = 0
+    for post in world.units.posts:
+        last = first + post.link_receiver.size
+        age(world.clock.time, world.units.now, post.link_receiver, post.sender, post.link_sender, post.inbox, ages[first:last])
+        first = last
 
 
 @lean
-def age(time, state, link_receiver, link_sender, inbox, ages):
+def age(time, now, link_receiver, sender, link_sender, inbox, ages):
     """The pass behind it."""
     for link in range(ages.size):
-        there = state[ACTIVE, link_receiver[link]] > 0.0 and state[ACTIVE, link_sender[link]] > 0.0
-        ages[link] = time - max(inbox[SENT, link], 0.0) if there else nan
+        there = now[PRESENT, link_receiver[link]] > 0.0 and now[PRESENT, sender[link_sender[link]]] > 0.0
+        ages[link] = (time - inbox[H_TIME, link] if inbox[H_NUMBER, link] >= 0.0 else time) if there else nan

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.compiled import lean
-from studio.kind.loop import fields, written
-from studio.kind.plain import settings_tuple
+from studio.kind.loop import written
+from studio.kind.number import sizes, spelled, tuple_of
 from studio.kind.registry import Kind
 from studio.road.ways.path import project
 from studio.vehicle.state import ACTIVE, X, Y
@@ -62,6 +62,7 @@ def run(view, entry, turn, settings, phase, come):
 
 def loop(kind: Kind) -> Callable:
     """The loop of a kind of condition: marks in `come` the entries whose turn has come."""
-    count = len(settings_tuple(kind.module)._fields)  # pyrefly: ignore[missing-attribute]
-    source = LOOP.format(name=kind.name, module=kind.module.__name__, settings=fields("settings", count))
-    return written(kind, source).run
+    module = kind.module
+    tuple_of(module, module.Settings)
+    source = LOOP.format(name=kind.name, module=module.__name__, settings=spelled(sizes(module.Settings), "settings"))
+    return written(f"{kind.sort}_{kind.name}", source, kind).run

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from studio.compiled import inlined, lean
-from studio.kind.loop import fields, written
-from studio.kind.plain import settings_tuple
+from studio.kind.loop import written
+from studio.kind.number import sizes, spelled, tuple_of
 from studio.kind.registry import Kind
 from studio.vehicle.state import A_X, ACTIVE, DELTA, V_X
 from studio.world.table.mind import (
@@ -138,6 +138,7 @@ def run(time, entry, vehicle, settings, phase, turned, state, mind, script, come
 
 def loop(kind: Kind) -> Callable:
     """The loop of a kind of maneuver: commands its vehicles, and marks in `come` the entries that are over."""
-    count = len(settings_tuple(kind.module)._fields)  # pyrefly: ignore[missing-attribute]
-    source = LOOP.format(name=kind.name, module=kind.module.__name__, settings=fields("settings", count))
-    return written(kind, source).run
+    module = kind.module
+    tuple_of(module, module.Settings)
+    source = LOOP.format(name=kind.name, module=module.__name__, settings=spelled(sizes(module.Settings), "settings"))
+    return written(f"{kind.sort}_{kind.name}", source, kind).run

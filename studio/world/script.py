@@ -12,7 +12,7 @@ import numpy as np
 
 from studio.compiled import lean
 from studio.kind import registry
-from studio.kind.plain import Find, plain, stations
+from studio.kind.number import Find, numbers, row_of, stations
 from studio.road.network import Network
 from studio.road.ways.detour import limited
 from studio.road.ways.path import PATH_SPEED
@@ -228,8 +228,8 @@ def asked_of(settings: Sequence[Setting], finds: list[Find]) -> list[Asked]:
         for entry in each.scenario.script.values():
             for which, part in enumerate((entry.when, entry.until)):
                 if part is not None:
-                    numbers = numbers_of(part, each.scenario, each.network, find)
-                    together.setdefault(part.kind, []).append((number, which, numbers))
+                    row = numbers_of(part, each.scenario, each.network, find)
+                    together.setdefault(part.kind, []).append((number, which, row))
             number += 1
     return [asked(name, rows) for name, rows in together.items()]
 
@@ -237,22 +237,22 @@ def asked_of(settings: Sequence[Setting], finds: list[Find]) -> list[Asked]:
 def asked(name: str, rows: list[tuple[int, int, list[float]]]) -> Asked:
     """Everybody who waits for one kind of condition."""
     kind = registry.find("condition", name)
+    made = kind.module.Settings
     return Asked(
         entry=np.array([entry for entry, _, _ in rows]),
         turn=np.array([which for _, which, _ in rows]),
-        settings=np.array([numbers for _, _, numbers in rows]).T.copy(),
-        stations=stations(kind.module),
+        settings=np.array([row for _, _, row in rows]).T.copy(),
+        stations=[(row_of(made, station), row_of(made, vehicle)) for station, vehicle in stations(made)],
         run=condition.loop(kind),
     )
 
 
 def numbers_of(part, scenario: Scenario, network: Network, find: Find) -> list[float]:
     """A condition's settings as numbers; stations count on the path that the vehicle drives, which may begin later than its route."""
-    module = registry.find("condition", part.kind).module
-    numbers, fields = plain(part, module, find), list(module.Settings.model_fields)
-    for station, vehicle in stations(module):
-        numbers[station] -= joined_at(getattr(part, fields[vehicle]), scenario, network)
-    return numbers
+    made = numbers(part, find)
+    for station, vehicle in stations(type(part)):
+        made[row_of(type(part), station)] -= joined_at(getattr(part, vehicle), scenario, network)
+    return made
 
 
 def maneuvers_of(settings: Sequence[Setting], finds: list[Find]) -> tuple[list[Maneuvers], np.ndarray]:
@@ -264,7 +264,7 @@ def maneuvers_of(settings: Sequence[Setting], finds: list[Find]) -> tuple[list[M
             module = registry.find("action", entry.do.kind).module
             column = int(find("vehicle", entry.do.vehicle)) if hasattr(module, "act") else -1
             if column >= 0:
-                together.setdefault(entry.do.kind, []).append((len(vehicles), column, plain(entry.do, module, find)))
+                together.setdefault(entry.do.kind, []).append((len(vehicles), column, numbers(entry.do, find)))
             vehicles.append(column)
     return [maneuvers(name, rows) for name, rows in together.items()], np.array(vehicles, dtype=np.int64)
 
@@ -274,7 +274,7 @@ def maneuvers(name: str, rows: list[tuple[int, int, list[float]]]) -> Maneuvers:
     return Maneuvers(
         entry=np.array([entry for entry, _, _ in rows]),
         vehicle=np.array([column for _, column, _ in rows]),
-        settings=np.array([numbers for _, _, numbers in rows]).T.copy(),
+        settings=np.array([row for _, _, row in rows]).T.copy(),
         run=maneuver.loop(registry.find("action", name)),
     )
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
+from studio.kind.driver import Driver
 from studio.kind.settings import references
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
@@ -21,11 +22,13 @@ from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X
 from studio.road.ways.route import all_routes, connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Driver, FrontSensor, Gps, Scenario
+from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
-from studio.world.channel import BY_NAME
+from studio.world import crew
+from studio.world.channel import catalogue as channels
 from studio.world.site import Site, joins, place_problems, sites
+from studio.world.spot import spots
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
@@ -46,7 +49,7 @@ class Car:
     station: float  # [m] of the centre of gravity
     speed: float  # [m/s]
     driver: Driver
-    sensor: FrontSensor
+    intervention: Intervention
     colour: str
     gps: Gps
     returns: bool = False
@@ -61,6 +64,7 @@ class Setting:
     cars: tuple[Car, ...]
     sites: tuple[Site, ...]
     works: Works
+    spots: dict[str, tuple[float, float]]  # [m] where the stations stand
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -85,7 +89,7 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     works = Works(found)
     check_works(cars, works, where)
     filled = tuple(cars + traffic(scenario, network, models, cars, works))
-    return Setting(scenario, network, filled, found, works)
+    return Setting(scenario, network, filled, found, works, spots(scenario, network, where))
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -147,7 +151,7 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     """Every vehicle, route, entry, model and channel that is named must exist."""
     names = {
         "vehicle": (scenario.vehicles, "vehicle of this scenario"),
-        "unit": (scenario.vehicles, "unit of this scenario"),
+        "unit": ({**scenario.vehicles, **scenario.stations}, "unit of this scenario"),
         "route": (scenario.routes, "route of this scenario"),
         "entry": (scenario.script, "entry of the script"),
     }
@@ -156,8 +160,8 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     for path, model in models_named(scenario):
         found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
     for i, name in enumerate(scenario.recording.channels):
-        found.append(unknown(where, f"recording.channels.{i}", name, set(BY_NAME), "channel"))
-    return [each for each in found if each] + reserved(scenario, where) + doubled(scenario, where) + untimely(scenario, where)
+        found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
+    return [each for each in found if each] + reserved(scenario, where) + untimely(scenario, where) + crew.problems(scenario, where)
 
 
 def unknown(where: str, path: str, name: str, known: Collection[str], kind: str) -> Problem | None:
@@ -177,29 +181,18 @@ def is_file(model: str) -> bool:
 
 
 def reserved(scenario: Scenario, where: str) -> list[Problem]:
-    """Names that the traffic has, and a vehicle that listens to itself."""
+    """Names that the traffic has, or vehicle and station both, and a unit that listens to itself."""
     found = [
         Problem(f"{where}: vehicles.{name}", "is a name of the traffic", repr(name), remedy="choose another name")
         for name in scenario.vehicles
         if re.fullmatch(r"traffic_\d+", name)
     ]
     for group, application in scenario.applications.items():
-        for vehicle, heard in zip(application.vehicles, application.listens_to, strict=False):
-            if vehicle == heard:
-                found.append(Problem(f"{where}: applications.{group}.listens_to", "is the vehicle itself", repr(vehicle)))
-    return found
-
-
-def doubled(scenario: Scenario, where: str) -> list[Problem]:
-    """A vehicle's pedals belong to one application."""
-    owner, found = {}, []
-    for group, application in scenario.applications.items():
-        for name in application.vehicles:
-            if name in owner:
-                what = f"runs {owner[name]!r} already; a vehicle has one application"
-                found.append(Problem(f"{where}: applications.{group}.vehicles", what, repr(name)))
-            owner[name] = group
-    return found
+        for i, unit in enumerate(application.units):
+            if unit in application.senders(i):
+                found.append(Problem(f"{where}: applications.{group}.listens_to.{i}", "is the unit itself", repr(unit)))
+    both = [name for name in scenario.stations if name in scenario.vehicles]
+    return found + [Problem(f"{where}: stations.{name}", "is the name of a vehicle", repr(name), remedy="choose another") for name in both]
 
 
 def untimely(scenario: Scenario, where: str) -> list[Problem]:
@@ -207,17 +200,13 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     tick, found = scenario.clock.tick, []
     spans = {
         "clock.duration": scenario.clock.duration,
-        "radio.period": scenario.radio.period,
         "recording.period": scenario.recording.period,
     }
+    spans |= {f"messages.{name}.period": part.period for name, part in scenario.messages if hasattr(part, "period")}
     for path, period in spans.items():
         ratio = period / tick
         if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
             found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
-    longest = scenario.radio.delay + scenario.radio.delay_variation
-    kept = (RING - 1) * scenario.radio.period
-    if longest > kept:
-        found.append(Problem(f"{where}: radio.delay", "is longer than messages are kept", f"{longest} s", f"≤ {kept:g} s"))
     return found
 
 
@@ -288,7 +277,7 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.sensor, vehicle.colour, vehicle.gps)
+    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.intervention, vehicle.colour, vehicle.gps)
 
 
 def check_works(cars: list[Car], works: Works, where: str) -> None:
@@ -337,7 +326,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
                 station,
                 speed,
                 driver,
-                FrontSensor(range=0.0),
+                Intervention(),
                 PAINTS[i % len(PAINTS)],
                 Gps(drift=0.0, noise=0.0),
                 returns=True,

@@ -95,14 +95,14 @@ def identity(world: World) -> Identity:
 
 
 def origin_of(settings: Sequence[Setting], world: World) -> str:
-    """Digest of what a world was built from: scenarios with their seeds, maps, vehicles, and the files of the applications."""
+    """Digest of what a world was built from: scenarios with their seeds, maps, vehicles, and the files of drivers and applications."""
     digest = hashlib.sha256()
     for each in settings:
         digest.update(f"{each.network.digest} {each.scenario.model_dump_json()}\n".encode())
     for fixed in (world.vehicles.parameter, world.vehicles.gears, world.vehicles.tyres):
         digest.update(fixed.tobytes())
-    for hosted in world.hosted:
-        digest.update(hosted.application.digest.encode())
+    for kind in [*(seats.kind for seats in world.seats), *(hosted.application for hosted in world.hosted)]:
+        digest.update(kind.digest.encode())
     return digest.hexdigest()
 
 

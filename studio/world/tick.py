@@ -5,21 +5,24 @@ applications and drivers decide, commands go out. Between two ticks every vehicl
 """
 
 from collections.abc import Callable
+from math import nan
 
-from studio.application.host import Hosted
-from studio.errors import ApplicationError
 from studio.vehicle import fleet
 from studio.world import script
-from studio.world.passes import collision, control, ground, neighbour, perception, queue, traffic
+from studio.world.board import own
+from studio.world.board.host import Fault
+from studio.world.board.post import Post, freshest
+from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
+from studio.world.view import View
 from studio.world.world import World
 
-Refuse = Callable[[Hosted, ApplicationError], None]
+Refuse = Callable[[Fault], None]
 
 
-def let_through(_hosted: Hosted, error: ApplicationError) -> None:
+def let_through(fault: Fault) -> None:
     """An application that fails ends everything."""
-    raise error
+    raise fault.error
 
 
 def tick(world: World) -> None:
@@ -36,10 +39,11 @@ def meet(world: World, refuse: Refuse = let_through) -> None:
     environment(world)
     gather(world)
     look(world)
+    think(world)
     sense(world)
     communicate(world)
-    think(world)
     applications(world, refuse)
+    dispatch(world)
     act(world)
 
 
@@ -82,53 +86,75 @@ def look(world: World) -> None:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
 
 
+def think(world: World) -> None:
+    """Drivers decide, one kind after the other."""
+    v = world.vehicles
+    world.unfit = sum([seats.decide(v.state, v.parameter, v.mind) for seats in world.seats])
+
+
 def sense(world: World) -> None:
-    """Sensors measure, satellites tell where one is."""
-    v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
-    perception.sense(
-        clock.k, g.longest, v.state, v.parameter, u.sensor_set, w.of, w.number, w.entity, o.table, o.first, o.count, o.standing,
-        w.seed, g.grid, g.places, g.found, u.sensors,
+    """Satellites tell where one is; units look at themselves and around."""
+    v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
+    own.carry(
+        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
+        r.shadow, u.satellite, u.now,
     )  # fmt: skip
-    perception.fix(clock.k, clock.tick, v.state, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow, u.sensors)
+    seen = view(world) if u.mounted else None
+    for each in u.mounted:
+        each.run(seen, each.unit, each.stream, each.settings, each.memory, each.out)
+
+
+def view(world: World) -> View:
+    """The world as sensors see it."""
+    v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
+    return View(
+        clock.k, clock.time, clock.tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed,
+        g.grid, g.places, g.found, o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+    )  # fmt: skip
 
 
 def communicate(world: World) -> None:
-    """Units send, and take what has reached them."""
-    v, u, w, r, clock = world.vehicles, world.units, world.worlds, world.roads, world.clock
-    perception.send(clock.k, clock.tick, v.state, v.commands, u.radio_set, w.of, w.entity, u.sensors, u.sent)
-    perception.receive(
-        clock.k, clock.tick, v.state, u.radio_set, u.link_receiver, u.link_sender, w.of, w.entity, w.seed, r.place_of, r.shadow,
-        u.sent, u.inbox,
+    """Beacons go out; what has come in is taken, and laid before the applications."""
+    clock = world.clock
+    for post in world.units.posts:
+        own = (post.period, post.settings, post.link_sender, post.inbox)
+        post.exchange(clock.k, clock.tick, *own, *sent(world, post))
+    for each in world.open_inboxes:
+        freshest(each.first, each.count, each.links, each.post.inbox, each.heard, each.slots)
+
+
+def dispatch(world: World) -> None:
+    """The radio decides about what applications have sent."""
+    for post in world.units.posts:
+        if post.is_of_applications and post.fresh.any():
+            post.dispatch(*sent(world, post))
+
+
+def sent(world: World, post: Post) -> tuple:
+    """What the radio decides about, and what it looks at for that."""
+    u, w, r = world.units, world.worlds, world.roads
+    return (
+        world.clock.time, post.size, post.stream, post.reach, post.air, u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now,
+        post.sender, post.fresh, post.last, post.ring, post.link_first, post.link_receiver, post.arrival, post.lost,
     )  # fmt: skip
 
 
-def think(world: World) -> None:
-    """Drivers decide."""
-    v = world.vehicles
-    traffic.decide(v.state, v.parameter, v.drivers, v.mind)
-
-
 def applications(world: World, refuse: Refuse = let_through) -> None:
-    """Every application sees its observation and decides."""
-    for hosted in world.hosted:
-        observe(world, hosted)
-        try:
-            hosted.decide(world.vehicles.app_command)
-        except ApplicationError as error:
-            refuse(hosted, error)
-
-
-def observe(world: World, hosted: Hosted) -> None:
-    """What the cars of one group see, row by row as `observation_rows` names them."""
+    """Every application sees and decides, the highest priority last."""
     v, u, clock = world.vehicles, world.units, world.clock
-    control.observe(clock.time, clock.tick, hosted.columns, hosted.links, v.state, v.mind, u.sensors, u.inbox, hosted.observed)
+    v.app_command[:] = nan
+    for hosted in list(world.hosted):
+        for fault in hosted.decide(clock.time, clock.tick, u.fixed, u.now, v.app_command):
+            refuse(fault)
 
 
 def act(world: World) -> None:
     """Maneuvers, applications and drivers command the actuators."""
     v, clock = world.vehicles, world.clock
     script.act(world)
-    control.command(clock.k, v.state, v.ground, v.parameter, world.script.commands, v.mind, v.app_command, v.commands)
+    control.command(
+        clock.k, clock.time, v.state, v.ground, v.parameter, world.script.commands, v.drivers, v.mind, v.app_command, v.commands
+    )
 
 
 def move(world: World) -> None:

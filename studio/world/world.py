@@ -6,15 +6,20 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.application.host import Group, Hosted
 from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import ACTIVE
+from studio.world.board.host import Group, Hosted
+from studio.world.board.post import Open, Post
+from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
 from studio.world.passes.queue import Queues
+from studio.world.seat import Seats
+from studio.world.table.mind import STEER_WISH, WISH
 from studio.world.table.street import OBJECT
+from studio.world.table.unit import PRESENT
 
 
 @dataclass
@@ -165,16 +170,28 @@ class Obstacles:
 
 @dataclass
 class Units:
-    """Sensors and radio: what is set, what was sent, what has been received."""
+    """Who senses, talks and decides: the named vehicles of a world, then its stations, world after world."""
 
-    sensor_set: np.ndarray
-    sensors: Moving
-    gps_set: np.ndarray
-    radio_set: np.ndarray  # per world
-    sent: Moving  # [row, slot · n + vehicle]
-    link_receiver: np.ndarray
-    link_sender: np.ndarray
-    inbox: Moving  # [row, link]
+    names: tuple[tuple[str, ...], ...]  # per world
+    first: np.ndarray  # per world
+    vehicle: np.ndarray  # column of the vehicle that each is mounted on, -1 for a station
+    world: np.ndarray  # of each
+    entity: np.ndarray  # as chance tells them apart
+    fixed: np.ndarray  # clock and antenna, [row, unit]
+    now: Moving  # where they are and what they know of themselves, [row, unit]
+    gps_set: np.ndarray  # per vehicle
+    satellite: Moving  # errors of the satellite position, [row, vehicle]
+    mounted: list[Mounted]
+    posts: list[Post]
+
+    def number(self, name: str, world: int = 0) -> int:
+        """A unit by its name; raises ValueError."""
+        return int(self.first[world]) + self.names[world].index(name)
+
+    def name_of(self, unit: int) -> str:
+        """Its name."""
+        world = int(self.world[unit])
+        return self.names[world][unit - int(self.first[world])]
 
 
 @dataclass
@@ -210,10 +227,13 @@ class World:
     obstacles: Obstacles
     neighbours: Neighbours
     queues: Queues
+    seats: list[Seats]
     hosted: list[Hosted]
+    open_inboxes: list[Open]  # of applications that hear everybody
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
     origin: str = ""  # digest of what it was built from
+    unfit: int = 0  # wishes of drivers at this tick that are no numbers
     arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 
     @property
@@ -244,7 +264,7 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.sensors, u.sent, u.inbox]
+        units = [u.now, u.satellite, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
         happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -259,10 +279,15 @@ class World:
         """The shares of one world in the moving parts."""
         v, u, e, s, o, d = self.vehicles, self.units, self.events, self.script, self.obstacles, self.detours
         columns, of = self.columns(number), self.worlds.of
-        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.commands, RING), (u.sensors, 1), (u.sent, RING)
+        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.commands, RING), (u.satellite, 1)
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
-        yield u.inbox[:, of[u.link_receiver] == number]
+        yield u.now[:, u.world == number]
+        yield from (each.out[:, u.world[each.unit] == number] for each in u.mounted)
+        for post in u.posts:
+            slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
+            yield slots[:, :, u.world[post.sender] == number]
+            yield post.inbox[:, u.world[post.link_receiver] == number]
         share = e.hits.shape[1] // e.found.size
         yield e.hits[:, number * share : (number + 1) * share]
         yield s.phase[s.world == number]
@@ -276,9 +301,16 @@ class World:
         found = [(group, hosted.memory[:, group.cars]) for hosted in self.hosted for group in hosted.groups]
         return sorted(found, key=lambda each: each[0].place)
 
+    def unfit_wishes(self) -> Iterator[tuple[int, str]]:
+        """Columns of the vehicles whose drivers want what is no number, with the kind of the driver."""
+        wishes = self.vehicles.mind[[WISH, STEER_WISH]]
+        for seats in self.seats:
+            yield from ((int(column), seats.kind.name) for column in seats.columns if not np.isfinite(wishes[:, column]).all())
+
     def leave(self, number: int) -> None:
         """The vehicles of a world take no part any more, nor do its applications."""
         columns = self.columns(number)
+        self.units.now[PRESENT, self.units.world == number] = 0.0
         self.vehicles.state[ACTIVE, columns] = 0.0
         self.vehicles.returns[columns] = 0
         self.hosted = [hosted for hosted in self.hosted if {group.world for group in hosted.groups} != {number}]

@@ -8,8 +8,8 @@ import pytest
 from studio import job
 from studio.application import registry
 from studio.application.contract import ACTUATORS, LEAVE, Actuators, Command
-from studio.application.setup import complete
 from studio.road.network.signals import AMBER, GREEN
+from studio.scenario.setup import complete
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_STEER, U
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACCELERATOR, DELTA, GEAR, RATIO, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, V_X

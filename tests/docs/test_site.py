@@ -1,5 +1,6 @@
 """The site: it is made without a warning, complete, and of nothing that would have to be fetched."""
 
+import html
 import re
 import subprocess
 import sys
@@ -14,7 +15,8 @@ import uvicorn
 from docs import book
 from docs.formula import block, makeExtension
 from docs.reference import field
-from studio.assess.measure import registered
+from studio.kind import registry
+from studio.kind.sort import SORTS
 from studio.scenario.datasheet import quantities
 from studio.scenario.schema import Scenario
 from studio.server import book as shown
@@ -90,9 +92,26 @@ def test_every_value_of_the_catalogue_says_where_it_comes_from(site):
     assert "published" in text and "estimated" in text
 
 
-def test_every_metric_command_and_route_is_in_the_reference(site):
-    text = (site / "reference" / "metrics" / "index.html").read_text(encoding="utf-8")
-    assert all(f"<code>{name}</code>" in text for name in registered())
+@pytest.mark.parametrize("sort", SORTS.values(), ids=SORTS)
+def test_every_kind_and_every_part_of_a_contract_is_in_the_reference(site, sort):
+    text = (site / "reference" / "kinds" / sort.name / "index.html").read_text(encoding="utf-8")
+    words = html.unescape(re.sub(r"<[^>]+>", "", text))
+    for need in sort.needs:
+        assert f"<code>{need.name}</code>" in text and need.meaning.replace("`", "") in words, need.name
+    for kind in registry.known(sort.name).values():
+        assert f'id="{field.anchor(kind.name)}"' in text and kind.title in words, kind.name
+        for each in fields_of(kind):
+            assert f"<code>{each}</code>" in text, (kind.name, each)
+
+
+def fields_of(kind) -> list[str]:
+    """What may be set of a kind, and the numbers that it gives."""
+    models = [vars(kind.module)[name].model_fields for name in ("Settings", "Parameters") if name in vars(kind.module)]
+    given = [vars(kind.module)[name]._fields for name in ("Reading", "Payload") if name in vars(kind.module)]
+    return [name for names in (*models, *given) for name in names]
+
+
+def test_every_command_and_route_is_in_the_reference(site):
     commands = (site / "reference" / "commands" / "index.html").read_text(encoding="utf-8")
     assert all(f"studio {name}" in commands for name in ("run", "check", "generate motorway", "drive"))
     assert "<code>--parent PARENT</code>" in commands

@@ -6,9 +6,8 @@ import pytest
 import yaml
 
 from studio import job
-from studio.application import setup
 from studio.errors import MapError, RouteError, ScenarioError
-from studio.scenario import file
+from studio.scenario import file, setup
 
 
 @pytest.fixture

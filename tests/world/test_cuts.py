@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from studio import job
-from studio.application.setup import complete
 from studio.scenario import file
+from studio.scenario.setup import complete
 from studio.world.build import build
 from studio.world.setting import setting
 from studio.world.tick import tick

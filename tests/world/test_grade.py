@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from studio.application.setup import complete
 from studio.conventions import GRAVITY
+from studio.scenario.setup import complete
 from studio.scene import pose
 from studio.server.frame import poses
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_GEAR, U_PEDAL

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from studio.application.setup import complete
 from studio.errors import ScenarioError
 from studio.execution.simulation import simulation
 from studio.scenario import file
+from studio.scenario.setup import complete
 from studio.vehicle.contact import MU
 from studio.vehicle.state import V_X
 from studio.world.build import build

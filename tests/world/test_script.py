@@ -7,7 +7,8 @@ from studio.errors import KindError, ScenarioError
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.kind import registry
-from studio.kind.plain import plain, settings_tuple
+from studio.kind.number import numbers as plain
+from studio.kind.number import tuple_of
 from studio.kind.settings import references
 from studio.kinds.action import brake, set_speed
 from studio.kinds.condition import gap, passed
@@ -97,7 +98,7 @@ def sees(**known):
 def numbers(module, **given):
     """Settings as compiled code has them."""
     settings = module.Settings(vehicle="leader", **given)
-    return settings_tuple(module)(*plain(settings, module, lambda what, name: 0.0))
+    return tuple_of(module, module.Settings)(*plain(settings, lambda what, name: 0.0))
 
 
 @pytest.mark.parametrize("call", ["compiled", "py_func"])
@@ -236,7 +237,7 @@ def kinds(tmp_path):
 
     yield load
     registry._registered, registry._broken = kept
-    schema.renew()
+    schema.make_anew()
 
 
 def test_a_condition_of_ones_own_is_one_file(sample, kinds):
@@ -298,7 +299,7 @@ def test_what_is_wrong_in_an_entry_is_named(sample, entry, field, word):
 @pytest.mark.parametrize(
     ("text", "what"),
     [
-        (STANDS.replace("is_asked: bool", "is_asked: str"), "Settings is_asked: is <class 'str'>; compiled code takes numbers"),
+        (STANDS.replace("is_asked: bool", "is_asked: str"), "Settings is_asked is str; allowed: float, int, bool"),
         (STANDS.replace("def holds(view, settings)", "def holds(settings)"), "holds takes (settings); it is called with (view, settings)"),
         (SWERVE.replace("vehicle: VehicleName", "vehicle: float = 0"), "has act, but no vehicle that it is about"),
         (ACCIDENT.replace("def effects", "def effect"), "has neither act nor effects"),
@@ -342,8 +343,8 @@ def test_names_in_settings_are_found_wherever_they_stand():
 
 def test_settings_are_plain_numbers():
     given = {"vehicle": "b", "along": 7.0}
-    assert plain(passed.Settings(**given), passed, lambda what, name: {"b": 4.0}[name]) == [4.0, 7.0]
-    assert settings_tuple(gap)._fields == ("vehicle", "below")
+    assert plain(passed.Settings(**given), lambda what, name: {"b": 4.0}[name]) == [4.0, 7.0]
+    assert tuple_of(gap, gap.Settings)._fields == ("vehicle", "below")
 
 
 # -- events --------------------------------------------------------------------------------------------

@@ -125,7 +125,7 @@ def drive_alone(sample, roads):
         "routes": {"way": {"roads": roads}},
         "vehicles": {"car": {"route": "way", "position": {"along": 5}, "speed": 8}},
     }
-    from studio.application.setup import complete
+    from studio.scenario.setup import complete
     from studio.world.setting import setting
 
     world = build([setting(complete(document, "alone"), sample.parent, "alone")])

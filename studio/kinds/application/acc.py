@@ -6,15 +6,16 @@ v_p speed of the car ahead, d measured gap, h headway, r standstill distance. Wi
 string stable only for h >= 2 tau (Rajamani, section 6.6).
 """
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from studio.application.contract import LEAVE, Command
+from studio.application.contract import ACCELERATION, Clock, Command, Own, Targets, accelerate
 from studio.compiled import compiled
 
 KIND = "application"
 TITLE = "Adaptive cruise control (radar only)"
+COMMANDS = ACCELERATION
 
 
 class Parameters(BaseModel):
@@ -35,7 +36,21 @@ class Parameters(BaseModel):
 class Memory(NamedTuple):
     """Nothing is remembered but the last request [m/s²]."""
 
-    u: float = 0.0
+    u: Annotated[float, "m/s²"] = 0.0
+
+
+class Sees(NamedTuple):
+    """What it sees."""
+
+    clock: Clock
+    own: Own
+    front: Annotated[Targets, "front_radar", 1]
+
+
+class Does(NamedTuple):
+    """What it does."""
+
+    command: Command
 
 
 @compiled
@@ -48,15 +63,15 @@ def cruise(gain, v_set, v):
 def keep_gap(p, v, front):
     """Acceleration [m/s²] behind the target (Eq. 6.18); the target's speed is v + range rate."""
     spacing_error = p.headway * v + p.standstill - front.range
-    return -(-front.range_rate + p.gap_gain * spacing_error) / p.headway
+    return -(-front.rate + p.gap_gain * spacing_error) / p.headway
 
 
 @compiled
-def decide(parameters, memory, observation):
+def decide(parameters, memory, sees):
     """One tick."""
-    p, own = parameters, observation.own
+    p, own = parameters, sees.own
     u = cruise(p.cruise_gain, own.set_speed, own.speed)
-    if observation.front.detected:
-        u = min(u, keep_gap(p, own.speed, observation.front))
+    if sees.front.count > 0:
+        u = min(u, keep_gap(p, own.speed, sees.front.target[0]))
     u = min(max(u, -p.deceleration_max), p.acceleration_max)
-    return Memory(u), Command(acceleration=u, steering=LEAVE)
+    return Memory(u), Does(accelerate(u))

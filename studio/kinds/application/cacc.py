@@ -10,15 +10,16 @@ When the link is silent for longer than `timeout`, the feed-forward is dropped a
 `fallback_headway`: what is left is an ACC, and an ACC needs the longer gap.
 """
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from studio.application.contract import LEAVE, Command
+from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
 from studio.compiled import compiled
 
 KIND = "application"
 TITLE = "Cooperative adaptive cruise control (Ploeg)"
+COMMANDS = ACCELERATION
 
 
 class Parameters(BaseModel):
@@ -49,8 +50,23 @@ class Parameters(BaseModel):
 class Memory(NamedTuple):
     """The request, which integrates, and the headway in force."""
 
-    u: float = 0.0  # [m/s²]
-    headway: float = -1.0  # [s] negative before the first tick
+    u: Annotated[float, "m/s²"] = 0.0
+    headway: Annotated[float, "s"] = -1.0  # negative before the first tick
+
+
+class Sees(NamedTuple):
+    """What it sees: the radar's target, and the car that it listens to."""
+
+    clock: Clock
+    own: Own
+    front: Annotated[Targets, "front_radar", 1]
+    heard: Annotated[Inbox, "awareness", 1]
+
+
+class Does(NamedTuple):
+    """What it does."""
+
+    command: Command
 
 
 HEADWAY_RATE = 0.1  # [s/s] how fast the headway in force moves to the wanted one, so that losing the link is no jolt
@@ -66,23 +82,23 @@ def approach(value, target, change):
 def ploeg_rate(p, h, u, u_ahead, own, front):
     """du/dt [m/s³]."""
     e = front.range - (p.standstill + h * own.speed)
-    de = front.range_rate - h * own.acceleration
+    de = front.rate - h * own.acceleration
     return (-u + p.k_p * e + p.k_d * de + u_ahead) / h
 
 
 @compiled
-def decide(parameters, memory, observation):
+def decide(parameters, memory, sees):
     """One tick."""
-    p, own, message = parameters, observation.own, observation.message
+    p, own, message = parameters, sees.own, sees.heard.message[0]
     linked = message.age <= p.timeout
     wanted = p.headway if linked else p.fallback_headway
-    h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * observation.clock.tick)
-    u_ahead = message.intention if linked and message.received else 0.0
+    h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * sees.clock.tick)
+    u_ahead = message.payload.intention if linked and message.received else 0.0
     u_cruise = p.cruise_gain * (own.set_speed - own.speed)
-    if observation.front.detected:
-        u = memory.u + observation.clock.tick * ploeg_rate(p, h, memory.u, u_ahead, own, observation.front)
+    if sees.front.count > 0:
+        u = memory.u + sees.clock.tick * ploeg_rate(p, h, memory.u, u_ahead, own, sees.front.target[0])
         u = min(u, u_cruise)
     else:
         u = u_cruise
     u = min(max(u, -p.deceleration_max), p.acceleration_max)
-    return Memory(u, h), Command(acceleration=u, steering=LEAVE)
+    return Memory(u, h), Does(accelerate(u))

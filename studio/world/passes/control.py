@@ -1,16 +1,15 @@
 """Control: who commands what. Maneuvers of the script, applications and drivers share the actuators.
 
-Order of precedence on pedals and wheel: a scripted maneuver, then the application, then the driver. A driver whose application
-drives still brakes for a red light, for a car that merges first, and when a collision is near: an application need see none
-of them. What an application does not command stays the driver's.
+Order of precedence on pedals and wheel: a scripted maneuver, then the application, then the driver. What an application does not
+command stays the driver's. He overrules it only where the scenario says so (intervention.py).
 
 An acceleration is turned into torques by inverting the resistances: F = m_eff u + F_air + F_roll + m g sin(slope). The
 engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain does not do.
 """
 
-from math import cos, inf, isnan, nan, sin
+from math import cos, isnan, nan, sin
 
-from studio.application.contract import ACTUATORS
+from studio.application.port import ACTUATORS
 from studio.compiled import inlined, lean
 from studio.conventions import GRAVITY
 from studio.model import actuator, aerodynamics
@@ -18,27 +17,12 @@ from studio.model.driver import NO_LIMIT
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER, U_STEER_TORQUE, U
 from studio.vehicle.contact import SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
-from studio.vehicle.state import A_X, ACCELERATOR, ACTIVE, CLUTCH, DELTA, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X, YAW_RATE, X, Y
-from studio.world.table.mind import (
-    AHEAD_SPEED,
-    DRIVES,
-    GAP,
-    SCRIPT_ACCELERATION,
-    SCRIPT_STEERING,
-    STEER_WISH,
-    STEERS,
-    STOPPING,
-    V_DESIRED,
-    WISH,
-    YIELDING,
-)  # fmt: skip
-from studio.world.table.unit import DETECTED, GPS_EAST, GPS_NORTH, M_INTENTION, M_X, SENT
+from studio.vehicle.state import ACCELERATOR, ACTIVE, CLUTCH, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X
+from studio.world.passes.intervention import attended, is_minding, let_go
+from studio.world.table.mind import DRIVES, SCRIPT_ACCELERATION, SCRIPT_STEERING, STEER_WISH, STEERS, WISH
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
-EMERGENCY = 4.0  # [m/s²] a driver who would have to brake harder than this does not leave it to an application
-EMERGENCY_GAIN = 1.2  # [1] and brakes a little more than is needed
-NEAREST = 1.0  # [m] that are to be left
 HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
@@ -46,28 +30,32 @@ HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 
 
 @inlined
-def emergency(v, state, mind):
-    """Acceleration [m/s²] with which a driver brakes when a collision is near, whatever assists; else nothing is asked.
-
-    The deceleration that still avoids it is v²/(2 gap), v the closing speed [m/s]; the last of the gap is never driven into.
-    """
-    closing, gap = state[V_X, v] - mind[AHEAD_SPEED, v], mind[GAP, v] - NEAREST
-    needed = closing * closing / (2.0 * max(gap, 0.01))
-    asked = -EMERGENCY_GAIN * max(needed, EMERGENCY)
-    return asked if closing >= 0.0 and (needed > EMERGENCY or gap < 0.0) else NO_LIMIT
+def drives(v, app_command):
+    """Whether an application commands the powertrain itself."""
+    return not (isnan(app_command[APP_ACCELERATOR, v]) and isnan(app_command[APP_DRIVE, v]) and isnan(app_command[APP_ENGINE, v]))
 
 
 @inlined
-def safe(v, state, mind):
-    """Acceleration [m/s²] that lights, cars which go first, and a near collision permit."""
-    return min(emergency(v, state, mind), min(mind[STOPPING, v], mind[YIELDING, v]))
+def has_pedals(v, app_command):
+    """Whether an application commands anything that pedals are for."""
+    return drives(v, app_command) or not (isnan(app_command[APP_ACCELERATION, v]) and isnan(app_command[APP_BRAKE, v]))
+
+
+@lean
+def permitted(v, time, is_left_alone, state, parameter, drivers, mind, app_command):
+    """Acceleration [m/s²] that the driver permits the application; one that asks for torques is taken to ask for any."""
+    if is_left_alone or not has_pedals(v, app_command):
+        let_go(v, mind)
+        return NO_LIMIT
+    asked = app_command[APP_ACCELERATION, v]
+    return attended(v, time, NO_LIMIT if isnan(asked) else asked, state, parameter, drivers, mind)
 
 
 @inlined
-def request(v, state, mind, app_acceleration):
-    """Acceleration [m/s²] that application or driver ask for."""
-    u = mind[WISH, v] if isnan(app_acceleration) else min(app_acceleration, safe(v, state, mind))
-    return min(max(u, STRONGEST_BRAKE), STRONGEST_DRIVE)
+def request(v, limit, mind, app_acceleration):
+    """Acceleration [m/s²] that application or driver ask for, and the driver permits."""
+    u = mind[WISH, v] if isnan(app_acceleration) else app_acceleration
+    return min(max(min(u, limit), STRONGEST_BRAKE), STRONGEST_DRIVE)
 
 
 @inlined
@@ -129,17 +117,17 @@ def pedals(v, column, u, state, ground, parameter, commands):
 
 
 @inlined
-def take_over(v, column, state, parameter, mind, app_command, commands):
+def take_over(v, column, limit, state, parameter, app_command, commands):
     """Drive and brake that an application commands itself, unless the driver has to brake."""
-    drives = not (isnan(app_command[APP_ACCELERATOR, v]) and isnan(app_command[APP_DRIVE, v]) and isnan(app_command[APP_ENGINE, v]))
-    if drives and safe(v, state, mind) >= 0.0:
+    driven, braked = drives(v, app_command), not isnan(app_command[APP_BRAKE, v])
+    if driven and limit >= 0.0:
         commands[U_PEDAL, column] = app_command[APP_ACCELERATOR, v]
         commands[U_DRIVE, column] = app_command[APP_DRIVE, v]
         commands[U_ENGINE, column] = app_command[APP_ENGINE, v]
-    if not isnan(app_command[APP_BRAKE, v]):
-        others = commands[U_BRAKE, column] if safe(v, state, mind) < 0.0 else 0.0
+    if braked:
+        others = commands[U_BRAKE, column] if limit < 0.0 else 0.0
         commands[U_BRAKE, column] = max(max(app_command[APP_BRAKE, v], 0.0), others)
-    if drives or not isnan(app_command[APP_BRAKE, v]):
+    if driven or braked:
         T = state[TORQUE_DRIVE, v] - commands[U_BRAKE, column]
         commands[U, column] = T / (parameter[RADIUS, v] * effective_mass(v, state, parameter))
 
@@ -167,49 +155,21 @@ def steer(v, column, parameter, script, mind, app_command, commands):
 
 
 @lean
-def command(k, state, ground, parameter, script, mind, app_command, commands):
+def command(k, time, state, ground, parameter, script, drivers, mind, app_command, commands):
     """Writes this tick's commands into the ring."""
     n = state.shape[1]
     for v in range(n):
-        column = (k % RING) * n + v
+        column, is_active = (k % RING) * n + v, state[ACTIVE, v] != 0.0
+        is_scripted = is_active and script[DRIVES, v] != 0.0
+        limit = NO_LIMIT
+        if is_minding(v, drivers):
+            limit = permitted(v, time, is_scripted or not is_active, state, parameter, drivers, mind, app_command)
         steer(v, column, parameter, script, mind, app_command, commands)
         commands[U_GEAR, column] = app_command[APP_GEAR, v]
-        if state[ACTIVE, v] == 0.0:
+        if not is_active:
             pedals(v, column, STRONGEST_BRAKE, state, ground, parameter, commands)
-        elif script[DRIVES, v] != 0.0:
+        elif is_scripted:
             pedals(v, column, scripted(script[SCRIPT_ACCELERATION, v]), state, ground, parameter, commands)
         else:
-            pedals(v, column, request(v, state, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
-            take_over(v, column, state, parameter, mind, app_command, commands)
-
-
-@lean
-def observe(time, tick, columns, links, state, mind, sensors, inbox, observed):
-    """What the applications of one group see, in the order of an Observation's fields."""
-    for j in range(columns.size):
-        v = columns[j]
-        observed[0, j] = time
-        observed[1, j] = tick
-        observed[2, j] = state[V_X, v]
-        observed[3, j] = state[A_X, v]
-        observed[4, j] = state[YAW_RATE, v]
-        observed[5, j] = state[DELTA, v]
-        observed[6, j] = mind[V_DESIRED, v]
-        observed[7, j] = mind[WISH, v]
-        observed[8, j] = state[X, v] + sensors[GPS_EAST, v]
-        observed[9, j] = state[Y, v] + sensors[GPS_NORTH, v]
-        for i in range(4):
-            observed[10 + i, j] = sensors[i, v] if sensors[DETECTED, v] > 0.0 else 0.0
-        observe_message(time, links[j], inbox, observed, j)
-
-
-@lean
-def observe_message(time, link, inbox, observed, j):
-    """The newest message of the unit that car j listens to."""
-    observed[14, j] = 0.0
-    observed[15, j] = time
-    if link >= 0 and inbox[SENT, link] > -inf:
-        observed[14, j] = 1.0
-        observed[15, j] = time - inbox[SENT, link]
-        for i in range(M_X, M_INTENTION + 1):
-            observed[15 + i, j] = inbox[i, link]
+            pedals(v, column, request(v, limit, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
+            take_over(v, column, limit, state, parameter, app_command, commands)

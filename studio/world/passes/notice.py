@@ -1,7 +1,7 @@
 """Notices: what has happened in a tick, found by compiled code and written into a table that is emptied now and then.
 
 A notice is a row of numbers; words are made of it only when somebody reads the table (execution/event.py). Everything is noticed once,
-but for company and waiting at red lights, which come and go, and for red lights that are passed.
+but for company, waiting at red lights and drivers who overrule applications, which come and go, and for red lights that are passed.
 """
 
 from dataclasses import dataclass
@@ -14,8 +14,19 @@ from studio.road.network.signals import RED
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X, X, Y
-from studio.world.table.event import ARRIVED, COMPANY_CAME, COMPANY_LEFT, HIT, RED_PASSED, ROLLED_OVER, SCRIPT_BEGUN, SCRIPT_ENDED, WAITS
-from studio.world.table.mind import AHEAD, RED_STATION, STATION
+from studio.world.table.event import (
+    ARRIVED,
+    COMPANY_CAME,
+    COMPANY_LEFT,
+    HIT,
+    RED_PASSED,
+    ROLLED_OVER,
+    SCRIPT_BEGUN,
+    SCRIPT_ENDED,
+    TAKES_OVER,
+    WAITS,
+)
+from studio.world.table.mind import ACTS_COLLISION, AHEAD, RED_STATION, STATION
 from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
 from studio.world.world import World
 
@@ -32,7 +43,8 @@ N_VALUE = NOTICE.row("value", "1", "its number, in the unit that table/event.py 
 AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits
 STANDING = 0.1  # [m/s]
 ROLLED = 1.0  # [rad] a vehicle that leans farther has rolled over
-TOLD_OF_A_VEHICLE = 4  # kinds of notices that one vehicle may give in one tick
+REASONS = 3  # for which a driver overrules an application
+TOLD_OF_A_VEHICLE = 4 + REASONS  # notices that one vehicle may give in one tick
 
 
 @dataclass
@@ -51,6 +63,7 @@ class Watch:
     waiting: np.ndarray  # int64[vehicle], 1 while it stands at a red light
     front: np.ndarray  # [m] per vehicle, the station of its bumper at the tick before; not a number when it was on another path
     path: np.ndarray  # per vehicle, the first point of its path at the tick before
+    acting: np.ndarray  # int64[reason, vehicle], 1 while its driver overrules its application
     between: np.ndarray  # per follower, the number of the car between it and the one that it listens to
     table: np.ndarray
     count: np.ndarray  # int64[1]
@@ -79,6 +92,7 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         waiting=np.zeros(n, dtype=np.int64),
         front=np.full(n, nan),
         path=np.full(n, -1),
+        acting=np.zeros((REASONS, n), dtype=np.int64),
         between=np.full(sizes.size, -1),
         table=np.zeros((len(NOTICE), 2 * most)),
         count=np.zeros(1, dtype=np.int64),
@@ -97,6 +111,7 @@ def notice(world: World, at: Watch) -> None:
         time, world.clock.tick, v.state, v.mind, v.parameter, w.of, w.number, at.named, r.path_first, r.stop_first, r.stop_count,
         r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
     )  # fmt: skip
+    notice_drivers(time, v.state, v.mind, w.of, w.number, at.acting, at.table, at.count)
 
 
 @lean
@@ -199,6 +214,17 @@ def has_passed_red(before, bumper, first, count, stop_station, stop_link, shown)
         if before < stop_station[i] <= bumper and shown[stop_link[i]] == RED:
             return True
     return False
+
+
+@lean
+def notice_drivers(time, state, mind, world_of, number, acting, table, count):
+    """Drivers who have begun to overrule their application, and for which reason."""
+    for i in range(REASONS):
+        for v in range(number.size):
+            acts = mind[ACTS_COLLISION + i, v] != 0.0
+            if acts and acting[i, v] == 0:
+                note_vehicle(time, TAKES_OVER, v, -1, i, state, world_of, number, table, count)
+            acting[i, v] = 1 if acts else 0
 
 
 @lean

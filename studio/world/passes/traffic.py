@@ -1,13 +1,14 @@
-"""Traffic: what the drivers of this tick see of road, lights and each other, and what they want. Six passes.
+"""Traffic: what the drivers of this tick see of road, lights and each other. Five passes, and what a driver sees of it.
 
 Two paths that run within a lane's width of each other share a zone: a stretch of one belongs to a stretch of the other.
 Following on one lane, merging and crossing are then one and the same: a car that is in the zone, or will be there
 first, drives ahead at the distance that the stretches give.
 """
 
-from math import inf, nan
+from math import inf, isfinite, nan
 
 from studio.compiled import inlined, lean
+from studio.kind.driver import Sees
 from studio.model import driver
 from studio.road.network.signals import GREEN, signal_state
 from studio.road.ways.path import (
@@ -32,6 +33,10 @@ from studio.world.table.mind import (
     BRAKE_COMFORT,
     COMFORT,
     D_PSI,
+    FIRST_GAP,
+    FIRST_SPEED,
+    FOLLOW_GAP,
+    FOLLOW_SPEED,
     FOLLOWING,
     FRONT_OFFSET,
     GAP,
@@ -44,12 +49,9 @@ from studio.world.table.mind import (
     SPEED_FACTOR,
     STANDSTILL,
     STATION,
-    STEER_GAIN,
     STEER_WISH,
-    STOPPING,
     V_DESIRED,
     WISH,
-    YAW_DAMPING,
     YIELDING,
 )  # fmt: skip
 from studio.world.table.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
@@ -57,7 +59,6 @@ from studio.world.table.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJEC
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
 HORIZON = 60.0  # [m] how far before a merge drivers mind each other
-COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 SLACK = 1e-6  # [m] by which a bound gives way to rounding
@@ -138,18 +139,34 @@ def forget(v, mind):
     mind[GAP, v] = nan
     mind[AHEAD, v] = -1.0
     mind[AHEAD_SPEED, v] = 0.0
-    mind[FOLLOWING, v] = driver.NO_LIMIT
-    mind[YIELDING, v] = driver.NO_LIMIT
+    mind[FOLLOWING, v] = mind[YIELDING, v] = driver.NO_LIMIT
+    mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = inf
 
 
 @inlined
-def behind(v, other, gap, state, drivers, mind):
-    """IDM acceleration [m/s²] of v behind the other car."""
-    closing = state[V_X, v] - state[V_X, other]
+def behind(v, gap, speed, state, drivers, mind):
+    """IDM acceleration [m/s²] of v, `gap` [m] behind something with a speed [m/s]."""
+    own = state[V_X, v]
     return driver.following_acceleration(
-        state[V_X, v], mind[V_DESIRED, v], gap, closing, drivers[STANDSTILL, v], drivers[HEADWAY, v],
-        drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
+        own, mind[V_DESIRED, v], gap, own - speed, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v],
+        drivers[BRAKE_COMFORT, v],
     )  # fmt: skip
+
+
+@inlined
+def follow(v, gap, speed, state, drivers, mind):
+    """Somebody is ahead: who permits least is minded."""
+    permitted = behind(v, gap, speed, state, drivers, mind)
+    if permitted < mind[FOLLOWING, v]:
+        mind[FOLLOWING, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v] = permitted, gap, speed
+
+
+@inlined
+def let_in(v, gap, speed, state, drivers, mind):
+    """Somebody goes first: who permits least is minded."""
+    permitted = max(behind(v, gap, speed, state, drivers, mind), -driver.COURTESY)
+    if permitted < mind[YIELDING, v]:
+        mind[YIELDING, v], mind[FIRST_GAP, v], mind[FIRST_SPEED, v] = permitted, gap, speed
 
 
 @inlined
@@ -198,26 +215,20 @@ def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, pa
     in_front = mind[STATION, other] - other_enter > mind[STATION, v] - v_enter
     if bumper_other >= other_enter:
         if in_front:
-            mind[FOLLOWING, v] = min(mind[FOLLOWING, v], behind(v, other, gap, state, drivers, mind))
+            follow(v, gap, state[V_X, other], state, drivers, mind)
             rear = bumper + gap
             if gap > 0.0 and is_in_the_way(v, other, rear, parameter, places, points, first, count):
                 is_ahead(v, other, number, gap, state, mind)
     elif bumper < v_enter and goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
-        wish = max(behind(v, other, gap, state, drivers, mind), -COURTESY)
-        mind[YIELDING, v] = min(mind[YIELDING, v], wish)
+        let_in(v, gap, state[V_X, other], state, drivers, mind)
 
 
 @inlined
 def asks_no_more(v, gap, speed, state, drivers, mind):
     """Whether nobody from this gap [m] on, none slower than `speed`, can ask more of v than is asked already, or be nearer."""
-    own = state[V_X, v]
-    if not gap > mind[GAP, v] or gap <= 0.0 or own < 0.0:
+    if not gap > mind[GAP, v] or gap <= 0.0 or state[V_X, v] < 0.0:
         return False
-    wish = driver.following_acceleration(
-        own, mind[V_DESIRED, v], gap, own - speed, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v],
-        drivers[BRAKE_COMFORT, v],
-    )  # fmt: skip
-    return wish >= mind[FOLLOWING, v]
+    return behind(v, gap, speed, state, drivers, mind) >= mind[FOLLOWING, v]
 
 
 @inlined
@@ -283,49 +294,32 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first
 @lean
 def stand_before(v, number, gap, state, drivers, mind):
     """Object `number` of the world is followed as a car that stands."""
-    wish = driver.following_acceleration(
-        state[V_X, v], mind[V_DESIRED, v], gap, state[V_X, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
-        drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
-    )  # fmt: skip
-    mind[FOLLOWING, v] = min(mind[FOLLOWING, v], wish)
+    follow(v, gap, 0.0, state, drivers, mind)
     if not gap >= mind[GAP, v]:
         mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, 0.0
 
 
 @inlined
-def stop_wish(v, state, parameter, drivers, mind):
-    """Acceleration [m/s²] that the next light permits."""
-    distance = mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
-    if distance == inf:
-        return driver.NO_LIMIT
-    return driver.stopping_acceleration(
-        state[V_X, v], distance, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v],
-        drivers[BRAKE_COMFORT, v],
+def compliance(v, parameter):
+    """Slip angle of the front axle per lateral acceleration [rad s²/m]."""
+    return driver.front_compliance(parameter[MASS, v], parameter[L_R, v], parameter[L_F, v] + parameter[L_R, v], parameter[C_FRONT, v])
+
+
+@inlined
+def sees(v, state, parameter, mind):
+    """What a driver of any kind sees of all this."""
+    return Sees(
+        state[V_X, v], state[YAW_RATE, v], mind[V_DESIRED, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v], mind[FIRST_GAP, v],
+        mind[FIRST_SPEED, v], mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v], mind[FRONT_OFFSET, v], mind[D_PSI, v],
+        mind[PATH_KAPPA, v], compliance(v, parameter), parameter[STEER_MAX, v],
     )  # fmt: skip
 
 
 @inlined
-def steer_wish(v, state, parameter, drivers, mind):
-    """Road wheel angle [rad] that keeps the path."""
-    compliance = driver.front_compliance(
-        parameter[MASS, v], parameter[L_R, v], parameter[L_F, v] + parameter[L_R, v], parameter[C_FRONT, v]
-    )
-    return driver.path_steering(
-        mind[FRONT_OFFSET, v], mind[D_PSI, v], mind[PATH_KAPPA, v], state[V_X, v], state[YAW_RATE, v],
-        drivers[STEER_GAIN, v], drivers[YAW_DAMPING, v], compliance, parameter[STEER_MAX, v],
-    )  # fmt: skip
-
-
-@lean
-def decide(state, parameter, drivers, mind):
-    """Fifth pass: what every driver wants of pedals and wheel."""
-    for v in range(state.shape[1]):
-        if state[ACTIVE, v] == 0.0:
-            continue
-        mind[STOPPING, v] = stop_wish(v, state, parameter, drivers, mind)
-        free = driver.free_acceleration(state[V_X, v], mind[V_DESIRED, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v])
-        mind[WISH, v] = min(min(free, mind[FOLLOWING, v]), min(mind[YIELDING, v], mind[STOPPING, v]))
-        mind[STEER_WISH, v] = steer_wish(v, state, parameter, drivers, mind)
+def put(v, acceleration, steering, mind):
+    """Keeps what a driver wants, acceleration [m/s²] and road wheel angle [rad]; 1 when these are no numbers, else 0."""
+    mind[WISH, v], mind[STEER_WISH, v] = acceleration, steering
+    return 0 if isfinite(acceleration) and isfinite(steering) else 1
 
 
 @lean
@@ -351,7 +345,7 @@ def is_close(other, x, y, state):
 def recirculate(
     returns, points, path_first, path_count, raised, world_of, grid, places, found, entered, state, wheels, ground, parameter, gears, mind
 ):  # fmt: skip
-    """Sixth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
+    """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
     count, reach = 0, 0.0
     for v in range(state.shape[1]):
         if state[ACTIVE, v] > 0.0 or returns[v] == 0:

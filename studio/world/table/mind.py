@@ -1,4 +1,7 @@
-"""Drivers: what they are like, what they know and want at this tick, and what maneuvers of the script command."""
+"""Drivers: what they are like, what they know and want at this tick, and what maneuvers of the script command.
+
+The settings of a kind of driver that it alone has stand with its seats, not here.
+"""
 
 from studio.rows import Role, Table
 
@@ -8,10 +11,12 @@ BRAKE_COMFORT = DRIVER.row("deceleration", "m/s²", "comfortable deceleration")
 HEADWAY = DRIVER.row("time_headway", "s", "wanted headway")
 STANDSTILL = DRIVER.row("standstill_gap", "m", "wanted gap at rest")
 SPEED_FACTOR = DRIVER.row("speed_factor", "1", "wanted speed over the permitted one")
-STEER_GAIN = DRIVER.row("steering_gain", "1/s", "how fast an offset is steered away")
-YAW_DAMPING = DRIVER.row("yaw_damping", "s", "how much a wrong yaw rate is corrected")
 SIGHT = DRIVER.row("sight", "m", "how far the weather lets the driver see")
 SIGHT_SPEED = DRIVER.row("sight_speed", "m/s", "from which the driver stops within sight")
+MINDS_COLLISION = DRIVER.row("minds_collision", "1", "1 when the driver overrules an application before a collision")
+MINDS_RED = DRIVER.row("minds_red_light", "1", "1 when he does before a red light")
+MINDS_WAY = DRIVER.row("minds_right_of_way", "1", "1 when he does before a car that goes first")
+REACTION_TIME = DRIVER.row("reaction_time", "s", "that it has to be needed before he does")
 
 MIND = Table("mind", Role.DERIVED, per="vehicle")
 STATION = MIND.row("station", "m", "arc length along the own path", role=Role.STATE, label="Distance along the route")
@@ -28,10 +33,20 @@ AHEAD_SPEED = MIND.row("ahead_speed", "m/s", "speed of what is ahead", label="Sp
 AHEAD = MIND.row("ahead", "1", "number in its world of the vehicle ahead, or OBJECT - i; -1 when there is none")
 RED_STATION = MIND.row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none")
 FOLLOWING = MIND.row("following", "m/s²", "acceleration that traffic ahead permits")
+FOLLOW_GAP = MIND.row("follow_gap", "m", "gap to whoever ahead permits least; infinite when there is nobody")
+FOLLOW_SPEED = MIND.row("follow_speed", "m/s", "speed of the same")
 YIELDING = MIND.row("yielding", "m/s²", "acceleration that cars permit which reach a merge or crossing first")
-STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next light permits")
+FIRST_GAP = MIND.row("first_gap", "m", "gap to the one of these that permits least, as if it drove ahead; infinite when there is none")
+FIRST_SPEED = MIND.row("first_speed", "m/s", "speed of the same")
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
+NEEDED_COLLISION = MIND.row("needed_collision", "s", "since when he would brake before a collision; infinite when not", role=Role.STATE)
+NEEDED_RED = MIND.row("needed_red_light", "s", "since when he would brake before a red light", role=Role.STATE)
+NEEDED_WAY = MIND.row("needed_right_of_way", "s", "since when he would brake before a car that goes first", role=Role.STATE)
+ACTS_COLLISION = MIND.row("acts_collision", "1", "1 while he overrules the application before a collision", role=Role.STATE)
+ACTS_RED = MIND.row("acts_red_light", "1", "1 while he does before a red light", role=Role.STATE)
+ACTS_WAY = MIND.row("acts_right_of_way", "1", "1 while he does before a car that goes first", role=Role.STATE)
+INTERVENING = MIND.row("intervening", "1", "1 while the driver overrules an application", label="Driver overrules the application")
 
 SCRIPT = Table("script", Role.DERIVED, per="vehicle")
 DRIVES = SCRIPT.row("drives", "1", "1 while a maneuver of the script commands the pedals")

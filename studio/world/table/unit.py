@@ -1,23 +1,31 @@
-"""Units: what sensors measure, what messages carry, and how sensors, satellites and radio are set."""
+"""Units: where they are and what their bus and receivers tell, how satellites and messages are kept.
 
+A unit senses, talks and decides. Units are the named vehicles of a world, then its stations, world after world.
+"""
+
+from studio.application.port import OWN
 from studio.rows import Role, Table
 
-SENSOR = Table("sensor", Role.DERIVED, per="vehicle")
-DETECTED = SENSOR.row("detected", "1", "1 when the front sensor has a target")
-RANGE = SENSOR.row("measured_range", "m", "front bumper to the target's rear", label="Range of the front sensor")
-RANGE_RATE = SENSOR.row("range_rate", "m/s", "change of the range")
-AZIMUTH = SENSOR.row("azimuth", "rad", "direction of the target, left positive")
-TARGET = SENSOR.row("target", "1", "number in its world of the target, or OBJECT - i, for the record only")
-DRIFT_EAST = SENSOR.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
-DRIFT_NORTH = SENSOR.row("drift_north", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
-GPS_EAST = SENSOR.row("gps_error_east", "m", "measured minus true position", label="Error of the satellite position to the east")
-GPS_NORTH = SENSOR.row("gps_error_north", "m", "measured minus true position", label="Error of the satellite position to the north")
+UNIT = Table("unit", Role.DERIVED, per="unit")
+TRUE_X = UNIT.row("true_x", "m", "where it is; for sensors and radio, not for applications")
+TRUE_Y = UNIT.row("true_y", "m", "where it is; for sensors and radio, not for applications")
+HEADING = UNIT.row("heading", "rad", "that its sensors look along")
+COSINE = UNIT.row("cosine", "1", "of the heading")
+SINE = UNIT.row("sine", "1", "of the heading")
+BUMPER = UNIT.row("bumper", "m", "from its position to its front, where sensors are mounted")
+PRESENT = UNIT.row("present", "1", "1 until its vehicle has arrived")
+OWN_FIRST, *_ = [UNIT.row(each.name, each.unit, each.meaning) for each in OWN]
 
-SENSOR_SET = Table("sensor_setting", Role.PARAMETER, per="vehicle")
-REACH = SENSOR_SET.row("range", "m", "reach")
-OPENING = SENSOR_SET.row("opening_angle", "rad", "whole angle")
-RANGE_SIGMA = SENSOR_SET.row("range_noise", "m", "standard deviation")
-RATE_SIGMA = SENSOR_SET.row("rate_noise", "m/s", "standard deviation")
+UNIT_SET = Table("unit_setting", Role.PARAMETER, per="unit")
+OFFSET = UNIT_SET.row("clock_offset", "s", "of its clock at the start")
+DRIFT = UNIT_SET.row("clock_drift", "1", "seconds that it gains a second")
+HEIGHT = UNIT_SET.row("antenna_height", "m", "above the road")
+
+SATELLITE = Table("satellite", Role.DERIVED, per="vehicle")
+DRIFT_EAST = SATELLITE.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
+DRIFT_NORTH = SATELLITE.row("drift_north", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
+GPS_EAST = SATELLITE.row("gps_error_east", "m", "measured minus true position", label="Error of the satellite position to the east")
+GPS_NORTH = SATELLITE.row("gps_error_north", "m", "measured minus true position", label="Error of the satellite position to the north")
 
 GPS_SET = Table("satellite_setting", Role.PARAMETER, per="vehicle")
 DRIFT_SIGMA = GPS_SET.row("drift", "m", "standard deviation of the slow error under an open sky")
@@ -25,22 +33,19 @@ DRIFT_TIME = GPS_SET.row("correlation_time", "s", "of the slow error")
 GPS_SIGMA = GPS_SET.row("noise", "m", "standard deviation of the white noise")
 CANYON = GPS_SET.row("canyon_factor", "1", "by how much the slow error is larger where no sky is open")
 
-RADIO_SET = Table("radio_setting", Role.PARAMETER, per="world")
-PERIOD = RADIO_SET.row("period", "s", "between two messages of a unit")
-DELAY = RADIO_SET.row("delay", "s", "mean")
-VARIATION = RADIO_SET.row("delay_variation", "s", "half width")
-LOSS = RADIO_SET.row("loss", "1", "rate")
-LOSS_DISTANCE = RADIO_SET.row("loss_per_metre", "1/m", "growth of the loss with distance")
-RADIO_RANGE = RADIO_SET.row("range", "m", "beyond it nothing is heard")
-BUILDINGS = RADIO_SET.row("buildings", "1", "1 where they weaken the signal")
-EXPONENT = RADIO_SET.row("path_loss_exponent", "1", "power falls with distance to this power")
+# A message that was sent stands in a ring, one column per slot and sender; behind these rows comes what it carries.
+SENT = Table("sent", Role.STATE, per="slot of the ring and sender")
+S_NUMBER = SENT.row("number", "1", "how many this sender had sent before, of this kind; -1 in a slot that was never used")
+S_TIME = SENT.row("time", "s", "true time of sending, for the record")
+S_STAMP = SENT.row("stamp", "s", "time of sending on the sender's clock")
+S_X = SENT.row("x", "m", "where the antenna was; for the radio, not for the receiver")
+S_Y = SENT.row("y", "m", "where the antenna was; for the radio, not for the receiver")
 
-MESSAGE = Table("message", Role.STATE, per="vehicle and tick of the ring, or link")
-SENT = MESSAGE.row("sent", "s", "time of sending")
-M_X = MESSAGE.row("x", "m", "position of the sender")
-M_Y = MESSAGE.row("y", "m", "position of the sender")
-M_SPEED = MESSAGE.row("speed", "m/s", "speed of the sender")
-M_ACCELERATION = MESSAGE.row("acceleration", "m/s²", "acceleration of the sender")
-M_INTENTION = MESSAGE.row("intention", "m/s²", "acceleration that the sender has requested of its actuators")
-M_TRUE_X = MESSAGE.row("true_x", "m", "where the antenna was; for the radio, not for the receiver")
-M_TRUE_Y = MESSAGE.row("true_y", "m", "where the antenna was; for the radio, not for the receiver")
+# What a link has received last; behind these rows comes what it carries.
+HEARD = Table("heard", Role.STATE, per="link")
+H_NUMBER = HEARD.row("number", "1", "of the message; -1 while none has come")
+H_TIME = HEARD.row("time", "s", "true time of sending, for the record")
+H_STAMP = HEARD.row("stamp", "s", "time of sending on the sender's clock")
+H_CAME = HEARD.row("came", "s", "true time at which it was received")
+H_MISSED = HEARD.row("missed", "1", "messages of this sender that were lost since the one before")
+H_SENDER = HEARD.row("sender", "1", "number of the unit in its world", role=Role.PARAMETER)

@@ -1,0 +1,97 @@
+"""The kinds: a page for every sort, with the contract that its files keep and all kinds that come with the studio."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from docs.reference.field import fields
+from docs.reference.table import code, filled, table
+from studio.application import contract
+from studio.kind import registry
+from studio.kind.quantity import quantities
+from studio.kind.registry import Kind
+from studio.kind.sort import SORTS, Sort
+
+HEAD = """# Kinds
+
+Whatever a developer may replace is a *kind*: one file that says of what sort it is. Those that come with the studio keep the same
+contracts as your own, and enter by the same door. [A kind of your own](../../how/kind.md) shows how one is made; `studio kinds` lists
+all that are known, with where they come from.
+
+A file holds `KIND` with the name of its sort, a docstring that says what it does and where its figures come from, and the parts
+of its sort. The file's name is the kind's name.
+"""
+PARTS = ("part", "what it is", "how it is written")
+SET = ("Settings", "Parameters")  # what is set, as a scenario has it
+GIVEN = ("Reading", "Payload", "Memory")  # numbers with units
+
+
+def pages() -> dict[str, str]:
+    """A page about all sorts, and one for each."""
+    overview = table(("sort", "what it does", "built in"), [row(sort) for sort in SORTS.values()])
+    first = {"reference/kinds/index.md": "\n".join([HEAD, overview, *map(parts, SORTS.values())])}
+    return first | {f"reference/kinds/{sort.name}.md": page(sort) for sort in SORTS.values()}
+
+
+def built_in(sort: Sort) -> list[Kind]:
+    """The kinds of a sort that come with the studio; others are documented by who wrote them."""
+    return [kind for kind in registry.known(sort.name).values() if kind.is_built_in]
+
+
+def row(sort: Sort) -> list[str]:
+    """A sort in the overview."""
+    return [f"[{sort.name}]({sort.name}.md)", sort.does, ", ".join(code(kind.name) for kind in built_in(sort))]
+
+
+def parts(sort: Sort) -> str:
+    """What a file of a sort holds."""
+    return f"## {sort.name.capitalize()}\n\n{sort.does.capitalize()}.\n\n{needs(sort)}"
+
+
+def needs(sort: Sort) -> str:
+    """The parts of a contract as a table."""
+    rows = [[code(each.name), each.meaning + (" (may be left out)" if each.optional else ""), code(each.example)] for each in sort.needs]
+    return table(PARTS, rows)
+
+
+def page(sort: Sort) -> str:
+    """A sort with its contract and its kinds."""
+    head = f"# {sort.name.capitalize()}\n\n{sort.does.capitalize()}.\n\n## The contract\n\n{needs(sort)}"
+    return "\n\n".join([head, *contract_of(sort), *map(section, built_in(sort))])
+
+
+def contract_of(sort: Sort) -> Iterator[str]:
+    """The contract of applications has a file of its own."""
+    if sort.name == "application":
+        text = Path(str(contract.__file__)).read_text(encoding="utf-8").strip()
+        yield f"`studio/application/contract.py`, as it stands:\n\n```python\n{text}\n```\n"
+
+
+def section(kind: Kind) -> str:
+    """One kind: what its docstring says, what it is measured in, what may be set, what it gives."""
+    tables = [text for name in (*SET, *GIVEN) if (text := described(name, getattr(kind.module, name, None)))]
+    return "\n\n".join([f"## {kind.name}", f"**{kind.title}**{measured(kind)}", kind.explanation, *tables])
+
+
+def measured(kind: Kind) -> str:
+    """Unit, and which values are better, of a metric or channel."""
+    unit, better = getattr(kind.module, "UNIT", ""), getattr(kind.module, "BETTER", None)
+    return f", in {unit}" * bool(unit) + f", {better} is better" * bool(better)
+
+
+def described(name: str, part: Any) -> str:
+    """The fields of a part of a kind; "" when it has none."""
+    if part is None:
+        return ""
+    listed = fields(part.model_json_schema()) if name in SET else numbers(part)
+    return f"`{name}`: {filled(part.__doc__)}\n\n{listed.rstrip()}" if listed else ""
+
+
+def numbers(part: Any) -> str:
+    """The fields of a NamedTuple of numbers; "" for one that holds other things."""
+    try:
+        found = quantities(part)
+    except TypeError:
+        return ""
+    rows = [[code(each.name), each.unit, "yes or no" if each.is_flag else each.size if each.size > 1 else ""] for each in found]
+    return table(("field", "unit", "numbers"), rows) if rows else ""

@@ -1,0 +1,21 @@
+"""Root mean square of the jerk of the followers, over the whole run.
+
+Jerk is the change of acceleration over 0.2 s (studio/assess/comfort.py says why). Passengers feel it before they feel the
+acceleration itself.
+"""
+
+import numpy as np
+
+from studio.assess.comfort import WINDOW, jerk
+
+KIND = "metric"
+TITLE = "Jerk of the followers, root mean square"
+UNIT = "m/s³"
+BETTER = "lower"
+
+
+def measure(record):
+    """Jerk [m/s³]; nothing when the record is shorter than the window."""
+    if record.time.size < 2 or record.time[-1] - record.time[0] < WINDOW + record.time[1] - record.time[0]:
+        return float("nan")
+    return np.sqrt(np.nanmean(jerk(record.of_followers("acceleration"), record.time) ** 2))

@@ -1,0 +1,13 @@
+"""Greatest offset of any recorded vehicle from its path, to either side: whether it kept its lane."""
+
+import numpy as np
+
+KIND = "metric"
+TITLE = "Greatest offset from the path"
+UNIT = "m"
+BETTER = "lower"
+
+
+def measure(record):
+    """Offset [m]."""
+    return np.nanmax(np.abs(record.channel("lateral_offset")))

@@ -1,0 +1,1 @@
+"""The workshop: where a new kind is begun, and where it is seen whether one keeps its contract."""

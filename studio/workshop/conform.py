@@ -1,0 +1,107 @@
+"""Conformance: what a kind must keep, by trying it. Our own kinds are tested by the same suite.
+
+conform(kind)   →  [Check]      one after another, each with what is wrong and what to do
+"""
+
+import json
+import math
+from collections.abc import Iterator
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, ValidationError
+
+from studio.kind.registry import Kind
+from studio.kind.sort import SORTS, problems
+from studio.workshop import draw
+from studio.workshop.check import Check, tried
+
+SET = ("Settings", "Parameters")  # what may be set of a kind
+
+
+def conform(kind: Kind) -> list[Check]:
+    """All checks of a kind: those of every sort, then those of its own."""
+    suite = import_module(f"studio.workshop.suite.{kind.sort}")
+    return [*common(kind), *suite.checks(kind)]
+
+
+def common(kind: Kind) -> Iterator[Check]:
+    """What every kind keeps."""
+    wrong = "\n".join(str(each) for each in problems(kind.module, SORTS[kind.sort]))
+    yield Check(f"keeps the contract of a {kind.sort}: {', '.join(each.name for each in SORTS[kind.sort].needs)}", wrong)
+    yield tried("its functions and classes say what they are", lambda: undocumented(kind))
+    for name in SET:
+        if model := getattr(kind.module, name, None):
+            yield from of_settings(name, model)
+
+
+def undocumented(kind: Kind) -> str | None:
+    """What has no docstring of its own."""
+    own = [(name, each) for name, each in vars(kind.module).items() if getattr(each, "__module__", "") == kind.module.__name__]
+    without = [name for name, each in own if not name.startswith("_") and callable(each) and not said(each)]
+    return f"{', '.join(without)}: write a docstring, with units" if without else None
+
+
+def said(part: Any) -> str:
+    """The docstring of a function or class; what a NamedTuple or a model has by itself is none."""
+    text = vars(part).get("__doc__") if isinstance(part, type) else part.__doc__
+    return "" if text is None or text.startswith(f"{getattr(part, '__name__', '')}(") else text
+
+
+def of_settings(name: str, model: type[BaseModel]) -> Iterator[Check]:
+    """What is set: described, bounded, and refusing what does not fit."""
+    yield tried(f"{name} are described: a title for each, a unit for each number", lambda: undescribed(model))
+    yield tried(f"numbers of {name} have bounds, and their first values lie within", lambda: unbounded(model))
+    yield tried(f"{name} refuse what they do not know, and numbers that are none", lambda: lenient(model))
+    yield tried(f"any {name} within the bounds are taken", lambda: drawn(model))
+
+
+def properties(model: type[BaseModel]) -> dict[str, Any]:
+    """The fields as a JSON schema, as a form and other programs read them."""
+    return json.loads(json.dumps(model.model_json_schema())).get("properties", {})
+
+
+def is_number(node: dict[str, Any]) -> bool:
+    """Whether a field is a plain number."""
+    return node.get("type") in ("number", "integer") and "enum" not in node
+
+
+def undescribed(model: type[BaseModel]) -> str | None:
+    """Fields without title or unit."""
+    found = [name for name, field in model.model_fields.items() if not field.title]  # pydantic would make one of the name
+    units = [name for name, node in properties(model).items() if node.get("type") == "number" and not node.get("unit")]
+    return f'{", ".join(found or units)}: write number(1.0, unit="m", title="...")' if found or units else None
+
+
+def unbounded(model: type[BaseModel]) -> str | None:
+    """Numbers without a lower and an upper bound, and first values that are refused when they are given."""
+    for name, node in properties(model).items():
+        if is_number(node) and not ({"minimum", "exclusiveMinimum"} & set(node) and {"maximum", "exclusiveMaximum"} & set(node)):
+            return f"{name}: give a lower and an upper bound, ge=..., le=..."
+    model.model_validate(first_values(model))
+    return None
+
+
+def first_values(model: type[BaseModel]) -> dict[str, Any]:
+    """The values that count when nothing is set."""
+    return {name: field.get_default(call_default_factory=True) for name, field in model.model_fields.items() if not field.is_required()}
+
+
+def lenient(model: type[BaseModel]) -> str | None:
+    """Whether it takes what no settings should."""
+    numbers = [name for name, node in properties(model).items() if node.get("type") == "number"]
+    for name, given in [("no_such_setting", 1), *((name, math.nan) for name in numbers)]:
+        try:
+            model.model_validate(first_values(model) | {name: given})
+        except ValidationError:
+            continue
+        return f"{name} = {given!r} was taken: derive it from Part (studio.kind.settings)"
+    return None
+
+
+def drawn(model: type[BaseModel]) -> None:
+    """Raises ValidationError."""
+    seed = np.random.default_rng(1)
+    for _ in range(20):
+        model.model_validate(draw.settings(model, seed).model_dump())

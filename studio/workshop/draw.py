@@ -1,0 +1,64 @@
+"""Drawn inputs: settings within their bounds, and records of drives that nobody has driven."""
+
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, ValidationError
+
+from studio.execution.record import Chain, Record
+from studio.world.channel import CHANNELS
+
+WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
+
+
+def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
+    """Drawn settings; the first values where the drawn ones do not fit together."""
+    schema = model.model_json_schema()["properties"]
+    given = {name: value(node, draw) for name, node in schema.items() if "default" in node}
+    try:
+        return model.model_validate(given)
+    except ValidationError:
+        return model()
+
+
+def value(node: dict[str, Any], draw: np.random.Generator) -> Any:
+    """A value for a field of a schema: a number between its bounds, yes or no, one of several; else what it is at first."""
+    if "enum" in node:
+        return node["enum"][draw.integers(len(node["enum"]))]
+    if node.get("type") == "boolean":
+        return bool(draw.integers(2))
+    if node.get("type") == "integer":
+        least, most = bounds(node)
+        return int(draw.integers(int(np.ceil(least)), int(most) + 1))
+    return float(draw.uniform(*bounds(node))) if node.get("type") == "number" else node["default"]
+
+
+def bounds(node: dict[str, Any]) -> tuple[float, float]:
+    """Between which values a number is drawn."""
+    far = WIDE * max(abs(node.get("default") or 0.0), 1.0)
+    least = node.get("minimum", node.get("exclusiveMinimum", -far))
+    return least, node.get("maximum", node.get("exclusiveMaximum", least + 2.0 * far))
+
+
+def record(period: float = 0.02, **channels: Any) -> Record:
+    """A record of cars a, b, c ... for a test: channels by name, [vehicle][sample], the others zero. Nobody is ahead unless a gap is given.
+
+    >>> record(speed=[[20.0, 20.0], [19.0, 18.0]]).channel("speed").shape
+    (2, 2)
+    """
+    vehicles, samples = np.broadcast_shapes((1, 1), *[np.shape(each) for each in channels.values()])
+    values = np.zeros((len(CHANNELS), vehicles, samples))
+    names = [each.name for each in CHANNELS]
+    values[names.index("gap")] = np.nan
+    for name, each in channels.items():
+        values[names.index(name)] = each
+    return Record(period * np.arange(samples), values, tuple("abcdefghijklmnopqrstuvwxyz"[:vehicles]), ())
+
+
+def drive(draw: np.random.Generator, cars: int, samples: int) -> Record:
+    """A record of a chain of cars that nobody has driven, in ranges that are usual; now and then nobody is ahead."""
+    made: dict[str, Any] = {each.name: draw.normal(size=(cars, samples)) for each in CHANNELS}
+    ahead = draw.random((cars, samples)) < 0.9
+    made |= {"speed": draw.uniform(0.0, 40.0, (cars, samples)), "gap": np.where(ahead, draw.uniform(0.5, 100.0, (cars, samples)), np.nan)}
+    found = record(**made)
+    return Record(found.time, found.values, found.vehicles, (), (Chain("chain", "", found.vehicles),), {"a→b": float(draw.uniform(0, 1))})

@@ -1,0 +1,140 @@
+"""Crews: applications are put on their units, and their ports are connected.
+
+hosts(settings, units, tick)   →  hosted applications, the lowest priority first, and the inboxes that hear everybody
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.application import port
+from studio.application.port import OUTBOX, TARGETS, Port
+from studio.kind import registry
+from studio.kind.number import numbers
+from studio.kind.quantity import first_values, width
+from studio.kind.registry import Kind
+from studio.scenario.schema import Application
+from studio.world.board import text
+from studio.world.board.equipment import equip, post_of
+from studio.world.board.host import Group, Hosted, Wiring, is_compiled
+from studio.world.board.post import Open, Post
+from studio.world.setting import Setting
+from studio.world.world import Units
+
+
+class Crew(NamedTuple):
+    """The units of an application group before they are hosted."""
+
+    world: int
+    place: int
+    name: str
+    group: Application
+    units: tuple[int, ...]
+    radio: str
+
+
+def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[Hosted], list[Open]]:
+    """Every application of all groups of all worlds; a compiled one is hosted once for all of the same priority and radio."""
+    number = np.arange(units.vehicle.size) - units.first[units.world]
+    equip(settings, units, number, tick)
+    together: dict[tuple, list[Crew]] = {}
+    for crew in crews(settings, units):
+        own = -1 if is_compiled(registry.find("application", crew.group.application)) else crew.place
+        together.setdefault((crew.group.priority, crew.group.application, crew.radio, own), []).append(crew)
+    opened: list[Open] = []
+    ordered = sorted(together.items(), key=lambda each: each[0][0])
+    return [hosted(registry.find("application", key[1]), found, units, opened) for key, found in ordered], opened
+
+
+def crews(settings: Sequence[Setting], units: Units) -> Iterator[Crew]:
+    """Every application group of every world."""
+    place = 0
+    for w, each in enumerate(settings):
+        for name, group in each.scenario.applications.items():
+            yield Crew(w, place, name, group, tuple(units.number(unit, w) for unit in group.units), each.scenario.radio.kind)
+            place += 1
+
+
+def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open]) -> Hosted:
+    """Some groups of one application on their host."""
+    module = application.module
+    unit = np.array([each for crew in found for each in crew.units], dtype=np.int64)
+    ends = np.cumsum([len(crew.units) for crew in found]).tolist()
+    logged = sum(width(each.type) for each in port.done(module) if each.what == port.LOG)
+    return Hosted(
+        application=application,
+        priority=found[0].group.priority,
+        groups=[Group(crew.world, crew.place, crew.name, slice(end - len(crew.units), end)) for crew, end in zip(found, ends, strict=True)],
+        unit=unit,
+        names=tuple(units.name_of(each) for each in unit),
+        column=units.vehicle[unit],
+        parameters=np.concatenate([parameters(application, crew) for crew in found], axis=1),
+        memory=np.tile(np.array(first_values(module.Memory))[:, None], unit.size),
+        said=np.zeros((logged, unit.size)),
+        shown=np.zeros(unit.size, dtype=np.int64),
+        fault=np.zeros(unit.size, dtype=np.int64),
+        wrong=np.zeros(unit.size),
+        wiring=[wired(each, found, units, opened) for each in (*port.seen(module), *port.done(module)) if each.what in text.WIRES],
+        run=text.loop(application),
+        checked=text.checked(module),
+    )
+
+
+def parameters(application: Kind, crew: Crew) -> np.ndarray:
+    """Parameters of all units of a group, [row, unit]."""
+    values = numbers(application.module.Parameters.model_validate(crew.group.parameters))
+    return np.tile(np.array(values, dtype=float)[:, None], len(crew.units))
+
+
+def wired(one: Port, found: list[Crew], units: Units, opened: list[Open]) -> Wiring:
+    """Connects a port of all units."""
+    if one.what == TARGETS:
+        return to_sensors(one, found, units)
+    return to_radio(one, found, units) if one.what == OUTBOX else from_radio(one, found, units, opened)
+
+
+def to_sensors(one: Port, found: list[Crew], units: Units) -> Wiring:
+    """The sensor of every unit: that of the port's name, or the only one of its kind."""
+    each = next(each for each in units.mounted if each.kind.name == one.kind)
+    columns = [sensor_of(one.name, np.flatnonzero(each.unit == unit).tolist(), each.names) for crew in found for unit in crew.units]
+    return Wiring(one, each, ("out",), (np.array([columns], dtype=np.int64),))
+
+
+def sensor_of(name: str, columns: list[int], names: Sequence[str]) -> int:
+    """Of some sensors the one of a name, or the only one."""
+    return next((column for column in columns if names[column] == name), columns[0])
+
+
+def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
+    """The place of every unit among the senders."""
+    post = post_of(units.posts, one.kind, found[0].radio)
+    senders = post.senders
+    index = np.array([senders[unit] for crew in found for unit in crew.units], dtype=np.int64)
+    return Wiring(one, post, ("ring", "last", "fresh"), (index,))
+
+
+def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -> Wiring:
+    """The links of every unit: those of `listens_to` in its order, or the freshest of all."""
+    post = post_of(units.posts, one.kind, found[0].radio)
+    links = post.links
+    members = [(crew, i, unit) for crew in found for i, unit in enumerate(crew.units)]
+    slots, heard = np.full((one.most, len(members)), -1, dtype=np.int64), np.zeros(len(members), dtype=np.int64)
+    everybody: list[list[int]] = []
+    for j, (crew, i, unit) in enumerate(members):
+        senders = crew.group.senders(i)
+        named = [links.get((unit, units.number(sender, crew.world)), -1) for sender in senders]
+        slots[: len(named), j], heard[j] = named, len(named)
+        everybody.append([] if senders else [link for (receiver, _), link in links.items() if receiver == unit])
+    if not all(crew.group.listens_to for crew in found):
+        opened.append(to_all(post, everybody, [bool(crew.group.listens_to) for crew, _, _ in members], heard, slots))
+    return Wiring(one, post, ("inbox",), (slots, heard))
+
+
+def to_all(post: Post, everybody: list[list[int]], named: list[bool], heard: np.ndarray, slots: np.ndarray) -> Open:
+    """The inboxes that hear everybody; units that have named whom they listen to are left as they are, with a count of -1."""
+    sizes = np.array([len(each) for each in everybody], dtype=np.int64)
+    count = np.where(named, -1, sizes)
+    return Open(
+        post, np.cumsum(sizes) - sizes, count, np.array([link for each in everybody for link in each], dtype=np.int64), heard, slots
+    )

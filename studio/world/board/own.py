@@ -1,0 +1,33 @@
+"""What units know of themselves: bus and satellite receiver of a vehicle, the place of a station."""
+
+from studio.compiled import lean
+from studio.vehicle.command import RING, U
+from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y
+from studio.world.passes.neighbour import COS, SIN
+from studio.world.passes.satellite import fix
+from studio.world.table.mind import V_DESIRED, WISH
+from studio.world.table.unit import BUMPER, COSINE, GPS_EAST, GPS_NORTH, HEADING, OWN_FIRST, PRESENT, SINE, TRUE_X, TRUE_Y
+
+
+@lean
+def carry(k, tick, vehicle, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, place_of, shadow, satellite, now):
+    """Satellites tell vehicles where they are, and every unit on a vehicle goes with it; stations stay as they are.
+
+    The rows of `Own` stand in their order.
+    """
+    fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, satellite)
+    n = state.shape[1]
+    for u in range(vehicle.size):
+        v = vehicle[u]
+        if v < 0:
+            continue
+        now[TRUE_X, u], now[TRUE_Y, u], now[HEADING, u] = state[X, v], state[Y, v], state[PSI, v]
+        now[COSINE, u], now[SINE, u] = places[COS, v], places[SIN, v]
+        now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]
+        now[OWN_FIRST, u], now[OWN_FIRST + 1, u] = state[V_X, v], state[A_X, v]
+        now[OWN_FIRST + 2, u], now[OWN_FIRST + 3, u] = state[YAW_RATE, v], state[DELTA, v]
+        now[OWN_FIRST + 4, u], now[OWN_FIRST + 5, u] = mind[V_DESIRED, v], mind[WISH, v]
+        now[OWN_FIRST + 6, u] = commands[U, ((k - 1) % RING) * n + v]
+        now[OWN_FIRST + 7, u] = state[X, v] + satellite[GPS_EAST, v]
+        now[OWN_FIRST + 8, u] = state[Y, v] + satellite[GPS_NORTH, v]

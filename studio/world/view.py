@@ -1,0 +1,125 @@
+"""What kinds are given: the world as a sensor sees it, the way of a message, and the words they answer with.
+
+A sensor looks at the true world and makes its own errors. `around` finds who is near; `report` writes a target down; random numbers come
+from `draw` and `draw_normal`, each with a number of its own, 0 to 15.
+"""
+
+from typing import Any, NamedTuple
+
+from numba import literal_unroll
+
+from studio.compiled import inlined
+from studio.model.random import normal, uniform
+from studio.world.passes.neighbour import within
+from studio.world.table.unit import BUMPER, COSINE, HEADING, OWN_FIRST, SINE, TRUE_X, TRUE_Y
+
+
+class View(NamedTuple):
+    """The world at one tick. Arrays are [row, vehicle], [row, unit], [row, object]; rows as in studio/vehicle and studio/world/table."""
+
+    k: int  # ticks since the start
+    time: float  # [s]
+    tick: float  # [s]
+    longest: float  # [m] no part of a vehicle is farther from its centre of gravity
+    state: Any
+    parameter: Any
+    world_of: Any  # per vehicle
+    number: Any  # per vehicle, within its world
+    unit: Any
+    unit_world: Any
+    unit_vehicle: Any  # the vehicle that a unit is mounted on; -1 for a station
+    entity: Any  # per unit, as chance tells them apart
+    seed: Any  # per world
+    grid: Any
+    places: Any
+    found: Any  # vehicles that `around` has found
+    table: Any  # objects on the road
+    first_object: Any  # per world
+    object_count: Any
+    standing: Any  # per object, 1 while it stands there
+    place_of: Any  # per world, number of its map
+    shadow: Any  # the buildings
+
+
+class Me(NamedTuple):
+    """The sensor that is asked, and the unit that it is mounted on."""
+
+    sensor: int  # its column in `out`
+    unit: int
+    vehicle: int  # -1 on a station
+    world: int
+    x: float  # [m]
+    y: float  # [m]
+    heading: float  # [rad]
+    cosine: float  # of the heading
+    sine: float
+    front: float  # [m] from x, y to the front of the unit
+    speed: float  # [m/s]
+    yaw_rate: float  # [rad/s]
+    stream: int  # of its random numbers
+
+
+class Way(NamedTuple):
+    """The way of one message to one receiver."""
+
+    distance: float  # [m] from antenna to antenna
+    walls: float  # [1] walls of buildings that it passes
+    inside: float  # [m] within buildings
+    size: float  # [bytes]
+    speed: float  # [m/s] of the receiver
+
+
+class Draw(NamedTuple):
+    """Chance's part in one message on one link: numbers in (0, 1)."""
+
+    first: float
+    second: float
+
+
+class Transmission(NamedTuple):
+    """What becomes of a message: lost, or there after a delay [s]."""
+
+    lost: bool
+    delay: float
+
+
+@inlined
+def about(view, unit, sensor, stream):
+    """Who is asked."""
+    u, v, w = view.unit, view.unit_vehicle[unit], view.unit_world[unit]
+    return Me(
+        sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit],
+        u[OWN_FIRST, unit], u[OWN_FIRST + 2, unit], stream,
+    )  # fmt: skip
+
+
+@inlined
+def around(view, me, back, ahead, right, left):
+    """How many vehicles of this world have their centre of gravity in a box around the unit: `view.found[0]` and so on, in order.
+
+    The box reaches from `back` to `ahead` along its heading and from `right` to `left` across [m]; behind and right are negative. The
+    unit's own vehicle is among them.
+    """
+    return within(me.world, me.x, me.y, me.cosine, me.sine, back, ahead, right, left, view.grid, view.places, view.found)
+
+
+@inlined
+def draw(view, me, number):
+    """A number in (0, 1); `number`, 0 to 15, tells the draws of one tick apart."""
+    return uniform(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k)
+
+
+@inlined
+def draw_normal(view, me, number):
+    """A number of the standard normal distribution; `number`, 0 to 15, tells the draws of one tick apart."""
+    return normal(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k)
+
+
+@inlined
+def report(out, me, slot, reading):
+    """Writes down target `slot`, 0, 1, ...; numbers only, in the order of the Reading. One too many is not written."""
+    row = 1 + slot * len(reading)
+    for value in literal_unroll(reading):
+        if row < out.shape[0]:
+            out[row, me.sensor] = value
+        row += 1
