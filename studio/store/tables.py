@@ -3,7 +3,7 @@
     scenarios   hash → document            what was run, by content
     runs        run → scenario, parent, seed, status, ...
     metrics     run, name → value, unit, goal
-    events      run → time, text, vehicle
+    events      run → time, kind, text, vehicle, units, x, y, numbers
     traces      run → one Parquet file with a column per channel
     kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
     texts       digest → text                  files of kinds, and patches; equal ones stand once
@@ -52,11 +52,36 @@ TABLES = {
         (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
     ),
     "metrics": ({"run": int, "name": str, "value": float, "unit": str, "goal": str}, ("run", "name"), (("run", "runs", "run"),)),
-    "events": ({"run": int, "time": float, "text": str, "vehicle": str}, None, (("run", "runs", "run"),)),
+    "events": (
+        {
+            "run": int,
+            "time": float,
+            "text": str,
+            "vehicle": str,
+            "kind": str,
+            "units": str,
+            "x": float,
+            "y": float,
+            "numbers": str,
+        },
+        None,
+        (("run", "runs", "run"),),
+    ),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
     "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
     "texts": ({"digest": str, "text": str}, "digest", ()),
 }  # fmt: skip
+
+# What makes the next layout of a file that has an older one, by the layout that it has.
+STEPS: dict[int, tuple[str, ...]] = {
+    1: (
+        "alter table events add column kind text",
+        "alter table events add column units text",
+        "alter table events add column x float",
+        "alter table events add column y float",
+        "alter table events add column numbers text",
+    ),
+}
 
 
 def open_database(path: Path) -> Database:
@@ -92,6 +117,8 @@ def prepared(database: Database, path: Path) -> Database:
         refuse_foreign(database, path)
     if layout < LAYOUT:
         make_tables(database)
+    elif layout < LAYOUT:
+        bring_up(database)
     database.execute("pragma foreign_keys = on")
     database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
     database.execute("commit")
@@ -122,6 +149,17 @@ def make_tables(database: Database) -> None:
                 table.add_column(column, columns[column])
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
+        database.execute(f"pragma user_version = {LAYOUT}")
+
+
+def bring_up(database: Database) -> None:
+    """Gives an older file the present layout; what stands in it stays. Another process may be doing the same."""
+    patiently(lambda: database.conn.execute("begin immediate"))
+    with database.conn:
+        layout = database.execute("pragma user_version").fetchone()[0]
+        for step in range(layout, LAYOUT):
+            for change in STEPS[step]:
+                database.execute(change)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 

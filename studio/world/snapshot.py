@@ -15,7 +15,7 @@ import numpy as np
 from studio.errors import Problem, SnapshotError
 from studio.rows import MOVES
 from studio.source import source_digest
-from studio.world import change
+from studio.world import script
 from studio.world.setting import Setting
 from studio.world.world import World
 
@@ -69,7 +69,7 @@ def restore(world: World, kept: Snapshot) -> None:
     check(world, kept)
     world.arena[:] = np.frombuffer(kept.content, np.uint8)
     world.clock.k = kept.k
-    change.follow(world)
+    script.follow(world)
 
 
 def check(world: World, kept: Snapshot) -> None:
