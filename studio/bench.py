@@ -41,6 +41,7 @@ from studio.scenario import catalogue, setup
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.projection import Scene
+from studio.source import code_version
 from studio.vehicle import fleet
 from studio.vehicle.command import RING, U_DRIVE, U_STEER
 from studio.vehicle.fleet import Fleet, Start
@@ -364,7 +365,7 @@ def device_difference(count: int = 1000, seconds: float = 10.0) -> float:
 
 def versions() -> dict[str, str]:
     """Of everything that makes the machine code."""
-    return {"studio": job.code_version(), "python": platform.python_version(), "numba": version("numba")}
+    return {"studio": code_version(), "python": platform.python_version(), "numba": version("numba")}
 
 
 def machine() -> str:

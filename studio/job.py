@@ -24,11 +24,11 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
+from studio.provenance import provenance
 from studio.scenario import file, setup
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source
-from studio.source import code_version
 from studio.store.runs import Row, Runs
 from studio.vehicle.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
@@ -165,7 +165,7 @@ def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> 
         parent=parent,
         seed=loaded.scenario.seed,
         parameters=loaded.changes,
-        code_version=code_version(),
+        provenance=provenance(loaded.scenario),
     )
 
 

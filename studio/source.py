@@ -61,6 +61,11 @@ def closure(path: Path) -> list[Path]:
     return sorted(found)
 
 
+def beside(path: Path) -> list[Path]:
+    """A file, then those of its folder that it depends on, in a fixed order."""
+    return [path, *(each for each in closure(path) if each != path and each.is_relative_to(path.parent))]
+
+
 @cache
 def tools() -> str:
     """Versions of what compiles."""

@@ -18,6 +18,7 @@ FLOORS = [
     {"execution"},
     {"assess"},
     {"kinds"},
+    {"provenance"},
     {"store"},
     {"job"},
     {"rig"},

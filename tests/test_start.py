@@ -27,12 +27,13 @@ def imported(*arguments, cwd):
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with a database of one run."""
+    from studio.provenance import Provenance
     from studio.store.runs import open_runs
 
     cwd = tmp_path_factory.mktemp("work")
     open_runs(cwd / "runs.db").begin(
         scenario="stern", title="Stern", document={}, scenario_hash="0" * 64, map_digest="", parent=None, seed=1,
-        parameters={}, code_version="1",
+        parameters={}, provenance=Provenance((), "1", "host", {}, ()),
     )  # fmt: skip
     return cwd
 

@@ -65,16 +65,23 @@ def runs(
 
 
 @commands.command()
-def show(run: Annotated[int, typer.Argument(help="Number of the run.")], db: Db = DEFAULT_DB, as_json: AsJson = False) -> None:  # fmt: skip
-    """Shows one run: what was set, every metric, and what happened."""
-    kept = existing(db)
-    row, events = kept.find(run), kept.events(run)
-    if as_json:
-        print_json(run_json(row) | events_json(events))
-        return
-    print_run(row)
-    if events:
-        print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
+def show(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    db: Db = DEFAULT_DB,
+    sources: Annotated[bool, typer.Option("--sources", help="The texts of the kinds that it used, and what was not committed.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Shows one run: what was set, every metric, and what happened; or the texts of its kinds."""
+    runs = existing(db)
+    row = runs.find(run)
+    if sources:
+        texts, patches = runs.sources(row), {each["folder"]: runs.text(each["patch"]) for each in row.revisions}
+        print_json({"kinds": texts, "patches": patches}) if as_json else print_sources(row, texts, patches)
+    elif as_json:
+        print_json(run_json(row) | events_json(runs.events(run)))
+    else:
+        print_run(row)
+        print_events(runs.events(run))
 
 
 @commands.command()
@@ -178,6 +185,12 @@ def events_json(events) -> dict[str, Any]:
     return {"events": [each.as_json() for each in events]}
 
 
+def print_events(events) -> None:
+    """What happened, for people."""
+    if events:
+        print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
+
+
 def print_run(row) -> None:
     """A run for people."""
     lines = {
@@ -189,6 +202,7 @@ def print_run(row) -> None:
         "time": f"{text(row.sim_time_s)} s simulated in {text(row.wall_time_s)} s",
         "state": (row.state_hash or "none")[:16],
         "code": row.code_version,
+        "kinds": ", ".join(name for name in row.kinds if not name.startswith(("metric.", "channel."))) or "none by name",
     }
     for name, value in lines.items():
         print(f"{name:9} {value}")
@@ -201,6 +215,15 @@ def print_run(row) -> None:
             ["metric", "value", "better"],
             [[f"{name} [{each.unit}]", text(each.value), each.goal or ""] for name, each in row.metrics.items()],
         )
+
+
+def print_sources(row, texts: dict[str, dict[str, str]], patches: dict[str, str]) -> None:
+    """The texts of a run's kinds, then what was changed since the last commits."""
+    for name, files in texts.items():
+        for file, content in files.items():
+            print(f"# ---- {name} {row.kinds[name]}: {file}\n{content}")
+    for each in row.revisions:
+        print(f"# ---- {each['folder']}: {each['commit']}{', cut' if each['is_cut'] else ''}\n{patches[each['folder']]}")
 
 
 def settings(parameters: dict[str, Any]) -> str:

@@ -6,6 +6,8 @@ per sort. A file that does not load, or does not keep the contract of its sort, 
 asks for its name is told, and nobody else is hurt.
 """
 
+import hashlib
+import json
 import pkgutil
 import threading
 import traceback
@@ -23,7 +25,7 @@ from typing import Any
 from studio.errors import KindError, Problem, UnknownError, nearest
 from studio.kind import folder
 from studio.kind.sort import SORTS, Sort, problems, where_of
-from studio.source import closure, digest_of
+from studio.source import beside
 
 GROUP = "cooperative_adas_studio.kinds"
 USUAL_SORT = "application"  # of a file that does not say
@@ -32,13 +34,16 @@ BUILT_IN = "studio.kinds"
 
 @dataclass(frozen=True, eq=False)
 class Kind:
-    """A registered kind: its sort, its name, the module that keeps the contract, and where it comes from."""
+    """A registered kind: its sort, its name, the module that keeps the contract, and where it comes from.
+
+    `texts` are its own file and the files beside it that it imports, by name, as they were when it was loaded.
+    """
 
     sort: str
     name: str
     module: ModuleType
     source: str
-    digest: str
+    texts: dict[str, str]
 
     @property
     def title(self) -> str:
@@ -66,11 +71,10 @@ class Kind:
         """Its random stream, by its name."""
         return stream(f"{self.sort}.{self.name}")
 
-    def sources(self) -> dict[str, str]:
-        """The text of its file and of all files beside it that it imports, by name."""
-        files = closure(self.file) if self.file else []
-        own = self.file.parent if self.file else Path()
-        return {path.name: path.read_text(encoding="utf-8") for path in files if path.parent == own or path == self.file}
+    @cached_property
+    def digest(self) -> str:
+        """Digest of its texts: what it is, whatever it is called and wherever it lies."""
+        return hashlib.sha256(json.dumps(list(self.texts.items())).encode()).hexdigest()[:16]
 
     def as_json(self) -> dict[str, str]:
         """What a list of kinds says about it."""
@@ -125,10 +129,15 @@ def register(name: str, module: ModuleType, source: str = "") -> Kind:
     if wrong:
         raise KindError(f"The {sort.name} {name!r} does not keep the contract.", wrong)
     file = getattr(module, "__file__", None)
-    digest = digest_of(*closure(Path(file))) if file else name
-    _registered[sort.name, name] = Kind(sort.name, name, module, source or str(file or module.__name__), digest)
+    _registered[sort.name, name] = Kind(sort.name, name, module, source or str(file or module.__name__), texts(file))
     tell_listeners()
     return _registered[sort.name, name]
+
+
+def texts(file: str | None) -> dict[str, str]:
+    """A kind's own file first, then the files beside it that it imports, by their names from its folder."""
+    files = beside(Path(file)) if file else []
+    return {path.relative_to(files[0].parent).as_posix(): path.read_text(encoding="utf-8", errors="replace") for path in files}
 
 
 def tell_listeners() -> None:

@@ -207,9 +207,22 @@ def event(happened: Happening) -> Event:
     return Event.model_validate(happened.as_json())
 
 
-class RunDetail(Run):
-    """A run with its scenario, what can be plotted of it, and what happened."""
+class Revision(BaseModel):
+    """What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was."""
 
+    folder: str
+    commit: str
+    patch: str
+    is_cut: bool = Field(description="whether the patch was too long to be kept as a whole")
+
+
+class RunDetail(Run):
+    """A run with its scenario, what can be plotted of it, what happened, and of what code it is made."""
+
+    kinds: dict[str, str] = Field(description="digests of all kinds that it used, by sort.name")
+    host: str | None = Field(description="name of the machine; null for a run of an older studio")
+    versions: dict[str, str] = Field(description="of Python and of the packages that compute")
+    revisions: list[Revision]
     document: dict[str, Any]
     channels: list[Channel]
     events: list[Event]

@@ -6,6 +6,7 @@ says "running", the run was killed; the row says so as soon as somebody looks.
 What only traces need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
 
+import hashlib
 import json
 import os
 import sqlite3
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     import numpy as np
 
     from studio.execution.record import Record
+    from studio.kind.registry import Kind
+    from studio.provenance import Provenance
 
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
@@ -35,7 +38,10 @@ CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this toleran
 
 @dataclass(frozen=True)
 class Row:
-    """A run as it stands in the database. `parameters` are those that were set, by path."""
+    """A run as it stands in the database. `parameters` are those that were set, by path; `kinds` the digests of all that it used.
+
+    `revisions` say what git has told of the folders of its code, each with the digest of its patch. Runs of an older studio have none.
+    """
 
     run: int
     scenario: str
@@ -52,6 +58,10 @@ class Row:
     parameters: dict[str, Any] = field(default_factory=dict)
     unmet: list[str] = field(default_factory=list)
     metrics: dict[str, Measured] = field(default_factory=dict)
+    kinds: dict[str, str] = field(default_factory=dict)
+    host: str | None = None
+    versions: dict[str, str] = field(default_factory=dict)
+    revisions: list[dict[str, Any]] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -66,7 +76,7 @@ class Runs:
     database: Database
 
     def begin(self, *, scenario: str, title: str, document: dict, scenario_hash: str, map_digest: str, parent: int | None,
-              seed: int, parameters: dict[str, Any], code_version: str) -> int:  # fmt: skip
+              seed: int, parameters: dict[str, Any], provenance: "Provenance") -> int:  # fmt: skip
         """A new row that says "running"; returns its number."""
         if parent is not None:
             self.find(parent)
@@ -77,7 +87,10 @@ class Runs:
             "parent": parent,
             "seed": seed,
             "status": "running",
-            "code_version": code_version,
+            "code_version": provenance.code_version,
+            "host": provenance.host,
+            "versions": json.dumps(provenance.versions),
+            "kinds": json.dumps({f"{kind.sort}.{kind.name}": kind.digest for kind in provenance.kinds}),
             "created": datetime.now(UTC).isoformat(timespec="milliseconds"),
             "parameters": json.dumps(parameters, ensure_ascii=False),
             "unmet": "[]",
@@ -89,9 +102,26 @@ class Runs:
             content = {key: value for key, value in document.items() if key != "seed"}
             kept["document"] = json.dumps(content, ensure_ascii=False)
             self.database.table("scenarios").insert(kept, pk="hash", ignore=True)
+            self.keep_kinds(provenance.kinds)
+            row["revisions"] = json.dumps([asdict(each) | {"patch": self.keep(each.patch)} for each in provenance.revisions])
             number = self.database.table("runs").insert(row, pk="run").last_pk
             assert number is not None, "a row that was inserted has a key"
             return int(number)
+
+    def keep(self, text: str) -> str:
+        """Keeps a text once, by its digest; nothing of nothing."""
+        digest = hashlib.sha256(text.encode()).hexdigest() if text else ""
+        if text:
+            self.database.table("texts").insert({"digest": digest, "text": text}, pk="digest", ignore=True)
+        return digest
+
+    def keep_kinds(self, kinds: Sequence["Kind"]) -> None:
+        """Keeps kinds with their texts, those that are not kept already."""
+        present = {row["digest"] for row in self.database.query("select digest from kinds")}
+        for kind in [each for each in kinds if each.digest not in present]:
+            files = json.dumps({name: self.keep(text) for name, text in kind.texts.items()})
+            kept = {"digest": kind.digest, "kind": kind.sort, "name": kind.name, "files": files}
+            self.database.table("kinds").insert(kept, pk="digest", ignore=True)
 
     def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
@@ -177,6 +207,18 @@ class Runs:
         """The full scenario of a run, with its seed."""
         return json.loads(self.database.table("scenarios").get(row.scenario_hash)["document"]) | {"seed": row.seed}
 
+    def sources(self, row: Row) -> dict[str, dict[str, str]]:
+        """The texts of every kind that a run used, file by file, its own first."""
+        found = {}
+        for name, digest in row.kinds.items():
+            files = json.loads(self.database.table("kinds").get(digest)["files"])
+            found[name] = {file: self.text(text) for file, text in files.items()}
+        return found
+
+    def text(self, digest: str) -> str:
+        """A text by its digest."""
+        return self.database.table("texts").get(digest)["text"] if digest else ""
+
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
         self.find(run)
@@ -237,10 +279,14 @@ def event_of(row: dict[str, Any]) -> Happening:
     return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers)
 
 
+STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}
+
+
 def row_of(row: dict[str, Any], metrics: dict[str, Measured]) -> Row:
     """A Row from the database's row."""
-    plain = {key: row[key] for key in row if key not in ("process", "process_started", "parameters", "unmet")}
-    return Row(**plain, parameters=json.loads(row["parameters"]), unmet=json.loads(row["unmet"]), metrics=metrics)
+    plain = {key: row[key] for key in row if key not in ("process", "process_started", *STRUCTURED)}
+    structured: dict[str, Any] = {key: json.loads(row[key]) if row[key] else empty() for key, empty in STRUCTURED.items()}
+    return Row(**plain, **structured, metrics=metrics)
 
 
 def is_alive(process: int, started: float) -> bool:

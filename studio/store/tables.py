@@ -5,6 +5,8 @@
     metrics     run, name → value, unit, goal
     events      run → time, kind, text, vehicle, units, x, y, numbers
     traces      run → one Parquet file with a column per channel
+    kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
+    texts       digest → text                  files of kinds, and patches; equal ones stand once
 
 SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
 """
@@ -41,6 +43,10 @@ TABLES = {
             "unmet": str,
             "process": int,
             "process_started": float,
+            "kinds": str,
+            "host": str,
+            "versions": str,
+            "revisions": str,
         },
         "run",
         (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
@@ -62,18 +68,9 @@ TABLES = {
         (("run", "runs", "run"),),
     ),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
+    "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
+    "texts": ({"digest": str, "text": str}, "digest", ()),
 }  # fmt: skip
-
-# What makes the next layout of a file that has an older one, by the layout that it has.
-STEPS: dict[int, tuple[str, ...]] = {
-    1: (
-        "alter table events add column kind text",
-        "alter table events add column units text",
-        "alter table events add column x float",
-        "alter table events add column y float",
-        "alter table events add column numbers text",
-    ),
-}
 
 
 def open_database(path: Path) -> Database:
@@ -107,9 +104,8 @@ def prepared(database: Database, path: Path) -> Database:
         )
     if layout == 0:
         refuse_foreign(database, path)
+    if layout < LAYOUT:
         make_tables(database)
-    elif layout < LAYOUT:
-        bring_up(database)
     database.execute("pragma foreign_keys = on")
     database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
     database.execute("commit")
@@ -127,25 +123,19 @@ def refuse_foreign(database: Database, path: Path) -> None:
 
 
 def make_tables(database: Database) -> None:
-    """Tables and indices of this layout; another process may be doing the same."""
+    """Tables, columns and indices of this layout that are not there; another process may be doing the same.
+
+    A layout only ever adds: what an older studio has written stays, and is empty in the columns that it did not know.
+    """
     patiently(database.enable_wal)
     patiently(lambda: database.conn.execute("begin immediate"))
     with database.conn:
         for name, (columns, key, foreign) in TABLES.items():
-            database.table(name).create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
+            table = database.table(name).create(columns, pk=key, foreign_keys=foreign, if_not_exists=True)
+            for column in [each for each in columns if each not in table.columns_dict]:
+                table.add_column(column, columns[column])
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
-        database.execute(f"pragma user_version = {LAYOUT}")
-
-
-def bring_up(database: Database) -> None:
-    """Gives an older file the present layout; what stands in it stays. Another process may be doing the same."""
-    patiently(lambda: database.conn.execute("begin immediate"))
-    with database.conn:
-        layout = database.execute("pragma user_version").fetchone()[0]
-        for step in range(layout, LAYOUT):
-            for change in STEPS[step]:
-                database.execute(change)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 
