@@ -77,18 +77,11 @@ def show(
     if sources:
         texts, patches = runs.sources(row), {each["folder"]: runs.text(each["patch"]) for each in row.revisions}
         print_json({"kinds": texts, "patches": patches}) if as_json else print_sources(row, texts, patches)
+    elif as_json:
+        print_json(run_json(row) | events_json(runs.events(run)))
     else:
-        show_run(row, runs.events(run), as_json)
-
-
-def show_run(row, events, as_json: bool) -> None:
-    """One run with its events."""
-    if as_json:
-        print_json(run_json(row) | events_json(events))
-        return
-    print_run(row)
-    if events:
-        print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
+        print_run(row)
+        print_events(runs.events(run))
 
 
 @commands.command()
@@ -190,6 +183,12 @@ def run_json(row) -> dict[str, Any]:
 def events_json(events) -> dict[str, Any]:
     """What happened, as scripts read it."""
     return {"events": [each.as_json() for each in events]}
+
+
+def print_events(events) -> None:
+    """What happened, for people."""
+    if events:
+        print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
 
 
 def print_run(row) -> None:

@@ -265,9 +265,6 @@ def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:
     return [{"run": run, "name": name, **asdict(each)} for name, each in metrics.items()]
 
 
-STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}
-
-
 def event_row(run: int, event: Happening) -> dict[str, Any]:
     """An event as a row; units and numbers as JSON."""
     plain = event.as_json()
@@ -280,6 +277,9 @@ def event_of(row: dict[str, Any]) -> Happening:
     units = tuple(json.loads(row["units"] or "[]"))
     plain = {key: row[key] for key in ("time", "text", "vehicle", "x", "y")}
     return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers)
+
+
+STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}
 
 
 def row_of(row: dict[str, Any], metrics: dict[str, Measured]) -> Row:

@@ -72,17 +72,6 @@ TABLES = {
     "texts": ({"digest": str, "text": str}, "digest", ()),
 }  # fmt: skip
 
-# What makes the next layout of a file that has an older one, by the layout that it has.
-STEPS: dict[int, tuple[str, ...]] = {
-    1: (
-        "alter table events add column kind text",
-        "alter table events add column units text",
-        "alter table events add column x float",
-        "alter table events add column y float",
-        "alter table events add column numbers text",
-    ),
-}
-
 
 def open_database(path: Path) -> Database:
     """The database in a file, made when there is none. Raises StoreError when it cannot be used."""
@@ -117,8 +106,6 @@ def prepared(database: Database, path: Path) -> Database:
         refuse_foreign(database, path)
     if layout < LAYOUT:
         make_tables(database)
-    elif layout < LAYOUT:
-        bring_up(database)
     database.execute("pragma foreign_keys = on")
     database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
     database.execute("commit")
@@ -149,17 +136,6 @@ def make_tables(database: Database) -> None:
                 table.add_column(column, columns[column])
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
-        database.execute(f"pragma user_version = {LAYOUT}")
-
-
-def bring_up(database: Database) -> None:
-    """Gives an older file the present layout; what stands in it stays. Another process may be doing the same."""
-    patiently(lambda: database.conn.execute("begin immediate"))
-    with database.conn:
-        layout = database.execute("pragma user_version").fetchone()[0]
-        for step in range(layout, LAYOUT):
-            for change in STEPS[step]:
-                database.execute(change)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 

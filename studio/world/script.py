@@ -239,6 +239,7 @@ def asked(name: str, rows: list[tuple[int, int, list[float]]]) -> Asked:
     kind = registry.find("condition", name)
     made = kind.module.Settings
     return Asked(
+        kind=kind,
         entry=np.array([entry for entry, _, _ in rows]),
         turn=np.array([which for _, which, _ in rows]),
         settings=np.array([row for _, _, row in rows]).T.copy(),
@@ -271,11 +272,13 @@ def maneuvers_of(settings: Sequence[Setting], finds: list[Find]) -> tuple[list[M
 
 def maneuvers(name: str, rows: list[tuple[int, int, list[float]]]) -> Maneuvers:
     """All maneuvers of one kind."""
+    kind = registry.find("action", name)
     return Maneuvers(
+        kind=kind,
         entry=np.array([entry for entry, _, _ in rows]),
         vehicle=np.array([column for _, column, _ in rows]),
         settings=np.array([row for _, _, row in rows]).T.copy(),
-        run=maneuver.loop(registry.find("action", name)),
+        run=maneuver.loop(kind),
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
@@ -104,6 +105,7 @@ class Conflicts:
 class Asked:
     """Everybody who waits for one kind of condition: which turn of which entry, and the settings, [field, who]."""
 
+    kind: Kind
     entry: np.ndarray
     turn: np.ndarray  # 0 to begin, 1 to end
     settings: Moving  # stations move with the paths that they lie on
@@ -115,6 +117,7 @@ class Asked:
 class Maneuvers:
     """All maneuvers of one kind: their entries, vehicles and settings, [field, maneuver]."""
 
+    kind: Kind
     entry: np.ndarray
     vehicle: np.ndarray  # columns
     settings: np.ndarray
@@ -264,7 +267,7 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.now, u.satellite, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
         happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
