@@ -77,26 +77,42 @@ describe("the form", () => {
     expect(vehicles?.sections[0]?.sections[0]?.title).toBe("Start");
   });
 
-  it("says in the title which of several kinds it is", () => {
-    const alternatives = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
-    const alternative = ([name, properties]: [string, object]) => ({
+  it("says in the title which of several kinds it is, and has nothing for an end that is not there", () => {
+    const actions = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
+    const alternative = ([kind, properties]: [string, object]) => ({
       type: "object",
-      properties: { kind: { const: name }, ...properties },
+      properties: { kind: { const: kind }, ...properties },
     });
-    const action = { oneOf: Object.entries(alternatives).map(alternative), sort: "action", title: "Do" };
-    const until = { anyOf: [{ oneOf: action.oneOf, sort: "condition" }, { type: "null" }], title: "Until" };
-    const entry = { type: "object", properties: { do: action, until } };
-    const scripted = {
-      ...source(),
-      kinds: ["limit", "friction"].map((name) => ({ sort: "action", name }) as never),
-      schema: { properties: { script: { type: "object", additionalProperties: entry, title: "Script" } } },
-      document: {
-        script: { slow: { do: { kind: "limit", speed: 8.3 }, until: null }, ice: { do: { kind: "friction", width: 2 } } },
+    const time = alternative(["time", { at: { type: "number", unit: "s" } }]);
+    const entry = {
+      type: "object",
+      properties: {
+        do: { oneOf: Object.entries(actions).map(alternative), sort: "action", title: "Do" },
+        until: { anyOf: [{ oneOf: [time], sort: "condition" }, { type: "null" }], title: "Until" },
       },
     };
-    const [all] = sections(scripted);
-    expect(all?.sections.map(({ sections: [inner] }) => inner?.title)).toEqual(["Do: limit", "Do: friction"]);
-    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual(["script.slow.do.speed", "script.ice.do.width"]);
+    const kind = (sort: string, name: string) => ({ sort, name, title: name, description: "", source: "", settings: null, gives: [] });
+    const happening = {
+      ...source(),
+      kinds: [kind("action", "limit"), kind("action", "friction"), kind("condition", "time"), kind("condition", "gap")],
+      schema: { properties: { script: { type: "object", additionalProperties: entry, title: "Script" } } },
+      document: {
+        script: {
+          slow: { do: { kind: "limit", speed: 8.3 }, until: null },
+          ice: { do: { kind: "friction", width: 2 }, until: { kind: "time", at: 3 } },
+        },
+      },
+    };
+    const [all] = sections(happening);
+    expect(all?.sections.map((one) => one.sections.map(({ title }) => title))).toEqual([
+      ["Do: limit"],
+      ["Do: friction", "Until: time"],
+    ]);
+    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual([
+      "script.slow.do.speed",
+      "script.ice.do.width",
+      "script.ice.until.at",
+    ]);
   });
 
   it("marks what is changed and counts it", () => {
