@@ -284,12 +284,17 @@ const settingsOf = ({ properties = {} }: Schema, given: Tree): Tree =>
   Object.fromEntries(Object.entries(properties).map(([key, property]) => [key, given[key] ?? property.default ?? null]));
 
 /** The parameters of the application in place, by that application's own schema. */
-function applicationFields(source: Source, exchange: Exchange, parameters: Tree): Field[] {
-  const schema = chosen(source, exchange);
+const applicationFields = (source: Source, exchange: Exchange, parameters: Tree): Field[] =>
+  schemaFields(chosen(source, exchange), `${exchange.base}.`, parameters, source.changes);
+
+/** What may be set of a kind, with its defaults. */
+export const settingsAtRest = ({ settings }: KnownKind): Field[] => schemaFields(settings ?? {}, "", {}, {});
+
+/** A field for every property of a kind's own schema. */
+function schemaFields(schema: Schema, place: string, values: Tree, changes: Changes): Field[] {
   return Object.entries(schema.properties ?? {}).map(([key, property]) => {
-    const initial = parameters[key] ?? property.default ?? null;
-    const plain = resolve(property, schema, initial);
-    return field(`${exchange.base}.${key}`, plain, initial, source.changes, nullable(property, schema));
+    const initial = values[key] ?? property.default ?? null;
+    return field(`${place}${key}`, resolve(property, schema, initial), initial, changes, nullable(property, schema));
   });
 }
 

@@ -669,6 +669,19 @@ export interface components {
             label: string;
         };
         /**
+         * ChannelsNews
+         * @description What the live charts may show: some channels of every vehicle, and what sensors and applications give.
+         */
+        ChannelsNews: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "channels";
+            /** Channels */
+            channels: components["schemas"]["Channel"][];
+        };
+        /**
          * Check
          * @description Whether a changed scenario is valid, and how it reads then.
          */
@@ -1530,7 +1543,7 @@ export interface components {
          * News
          * @description One message of the socket of a live run.
          */
-        News: components["schemas"]["StateNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
+        News: components["schemas"]["StateNews"] | components["schemas"]["ChannelsNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
         /**
          * Number
          * @description A number with its unit.
