@@ -44,7 +44,7 @@ def test_scenarios(client):
 def test_a_scenario_with_its_form(client):
     found = client.get(f"/api/scenarios/{SCENARIO}").json()
     assert found["document"]["applications"]["platoon"]["parameters"]["k_p"] == 0.2
-    assert found["schema"]["$defs"]["Radio"]["properties"]["loss"]["maximum"] == 1
+    assert found["schema"]["$defs"]["ad_hoc_radio"]["properties"]["loss"]["maximum"] == 1
     assert found["attribution"] == "© OpenStreetMap contributors"
     assert client.get("/api/scenarios/motorway_platoon").json()["attribution"] == "Motorway, Cooperative ADAS Studio"
 
@@ -56,10 +56,42 @@ def test_check(client):
     assert not bad["ok"] and "radio.loss" in bad["problems"][0]["where"] and "1" in bad["problems"][0]["allowed"]
 
 
-def test_applications(client):
-    found = {each["name"]: each for each in client.get("/api/applications").json()}
-    assert {"acc", "cacc", "broken"} <= set(found)
-    assert found["cacc"]["parameters"]["properties"]["headway"]["unit"] == "s"
+def test_kinds(client):
+    """All of them, with what may be set and what they give; a broken file is told with its traceback."""
+    found = client.get("/api/kinds").json()
+    kinds = {(each["sort"], each["name"]): each for each in found["kinds"]}
+    assert {"sensor", "radio", "message", "driver", "condition", "action", "metric", "channel", "application"} == {sort for sort, _ in kinds}
+    cacc, own = kinds["application", "cacc"], kinds["sensor", "flawless"]
+    assert cacc["source"] == "built in" and cacc["settings"]["properties"]["headway"]["unit"] == "s"
+    assert own["source"].endswith("flawless.py") and "A radar without noise" in own["description"]
+    assert own["gives"] == [{"name": "clearance", "unit": "m", "size": 1}, {"name": "closing", "unit": "m/s", "size": 1}]
+    assert kinds["metric", "min_ttc"]["settings"] is None
+    (broken,) = found["broken"]
+    assert broken["name"] == "torn" and broken["file"].endswith("torn.py")
+    assert "ModuleNotFoundError" in broken["what"] and "torn.py" in broken["traceback"] and "line 3" in broken["traceback"]
+
+
+def test_a_broken_file_is_told_where_the_server_was_started(server):
+    told = (server[1].parent / "server.log").read_text()
+    assert "torn.py" in told and "studio.nowhere" in told
+
+
+def test_a_slot_is_exchanged(client):
+    """The check shows what will run; the run has what the new sensor gives, with its unit."""
+    front = "vehicles.follower_1.sensors.front"
+    given = client.get(f"/api/scenarios/{SCENARIO}").json()["given"]
+    assert "sensors" not in given["vehicles"]["follower_1"]
+    changes = {f"{front}.kind": "flawless", f"{front}.patience": 3.0, "clock.duration": 1, "applications": {}}
+    checked = client.post(f"/api/scenarios/{SCENARIO}/check", json={"set": changes}).json()
+    sensor = {"kind": "flawless", "range": 80.0, "opening_angle": 0.5, "patience": 3.0}
+    assert checked["problems"] == [] and checked["document"]["vehicles"]["follower_1"]["sensors"]["front"] == sensor
+    run = client.post("/api/runs", json={"scenario": SCENARIO, "set": changes}).json()["run"]
+    detail = finished(client, run)
+    channels = {each["name"]: each for each in client.get(f"/api/runs/{run}").json()["channels"]}
+    assert detail["status"] == "done" and channels["follower_1.front.clearance"]["unit"] == "m"
+    assert channels["follower_1.front.clearance"]["label"] == "Clearance of front"
+    trace = client.get(f"/api/runs/{run}/trace", params={"channels": "follower_1.front.clearance,follower_1.gap"}).json()["channels"]
+    assert trace["follower_1.front.clearance"]["values"][-1] == pytest.approx(trace["follower_1.gap"]["values"][-1], abs=0.5)
 
 
 def test_the_command_lines_bits(pair, sample):
