@@ -29,7 +29,7 @@ def conform(kind: Kind) -> list[Check]:
 def common(kind: Kind) -> Iterator[Check]:
     """What every kind keeps."""
     wrong = "\n".join(str(each) for each in problems(kind.module, SORTS[kind.sort]))
-    yield Check(f"keeps the contract of a {kind.sort}: {', '.join(each.name for each in SORTS[kind.sort].needs)}", wrong)
+    yield Check(f"has the parts of its contract: {', '.join(each.name for each in SORTS[kind.sort].needs)}", wrong)
     yield tried("its functions and classes say what they are", lambda: undocumented(kind))
     for name in SET:
         if model := getattr(kind.module, name, None):
