@@ -13,12 +13,17 @@ from studio.world.tick import tick
 SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
 
 
-def scenario(sample, changes, *, alone=True, lane=None, **parts):
-    """The sample with these changes; its leader alone, or everybody; on this lane of three, or that of their route."""
+def scenario(sample, changes, *, alone=True, lane=None, minding=(), **parts):
+    """The sample with these changes; its leader alone, or everybody; on this lane of three, or that of their route.
+
+    Drivers overrule applications for what they are minding.
+    """
     document = yaml.safe_load(sample.read_text())
     document |= {"changes": changes, "triggers": {}, "goals": {}}
     for vehicle in document["vehicles"].values() if lane is not None else ():
         vehicle["position"] = {"road": "340498991", "lane": lane, "offset": vehicle["position"]["along"]}
+    for vehicle in document["vehicles"].values() if minding else ():
+        vehicle["intervention"] = {"reasons": list(minding)}
     if alone:
         document |= {"applications": {}, "traffic": {"count": 0}}
         document["vehicles"] = {"leader": document["vehicles"]["leader"]}

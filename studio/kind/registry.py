@@ -101,7 +101,6 @@ _broken: dict[str, Broken] = {}
 _reserved: dict[tuple[str, str], str] = {}
 _loading = threading.RLock()  # the page asks for several things at once
 _loaded = False  # or being loaded: their files ask for what is there already
-_ready = False
 _listeners: list[Callable[[], None]] = []
 
 
@@ -111,7 +110,7 @@ def stream(name: str) -> int:
 
 
 def listen(listener: Callable[[], None]) -> None:
-    """Has a function called whenever a kind was added to those of the installed packages, or taken away."""
+    """Has a function called whenever a kind was added or taken away."""
     _listeners.append(listener)
 
 
@@ -143,7 +142,7 @@ def texts(file: str | None) -> dict[str, str]:
 
 def tell_listeners() -> None:
     """Something has been added, or taken away."""
-    for listener in _listeners if _ready else ():
+    for listener in _listeners:
         listener()
 
 
@@ -175,13 +174,12 @@ def sort_of(module: ModuleType) -> Sort:
 
 def load_all() -> None:
     """Registers everything that installed packages offer, this one first of all."""
-    global _loaded, _ready
+    global _loaded
     with _loading:
         if not _loaded:
             _loaded = True
             for offer in sorted(entry_points(group=GROUP), key=lambda each: (each.value != BUILT_IN, each.name)):
                 attempt(offer.name, offer.value, lambda offer=offer: offered(offer.value, offer.name))
-            _ready = True
 
 
 def offered(value: str, name: str) -> None:

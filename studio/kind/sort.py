@@ -100,11 +100,14 @@ def record(value: Any) -> str:
 
 
 def remembered(value: Any) -> str:
-    """A NamedTuple of numbers."""
+    """A NamedTuple of numbers; one without fields remembers nothing."""
+    if what := bundle(value):
+        return what
     try:
-        return bundle(value) or ("" if quantities(value) else "has no field: give it one that stays as it is")
+        quantities(value)
     except (TypeError, NameError) as error:
         return str(error)
+    return ""
 
 
 def mask(value: Any) -> str:

@@ -8,14 +8,11 @@ import pytest
 from studio import job
 from studio.application import registry
 from studio.application.contract import ACTUATORS, LEAVE, Actuators, Command
-from studio.road.network.signals import AMBER, GREEN
 from studio.scenario.setup import complete
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_STEER, U
-from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACCELERATOR, DELTA, GEAR, RATIO, T_ENGINE, TORQUE_BRAKE, TORQUE_DRIVE, V_X
 from studio.world.build import build
 from studio.world.setting import setting
-from studio.world.table.mind import STATION
 from studio.world.tick import tick
 
 NOTHING = Actuators(*[LEAVE] * len(ACTUATORS))
@@ -122,22 +119,6 @@ def test_what_is_left_stays_the_drivers(sample):
         assert row(shifted, number) == row(driven(sample, NOTHING, seconds=0.02), number)
 
 
-def test_the_driver_still_stops_at_red(sample):
-    """An application that holds the accelerator down does not carry the car over a red light."""
-    world = driven(sample, NOTHING._replace(accelerator=0.4), seconds=0.02)
-    roads, vehicles, crossed = world.roads, world.vehicles, []
-
-    def bumper():
-        return vehicles.mind[STATION, 0] + vehicles.parameter[FRONT, 0]
-
-    for _ in range(4000):
-        before = bumper()
-        tick(world)
-        lines = roads.stop_station[: roads.stop_count[0]]
-        crossed += [int(roads.shown[roads.stop_link[i]]) for i in np.flatnonzero((before < lines) & (lines <= bumper()))]
-    assert crossed and set(crossed) <= {GREEN, AMBER}
-
-
 @pytest.mark.parametrize("compiled", [True, False])
 def test_a_file_may_return_actuators(sample, tmp_path, compiled):
     """Compiled or not, the command of a user's own file arrives."""
@@ -151,18 +132,3 @@ def test_a_file_may_return_actuators(sample, tmp_path, compiled):
         tick(world)
     assert (world.vehicles.state[GEAR, 1:5] == 3.0).all()
     assert (world.hosted[0].memory == 100.0).all()
-
-
-def test_a_driver_brakes_before_a_collision(sample):
-    """Four cars whose application only ever accelerates come up to a leader that does not: their drivers keep them apart."""
-    world = build([job.prepare(job.load(sample, {"traffic.count": 0}))])
-    (hosted,) = world.hosted
-
-    def faster(columns, parameters, memory, observed, commands):
-        commands[:, columns] = np.nan
-        commands[0, columns] = 1.0
-
-    hosted.run = faster
-    for _ in range(950):
-        tick(world)
-    assert world.events.hits_found == 0

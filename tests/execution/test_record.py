@@ -82,10 +82,14 @@ def test_a_trigger_may_have_any_name(sample):
 
 
 def test_what_happens_to_the_platoon_is_told(sample):
-    """Somebody comes between, a car waits at red: at the times at which the traces say so."""
-    run = job.run(job.load(sample))
+    """A driver minds a light, so that somebody comes between; a car waits at red: at the times at which the traces say so."""
+    minding = {"reasons": ["red_light", "right_of_way"], "reaction_time": 0.5}
+    run = job.run(job.load(sample, {"vehicles.follower_4.intervention": minding}))
     told = {(event.vehicle, event.text): event.time for event in run.record.happenings}
     waits = told["leader", "waits at a red light"]
     assert np.interp(waits, run.time, run.trace("leader.speed")) < 0.15
     assert any("is between it and" in text for _, text in told)
+    takes_over = told["follower_4", "driver takes over: red light"]
+    acting = run.trace("follower_4.intervening")
+    assert run.time[acting == 1.0][0] == pytest.approx(takes_over - 0.02)
     assert told["leader", "hard_brake: brake with 6 m/s²"] == 20

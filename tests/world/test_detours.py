@@ -228,7 +228,7 @@ def test_traffic_and_platoon_pass_three_sites(sample, seed):
             "do": {"change": "close_lane", "road": "206170873#1", "start": 40, "end": 90},
         },
     }
-    world = build([scenario(sample, changes, alone=False, seed=seed)])
+    world = build([scenario(sample, changes, alone=False, minding=["right_of_way"], seed=seed)])
     worst = 0.0
     for _ in range(3000):
         tick(world)

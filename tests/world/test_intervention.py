@@ -1,5 +1,6 @@
 """When a driver overrules an application: never by default, only for what is named, after his reaction time, until the need is over."""
 
+from dataclasses import dataclass
 from math import inf, nan
 
 import numpy as np
@@ -22,6 +23,7 @@ from studio.world.snapshot import restore, snapshot
 from studio.world.table.mind import (
     ACTS_WAY,
     DRIVER,
+    FOLLOWING,
     GAP,
     INTERVENING,
     MIND,
@@ -82,9 +84,24 @@ def prepared(road, *reasons, reaction_time=1.0):
     return job.prepare(job.load(road, {"vehicles.car.intervention": {"reasons": list(reasons), "reaction_time": reaction_time}}))
 
 
+@dataclass
+class Pushing:
+    """An application that always commands the same."""
+
+    commands: dict
+    groups: tuple = ()
+
+    def decide(self, time, tick, clock, now, commands):
+        for place, value in self.commands.items():
+            commands[place] = value
+        return []
+
+
 def commanding(world, row, value, column=0):
-    """An application that always commands the same: nobody writes this again."""
-    world.vehicles.app_command[row, column] = value
+    """The world with such an application in a vehicle, which commanded something else before."""
+    pushing = next((each for each in world.hosted if isinstance(each, Pushing)), Pushing({}))
+    pushing.commands[row, column] = value
+    world.hosted = [pushing]
     return world
 
 
@@ -238,25 +255,28 @@ def test_red_lights(sample):
 def mind_of(**rows):
     """One driver's mind and what he is like: nobody around, no light."""
     mind, drivers = np.zeros((len(MIND), 1)), np.ones((len(DRIVER), 1))
-    mind[[GAP, RED_STATION, NEEDED_WAY, YIELDING], 0] = nan, inf, inf, NO_LIMIT
+    mind[[GAP, RED_STATION, NEEDED_WAY, YIELDING, FOLLOWING], 0] = nan, inf, inf, NO_LIMIT, NO_LIMIT
     drivers[:, 0] = [float(rows.get(row.name, 0.0)) for row in DRIVER]
     return mind, drivers
 
 
 def test_right_of_way_is_minded_after_an_unbroken_need_and_until_nobody_goes_first():
-    """-2 m/s² are needed: for half a second nothing; a break of one tick begins anew; then held until the way is free."""
+    """-2 m/s² are needed: for half a second nothing; a break of one tick begins anew; then held until the way is free.
+
+    When the other is there and drives ahead, he is followed until he is far enough.
+    """
     mind, drivers = mind_of(minds_right_of_way=1.0, reaction_time=0.5)
     assert drivers[MINDS_WAY, 0] == 1.0 and drivers[REACTION_TIME, 0] == 0.5
     state, parameter = np.zeros((len(VEHICLE), 1)), np.zeros((len(PARAMETER), 1))
-    needs = [-2.0] * 20 + [0.5] + [-2.0] * 30 + [0.5] * 10 + [NO_LIMIT] * 3
+    needs = [-2.0] * 20 + [0.5] + [-2.0] * 30 + [0.5] * 10 + [NO_LIMIT] * 5
     found = []
     for k, permitted in enumerate(needs):
-        mind[YIELDING, 0] = permitted
+        mind[YIELDING, 0], mind[FOLLOWING, 0] = permitted, -1.0 if k in (61, 62) else NO_LIMIT
         found.append(attended(0, k * TICK, 1.0, state, parameter, drivers, mind))
     acts = 21 + round(0.5 / TICK)
     assert found[:acts] == [NO_LIMIT] * acts
     assert found[acts:51] == [-2.0] * (51 - acts) and found[51:61] == [0.5] * 10
-    assert found[61:] == [NO_LIMIT] * 3 and mind[ACTS_WAY, 0] == 0.0
+    assert found[61:] == [-1.0] * 2 + [NO_LIMIT] * 3 and mind[ACTS_WAY, 0] == 0.0
 
 
 # -- state ----------------------------------------------------------------------------------------------
@@ -293,7 +313,7 @@ def test_a_snapshot_holds_how_long_it_has_been_needed(road, after):
         for _ in range(100):
             tick(world)
         digests.append(world.digest())
-    fresh = build([prepared(road, "collision", reaction_time=0.4)])
+    fresh = commanding(build([prepared(road, "collision", reaction_time=0.4)]), APP_ACCELERATION, 0.0)
     restore(fresh, kept)
     for _ in range(100):
         tick(fresh)

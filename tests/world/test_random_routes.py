@@ -16,7 +16,7 @@ from studio.road.ways import path as road_path
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPEED
 from studio.road.ways.route import LanePath, connect
 from studio.scenario import catalogue
-from studio.scenario.schema import FrontSensor, Gps, Intervention, Scenario
+from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
@@ -79,8 +79,8 @@ def setting(network: Network, driven: Driven) -> Setting:
     speed = 0.0 if near_light else float(min(8.0, driven.path.points[PATH_SPEED, 3:20].min()))
     scenario = Scenario.model_validate(text)
     driver, model = scenario.vehicles["car"].driver, catalogue.find_vehicle("bmw_320i")
-    car = Car("car", model, driven.path, 3.0, speed, driver, Intervention(), FrontSensor(range=0.0), "#2f6fde", Gps())
-    return Setting(scenario, network, (car,), (), Works(()))
+    car = Car("car", model, driven.path, 3.0, speed, driver, Intervention(), "#2f6fde", Gps())
+    return Setting(scenario, network, (car,), (), Works(()), {})
 
 
 def drive(network: Network, ways: list[Driven]) -> None:

@@ -8,7 +8,8 @@ reaction time without a break. It is needed while the application asks for more 
     right of way   a car that goes first asks for braking
 
 Once he acts he does so until the need is over, so that he does not let go and grasp in turn: until nobody is ahead or whoever is moves
-away; the light is green or passed; nobody goes first any more. Meanwhile the application may brake harder, and no less, than he does.
+away; the light is green or passed; nobody goes first any more, and whoever did is far enough ahead. Meanwhile the application may brake
+harder, and no less, than he does.
 """
 
 from math import inf, isnan
@@ -79,6 +80,12 @@ def is_behind_nobody(v, state, mind):
 
 
 @inlined
+def has_the_way(v, mind):
+    """Whether nobody goes first, and nobody who did is still so near that he has to be braked for."""
+    return mind[YIELDING, v] == driver.NO_LIMIT and mind[FOLLOWING, v] >= 0.0
+
+
+@inlined
 def attend(v, minds, since, acts, is_needed, is_over, time, drivers, mind):
     """Whether the driver acts for one of the reasons, whose rows are given."""
     if drivers[minds, v] == 0.0:
@@ -102,8 +109,8 @@ def attended(v, time, asked, state, parameter, drivers, mind):
         permitted = min(permitted, min(near, mind[FOLLOWING, v]))
     if attend(v, MINDS_RED, NEEDED_RED, ACTS_RED, red < min(asked, 0.0), red == driver.NO_LIMIT, time, drivers, mind):
         permitted = min(permitted, red)
-    if attend(v, MINDS_WAY, NEEDED_WAY, ACTS_WAY, way < min(asked, 0.0), way == driver.NO_LIMIT, time, drivers, mind):
-        permitted = min(permitted, way)
+    if attend(v, MINDS_WAY, NEEDED_WAY, ACTS_WAY, way < min(asked, 0.0), has_the_way(v, mind), time, drivers, mind):
+        permitted = min(permitted, min(way, mind[FOLLOWING, v]))
     mind[INTERVENING, v] = 1.0 if permitted < driver.NO_LIMIT else 0.0
     return permitted
 
