@@ -3,21 +3,29 @@
 BROKEN = '''
 """Raises after half a second."""
 from typing import NamedTuple
-from pydantic import BaseModel
-from studio.application.contract import LEAVE, Command
+from studio.application.contract import Clock, Command, leave
+from studio.kind.settings import Part
 
+KIND = "application"
 TITLE = "Broken"
+COMMANDS = 1
 
-class Parameters(BaseModel):
+class Parameters(Part):
     pass
 
 class Memory(NamedTuple):
     pass
 
-def decide(parameters, memory, observation):
-    if observation.clock.time > 0.5:
+class Sees(NamedTuple):
+    clock: Clock
+
+class Does(NamedTuple):
+    command: Command
+
+def decide(parameters, memory, sees):
+    if sees.clock.time > 0.5:
         raise RuntimeError("the idea was not so good")
-    return memory, Command(LEAVE, LEAVE)
+    return memory, Does(leave())
 '''
 
 # Leaves a sign beside itself before it hangs.

@@ -17,7 +17,7 @@ COMPILING = 12.0 * PATIENCE  # [s] everything, on a busy machine
 def studio(*arguments, cwd, patience=PATIENCE):
     """Runs the command; returns exit code, output, errors."""
     done = subprocess.run(
-        [sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=PATIENCE
+        [sys.executable, "-m", "studio.cli", *map(str, arguments)], capture_output=True, text=True, cwd=cwd, timeout=patience
     )
     return done.returncode, done.stdout, done.stderr
 

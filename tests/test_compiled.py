@@ -108,3 +108,36 @@ def test_compiled_functions_of_a_file_are_known():
     assert "forces" in compiled_functions(TYRE) and "formula_angle" in compiled_functions(TYRE)
     assert compiled_functions(PACKAGE / "application" / "host.py") == ["put"]  # the loop that it writes stands in another file
     assert compiled_functions(PACKAGE / "compiled.py") == []
+
+
+OF_A_FOLDER = """
+from typing import NamedTuple
+from studio.compiled import compiled
+class Pair(NamedTuple):
+    first: float
+    second: float
+@compiled
+def total(pair):
+    return pair.first + pair.second
+"""
+SHARED = "from studio.compiled import compiled\n@compiled\ndef first(pair):\n    return pair[0]\n"
+
+
+def said(code, environment):
+    """What a process of its own says."""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+def test_the_code_of_users_types_is_in_nobodys_way(tmp_path):
+    """The same file in two folders of one name; and code that is kept for its types too, when nobody has loaded them."""
+    environment = os.environ | {"STUDIO_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(tmp_path)}
+    (tmp_path / "shared_by_all.py").write_text(SHARED)
+    load = "from pathlib import Path; from studio.kind.folder import load; from shared_by_all import first\n"
+    for folder in (tmp_path / "one" / "kinds", tmp_path / "other" / "kinds"):
+        folder.mkdir(parents=True)
+        (folder / "mine.py").write_text(OF_A_FOLDER)
+        use = f"mine = load(Path({str(folder / 'mine.py')!r})); pair = mine.Pair(1.0, 2.0); print(mine.total(pair), first(pair))"
+        assert said(load + use, environment) == "3.0 1.0"
+    assert said(load + "print(first((4.0, 5.0)))", environment) == "4.0"

@@ -35,7 +35,7 @@ def chains(setting: Setting) -> tuple[Chain, ...]:
     for name, group in setting.scenario.applications.items():
         ahead = [group.senders(i)[0] for i in range(len(group.units)) if group.senders(i)]
         order = [*ahead[:1], *group.units]
-        if ahead and ahead == order[:-1]:
+        if ahead and ahead == order[:-1] and setting.scenario.vehicles.keys() >= set(order):
             found.append(Chain(name, group.application, tuple(order)))
     return tuple(found)
 

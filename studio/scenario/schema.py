@@ -94,7 +94,7 @@ class Place(Part):
 class Intervention(Part):
     """When the driver overrules an application that has the pedals: never, unless reasons are named."""
 
-    reasons: list[Reason] = Field([], max_length=len(REASONS), title="Reasons", description="collision, red_light, right_of_way")
+    reasons: list[Reason] = Field([], max_length=len(REASONS), title="Reasons", description="for which he does; none: never")
     reaction_time: float = number(
         1.0, unit="s", title="Reaction time", description="that it has to be needed before the driver acts", ge=0, le=5
     )

@@ -1,7 +1,7 @@
 """From a document to a complete scenario: applications found, their parameters checked and filled in, changes applied.
 
 complete(document)  →  Scenario        every default filled in, every name known
-change(document, {path: value})        an exchange of an application keeps the parameters that both have
+change(document, {path: value})        an exchange of an application keeps the parameters that both have, one of a kind its settings
 """
 
 from typing import Any
@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from studio.errors import Problem, ScenarioError, UnknownError
 from studio.kind import registry
 from studio.scenario import edit, file, finding
-from studio.scenario.schema import Application, Scenario
+from studio.scenario.schema import Application, Scenario, child, node_at, pointed
 from studio.scenario.text.patch import Operation, operation, patched
 
 
@@ -46,6 +46,9 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
     exchanges = {path: value for path, value in changes.items() if is_exchange(document, path)}
     for path, name in exchanges.items():
         document = patched(document, exchange(document, path.split(".")[1], name))
+    for path, kept in kinds(document, changes).items():
+        exchanges |= {f"{path}.kind": kept}
+        document = patched(document, edit.assignment(document, complete(document, where).model_dump(mode="json"), path, kept))
     full = complete(document, where).model_dump(mode="json")
     for path, value in changes.items():
         if path not in exchanges:
@@ -57,6 +60,29 @@ def is_exchange(document: dict[str, Any], path: str) -> bool:
     """Whether a path names which application a group runs."""
     parts = path.split(".")
     return len(parts) == 3 and parts[0] == "applications" and parts[2] == "application" and edit.has(document, path)
+
+
+def kinds(document: dict[str, Any], changes: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Places where the changes put another kind, each with what is kept there: the settings that both kinds have.
+
+    Where the changes give the whole place too, what is in it counts.
+    """
+    schema, found = Scenario.model_json_schema(), {}
+    for path, name in changes.items():
+        place, _, last = path.rpartition(".")
+        fields = fields_of(schema, place.split("."), name) if last == "kind" and isinstance(name, str) else []
+        if fields and not any(path.startswith(f"{each}.") for each in changes):
+            given = edit.get(document, place) if edit.has(document, place) else {}
+            found[place] = {"kind": name} | {key: value for key, value in given.items() if key in fields and key != "kind"}
+    return found
+
+
+def fields_of(schema: dict[str, Any], place: list[str], kind: str) -> list[str]:
+    """The fields of a kind that may stand at a place; none where no kind is chosen, or not this one."""
+    choice = child(node_at(schema, place[:-1]), place[-1]).get("discriminator", {})
+    if choice.get("propertyName") != "kind" or kind not in choice["mapping"]:
+        return []
+    return list(pointed(schema, choice["mapping"][kind])["properties"])
 
 
 def exchange(document: dict[str, Any], group: str, name: Any) -> list[Operation]:

@@ -8,20 +8,39 @@ from math import inf, pi
 import numpy as np
 import pytest
 
-from studio.application import registry
-from studio.application.contract import Clock, Front, Message, Observation, Own
+from studio.application.contract import Clock, Heard, Inbox, Own, Targets
+from studio.kind import registry
+from studio.kind.number import numbers, tuple_of
+from studio.kinds.message.awareness import Payload
+from studio.kinds.sensor.front_radar import Reading
 
 TICK, TAU, SUBSTEPS = 0.005, 0.1, 5
 
 
 def parameters(name, **given):
-    application = registry.find(name)
-    return application.module.ParameterTuple(*[float(value) for value in application.parameters(given).values()])
+    module = registry.find("application", name).module
+    return tuple_of(module, module.Parameters)(*numbers(module.Parameters(**given)))
+
+
+def own(v, a):
+    """What the bus tells; only speed and acceleration count here."""
+    return Own(v, a, 0.0, 0.0, 60.0, 0.0, 0.0, 0.0, 0.0)
+
+
+def sees(module, time, tick, v, a, gap, rate, heard):
+    """What an application sees behind one car, from which it may hear something."""
+    ports = {"clock": Clock(time, tick), "own": own(v, a), "front": Targets(1, (Reading(gap, rate, 0.0),)), "heard": Inbox(1, (heard,))}
+    return module.Sees(**{name: ports[name] for name in module.Sees._fields})
+
+
+def message(age, u, *, received=True, v=0.0, a=0.0):
+    """The newest message of the car ahead."""
+    return Heard(received, 0.0, age, age, 0.0, Payload(0.0, 0.0, v, a, u))
 
 
 def platoon(name, *, frequency, cars=2, seconds=120.0, link=True, message_delay=0.0, **given):
     """Amplitudes of the cars' accelerations when the first one's speed swings by ±0.5 m/s about 20 m/s."""
-    module, p = registry.find(name).module, parameters(name, **given)
+    module, p = registry.find("application", name).module, parameters(name, **given)
     v, u, a = np.full(cars, 20.0), np.zeros(cars), np.zeros(cars)
     gap = np.full(cars, p.standstill + p.headway * 20.0)
     memories = [module.Memory() for _ in range(cars)]
@@ -33,11 +52,10 @@ def platoon(name, *, frequency, cars=2, seconds=120.0, link=True, message_delay=
         # The first car's request is what makes a = 0.5 omega cos(omega t) through its own lag.
         u[0] = 0.5 * omega * (np.cos(omega * t) - TAU * omega * np.sin(omega * t))
         for i in range(1, cars):
-            seen = Front(True, gap[i], v[i - 1] - v[i], 0.0)
-            message = Message(link, message_delay if link else inf, 0.0, 0.0, v[i - 1], a[i - 1], heard[i - 1])
-            own = Own(v[i], a[i], 0.0, 0.0, 60.0, 0.0, 0.0, 0.0)
-            memories[i], command = module.decide(p, memories[i], Observation(Clock(t, TICK), own, seen, message))
-            u[i] = command.acceleration
+            told = message(message_delay if link else inf, heard[i - 1], received=link, v=v[i - 1], a=a[i - 1])
+            seen = sees(module, t, TICK, v[i], a[i], gap[i], v[i - 1] - v[i], told)
+            memories[i], does = module.decide(p, memories[i], seen)
+            u[i] = does.command.acceleration
         for _ in range(SUBSTEPS):
             dt = TICK / SUBSTEPS
             a += dt * (u - a) / TAU
@@ -103,13 +121,12 @@ def test_acc_is_rajamanis(headway, frequency):
 
 def test_a_silent_link_lengthens_the_headway():
     """From the time-out on the wanted gap grows towards that of the fallback."""
-    module, p = registry.find("cacc").module, parameters("cacc")
-    own, seen = Own(20.0, 0.0, 0.0, 0.0, 60.0, 0.0, 0.0, 0.0), Front(True, p.standstill + 0.6 * 20, 0.0, 0.0)
+    module, p = registry.find("application", "cacc").module, parameters("cacc")
     memory = module.Memory()
     for k in range(1000):
-        message = Message(True, k * 0.02, 0.0, 0.0, 20.0, 0.0, 0.0)
-        memory, command = module.decide(p, memory, Observation(Clock(k * 0.02, 0.02), own, seen, message))
+        seen = sees(module, k * 0.02, 0.02, 20.0, 0.0, p.standstill + 0.6 * 20, 0.0, message(k * 0.02, 0.0, v=20.0))
+        memory, does = module.decide(p, memory, seen)
         if k == 20:
-            assert memory.headway == pytest.approx(0.6) and abs(command.acceleration) < 1e-9
+            assert memory.headway == pytest.approx(0.6) and abs(does.command.acceleration) < 1e-9
     assert memory.headway == pytest.approx(p.fallback_headway)
-    assert command.acceleration < -0.5
+    assert does.command.acceleration < -0.5

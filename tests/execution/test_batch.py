@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from studio import job
-from studio.application import registry
 from studio.errors import ScenarioError
 from studio.execution import record as recording
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
-from studio.vehicle.parameter import MASS
+from studio.kind import registry
+from studio.vehicle.parameter import AREA
 from tests.broken import BROKEN
 from tests.conftest import ROOT
 
@@ -48,9 +48,9 @@ def test_three_seeds_are_as_three_runs():
 
 def test_variants_with_other_vehicles_and_applications():
     """One with a platoon and traffic that is recorded, one without applications: other numbers of columns and links."""
-    platoon = {"application": "cacc", "vehicles": ["north"], "listens_to": ["straight"]}
+    platoon = {"application": "cacc", "units": ["north"], "listens_to": ["straight"]}
     each = [
-        loaded(1, applications={"pair": platoon, "distance": {"application": "acc", "vehicles": ["straight"]}}),
+        loaded(1, applications={"pair": platoon, "distance": {"application": "acc", "units": ["straight"]}}),
         loaded(2, applications={}, **{"traffic.count": 4}),
         loaded(3),
     ]
@@ -62,7 +62,7 @@ def test_a_world_that_fails_ends_by_itself(tmp_path):
     """An application raises in the middle world; its record ends there, and its neighbours do not notice."""
     (tmp_path / "failing.py").write_text(BROKEN)
     registry.load_folder(tmp_path)
-    failing = {"distance": {"application": "failing", "vehicles": ["straight"]}}
+    failing = {"distance": {"application": "failing", "units": ["straight"]}}
     each = [loaded(1), loaded(2, applications=failing), loaded(3)]
     together = outcomes(each)
     for one, alone in zip(together, (outcomes([one])[0] for one in each), strict=True):
@@ -75,7 +75,7 @@ def test_a_state_that_is_none_ends_its_world_only():
     each = [loaded(1), loaded(2)]
     together = simulation(*map(job.prepare, each))
     together.advance(10)
-    together.world.vehicles.parameter[MASS, together.world.worlds.first[1] + 2] = np.nan
+    together.world.vehicles.parameter[AREA, together.world.worlds.first[1] + 2] = np.nan
     as_fast_as_possible(together)
     same(job.outcome(each[0], together, 0), outcomes([each[0]])[0])
     failed = together.cases[1]

@@ -153,7 +153,7 @@ def digest() -> str:
 
 def test_a_fresh_process_gives_the_same_bits():
     program = "import sys; sys.path.insert(0, 'tests/vehicle'); import test_bits; print(test_bits.digest())"
-    other = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
+    other = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, timeout=4 * PATIENCE)
     assert other.stdout.strip() == digest(), other.stderr
 
 

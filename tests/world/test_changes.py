@@ -19,7 +19,6 @@ from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import V_X
 from studio.world.build import build
 from studio.world.table.mind import GAP, RED_STATION, STATION, V_DESIRED
-from studio.world.table.unit import DETECTED, RANGE, RANGE_RATE, TARGET
 from studio.world.tick import tick
 from tests.changing import SLOW, drive, run_for, scenario
 
@@ -183,7 +182,7 @@ def test_what_is_beyond_sight_is_not_reacted_to(sample):
     clear, fog = (run_for([scenario(sample, {}, alone=False, weather={"visibility": sight})], 0.02) for sight in (200.0, 12.0))
     assert np.nanmax(clear.vehicles.mind[GAP]) > 20.0 and np.nanmax(fog.vehicles.mind[GAP]) <= 12.0
     assert np.isfinite(clear.vehicles.mind[RED_STATION]).sum() > np.isfinite(fog.vehicles.mind[RED_STATION]).sum()
-    assert (clear.units.sensors == fog.units.sensors)[~np.isnan(clear.units.sensors)].all()
+    assert np.array_equal(clear.units.mounted[0].out, fog.units.mounted[0].out) and clear.units.mounted[0].out[0].any()
 
 
 def test_nobody_collides_in_fog(sample):
@@ -307,14 +306,11 @@ def test_a_collision_with_an_object_is_told_by_its_name(sample):
 def test_the_radar_sees_a_barrier_at_rest_and_no_cone(sample):
     for kind, seen in (("barriers", True), ("cones", False)):
         world = run_for([scenario(sample, wall(kind=kind))], 0.5)
-        sensors, state = world.units.sensors[:, 0], world.vehicles.state[:, 0]
-        assert sensors[DETECTED] == seen
+        sensors, state = world.units.mounted[0].out[:, 0], world.vehicles.state[:, 0]
+        assert sensors[0] == seen
         if seen:
-            assert sensors[RANGE] == pytest.approx(
-                450.0 - 0.75 - world.vehicles.mind[STATION, 0] - world.vehicles.parameter[FRONT, 0], abs=0.6
-            )
-            assert sensors[RANGE_RATE] == pytest.approx(-state[V_X], abs=0.3)
-            assert world.name_of(int(sensors[TARGET])) == "barrier_1 of wall"
+            assert sensors[1] == pytest.approx(450.0 - 0.75 - world.vehicles.mind[STATION, 0] - world.vehicles.parameter[FRONT, 0], abs=0.6)
+            assert sensors[2] == pytest.approx(-state[V_X], abs=0.3)
 
 
 def test_objects_come_and_go(sample):

@@ -68,7 +68,7 @@ def test_the_order_of_the_file_does_not_matter(sample):
         a, b = one.column(name), other.column(name)
         assert one.vehicles.state[:, a].tobytes() == other.vehicles.state[:, b].tobytes(), name
         assert wheels_of(one, a).tobytes() == wheels_of(other, b).tobytes(), name
-        assert one.units.sensors[:4, a].tobytes() == other.units.sensors[:4, b].tobytes(), name
+        assert one.units.satellite[:, a].tobytes() == other.units.satellite[:, b].tobytes(), name
 
 
 def test_traffic_leaves_the_chances_of_the_others_alone(sample):

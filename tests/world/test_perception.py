@@ -6,20 +6,26 @@ import numpy as np
 import pytest
 
 from studio import job
-from studio.application.contract import LEAVE, Command
 from studio.execution.simulation import simulation
 from studio.road.network import Building
 from studio.vehicle.command import RING
 from studio.vehicle.parameter import STEER_MAX
 from studio.vehicle.state import ACTIVE, DELTA, X, Y
 from studio.world.build import build
-from studio.world.table.unit import DETECTED, RANGE, SENT
+from studio.world.table.unit import H_NUMBER, H_TIME
 from studio.world.tick import tick
+
+
+def newest(world):
+    """When the newest message on the first link was sent [s]; minus infinity while none has come."""
+    inbox = world.units.posts[0].inbox
+    return inbox[H_TIME, 0] if inbox[H_NUMBER, 0] >= 0 else -np.inf
 
 
 def received(sample, ticks=500, buildings=None, shadow=True, **radio):
     """Send times of the newest message on the first link, tick by tick; `buildings` stand there instead of the map's."""
-    changes = {f"radio.{name}": value for name, value in radio.items()} | {"traffic.count": 0, "radio.buildings": shadow}
+    period = {"messages.awareness.period": radio.pop("period")} if "period" in radio else {}
+    changes = {f"radio.{name}": value for name, value in radio.items()} | period | {"traffic.count": 0, "radio.buildings": shadow}
     setting = job.prepare(job.load(sample, changes))
     if buildings is not None:
         scenery = replace(setting.network.scenery, buildings=tuple(buildings))
@@ -28,7 +34,7 @@ def received(sample, ticks=500, buildings=None, shadow=True, **radio):
     seen = []
     for _ in range(ticks):
         tick(world)
-        seen.append(world.units.inbox[SENT, 0])
+        seen.append(newest(world))
     return np.array(seen)
 
 
@@ -89,10 +95,10 @@ def test_a_sender_that_left_is_silent(sample):
     world.vehicles.state[ACTIVE, 0] = 0.0  # the leader leaves
     for _ in range(10):
         tick(world)
-    last = world.units.inbox[SENT, 0]
+    last = newest(world)
     for _ in range(40 * RING):
         tick(world)
-    assert world.units.inbox[SENT, 0] == last
+    assert newest(world) == last
 
 
 def test_the_sensor_sees_the_car_ahead(sample):
@@ -100,10 +106,10 @@ def test_the_sensor_sees_the_car_ahead(sample):
     run = simulation(job.prepare(job.load(sample, {"traffic.count": 0})))
     for _ in range(10):
         run.advance()
-    sensors, state = run.world.units.sensors, run.world.vehicles.state
+    (radars,), state = run.world.units.mounted, run.world.vehicles.state
     gap = np.hypot(*(state[:2, 0] - state[:2, 1])) - 4.508
-    assert sensors[DETECTED, 1] == 1 and sensors[RANGE, 1] == pytest.approx(gap, abs=0.5)
-    assert sensors[DETECTED, 0] == 0 and np.isnan(sensors[RANGE, 0])
+    assert radars.out[0, 1] == 1 and radars.out[1, 1] == pytest.approx(gap, abs=0.5)
+    assert not radars.out[:, 0].any()
 
 
 def test_an_application_cannot_turn_the_wheels_too_far(sample):
@@ -111,8 +117,9 @@ def test_an_application_cannot_turn_the_wheels_too_far(sample):
     run = simulation(job.prepare(job.load(sample, {"traffic.count": 0})))
     (hosted,) = run.world.hosted
 
-    def turn(columns, parameters, memory, observed, commands):
-        commands[0, columns], commands[1, columns] = Command(LEAVE, 5.0)
+    def turn(time, tick, fixed, now, commands, unit, column, *rest):
+        commands[1, column] = 5.0
+        return 0
 
     hosted.run = turn
     for _ in range(250):

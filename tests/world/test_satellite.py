@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from studio import job
-from studio.application.host import observation_rows
+from studio.application.contract import Own
 from studio.model import satellite
 from studio.model.random import GPS_NOISE, normal, normal_pair
 from studio.road.network import Building, shadow
@@ -14,7 +14,7 @@ from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
 from studio.world.build import build
 from studio.world.channel import CHANNELS
 from studio.world.channel import sample as channels
-from studio.world.passes import perception
+from studio.world.passes import satellite as receiver
 from studio.world.table.unit import (
     CANYON,
     DRIFT_SIGMA,
@@ -23,11 +23,12 @@ from studio.world.table.unit import (
     GPS_NORTH,
     GPS_SET,
     GPS_SIGMA,
-    M_TRUE_X,
-    M_TRUE_Y,
-    M_X,
-    M_Y,
-    SENSOR,
+    OWN_FIRST,
+    S_NUMBER,
+    S_TIME,
+    S_X,
+    S_Y,
+    SATELLITE,
     SENT,
 )  # fmt: skip
 from studio.world.tick import meet, tick
@@ -39,7 +40,7 @@ COURT = Building(np.array([[-50.0, 50.0, 50.0, -50.0], [-50.0, -50.0, 50.0, 50.0
 def wandered(ticks, *, n=2000, seeds=(1,), buildings=(), **values):
     """Errors [tick, axis, car] of cars that stand at the origin, n in each world."""
     cars = n * len(seeds)
-    state, sensors, gps = np.zeros((len(VEHICLE), cars)), np.zeros((len(SENSOR), cars)), np.zeros((len(GPS_SET), cars))
+    state, found, gps = np.zeros((len(VEHICLE), cars)), np.zeros((len(SATELLITE), cars)), np.zeros((len(GPS_SET), cars))
     state[ACTIVE] = 1.0
     gps[:] = np.array([{"drift": 2.0, "correlation_time": 1.0, "noise": 0.0, "canyon_factor": 5.0, **values}[row.name] for row in GPS_SET])[
         :, None
@@ -48,8 +49,8 @@ def wandered(ticks, *, n=2000, seeds=(1,), buildings=(), **values):
     worlds, entity = np.repeat(np.arange(len(seeds)), n), np.tile(np.arange(n), len(seeds))
     errors = []
     for k in range(ticks):
-        perception.fix(k, TICK, state, gps, worlds, entity, np.array(seeds, dtype=np.uint64), np.zeros(len(seeds), int), hidden, sensors)
-        errors.append(sensors[[GPS_EAST, GPS_NORTH]].copy())
+        receiver.fix(k, TICK, state, gps, worlds, entity, np.array(seeds, dtype=np.uint64), np.zeros(len(seeds), int), hidden, found)
+        errors.append(found[[GPS_EAST, GPS_NORTH]].copy())
     return np.array(errors)
 
 
@@ -131,12 +132,14 @@ def test_messages_carry_the_measured_position(world):
     """What is sent is off by the error of its tick; the radio itself knows the antenna's place."""
     for _ in range(12):
         meet(world)
-        state, units, n = world.vehicles.state, world.units, world.size
-        now = np.flatnonzero(np.abs(units.sent[SENT] - world.clock.time) < 1e-9)
-        cars = now % n
-        assert np.array_equal(units.sent[M_TRUE_X][now], state[X, cars]) and np.array_equal(units.sent[M_TRUE_Y][now], state[Y, cars])
-        assert np.array_equal(units.sent[M_X][now], (state[X] + units.sensors[GPS_EAST])[cars])
-        assert np.array_equal(units.sent[M_Y][now], (state[Y] + units.sensors[GPS_NORTH])[cars])
+        state, units = world.vehicles.state, world.units
+        (post,) = units.posts
+        now = np.flatnonzero((np.abs(post.ring[S_TIME] - world.clock.time) < 1e-9) & (post.ring[S_NUMBER] >= 0))
+        cars = units.vehicle[post.sender[now % post.sender.size]]
+        x, y = post.ring[len(SENT)][now], post.ring[len(SENT) + 1][now]
+        assert np.array_equal(post.ring[S_X][now], state[X, cars]) and np.array_equal(post.ring[S_Y][now], state[Y, cars])
+        assert np.array_equal(x, (state[X] + units.satellite[GPS_EAST])[cars])
+        assert np.array_equal(y, (state[Y] + units.satellite[GPS_NORTH])[cars])
         world.clock.k += 1
 
 
@@ -144,9 +147,9 @@ def test_an_application_sees_its_own_measured_position_only(world):
     tick(world)
     meet(world)
     (hosted,) = world.hosted
-    rows = [observation_rows().index(name) for name in ("own.gps_x", "own.gps_y")]
-    errors = world.units.sensors[[GPS_EAST, GPS_NORTH]][:, hosted.columns]
-    assert np.array_equal(hosted.observed[rows], world.vehicles.state[[X, Y]][:, hosted.columns] + errors)
+    rows = [OWN_FIRST + Own._fields.index(name) for name in ("gps_x", "gps_y")]
+    errors = world.units.satellite[[GPS_EAST, GPS_NORTH]][:, hosted.column]
+    assert np.array_equal(world.units.now[rows][:, hosted.unit], world.vehicles.state[[X, Y]][:, hosted.column] + errors)
     assert (np.abs(errors) > 0.0).all()
 
 
@@ -155,7 +158,7 @@ def test_settings_reach_their_cars(world):
     assert gps[DRIFT_SIGMA].tolist() == [4.0, 1.5, 1.5, 1.5, 1.5, 0.0, 0.0, 0.0]
     assert (gps[GPS_SIGMA, :5] == 0.3).all() and (gps[DRIFT_TIME] == 60.0).all() and (gps[CANYON] == 5.0).all()
     tick(world)
-    assert not world.units.sensors[[GPS_EAST, GPS_NORTH], 5:].any()
+    assert not world.units.satellite[[GPS_EAST, GPS_NORTH], 5:].any()
 
 
 def test_errors_are_recorded(world):
@@ -164,7 +167,7 @@ def test_errors_are_recorded(world):
     values = np.zeros((len(CHANNELS), 5))
     channels(world, np.arange(5), 0, values)
     for name, row in (("gps_error_east", GPS_EAST), ("gps_error_north", GPS_NORTH)):
-        assert np.array_equal(values[names.index(name)], world.units.sensors[row, :5])
+        assert np.array_equal(values[names.index(name)], world.units.satellite[row, :5])
 
 
 def test_positions_do_not_touch_who_drives_by_range(sample):

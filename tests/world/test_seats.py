@@ -85,6 +85,19 @@ def test_a_driver_in_one_file_drives_beside_the_usual_one(folder):
     assert np.abs(world.vehicles.mind[OFFSET]).max() < 0.2
 
 
+def test_another_kind_keeps_the_settings_that_both_have(folder):
+    """Whether the file names a driver or leaves him to the usual one, and beside a change of his settings."""
+    path = scenario(folder, told={"time_headway": 2.0, "steering_gain": 3.0, "speed_factor": 0.9}, usual={})
+    changes = {"vehicles.told.driver.kind": "cruiser", "vehicles.told.driver.cruise": 14, "vehicles.usual.driver.kind": "cruiser"}
+    told, usual = (each.driver for each in job.load(path, changes).scenario.vehicles.values())
+    assert (told.kind, told.time_headway, told.steering_gain, told.cruise) == ("cruiser", 2.0, 3.0, 14.0)
+    assert (usual.kind, usual.time_headway, usual.cruise) == ("cruiser", 1.2, 12.0)
+    with pytest.raises(ScenarioError, match=r"vehicles.told.driver.cruise: is not a field"):
+        job.load(path, {"vehicles.told.driver": {"kind": "cruiser", "cruise": 30}}).changed({"vehicles.told.driver.kind": "attentive"})
+    crowd = job.load(path, {"traffic.driver.kind": "cruiser"})
+    assert crowd.scenario.traffic.driver.kind == "cruiser"
+
+
 def test_a_kind_does_not_know_its_batch(folder):
     """Worlds with different drivers side by side end as alone."""
     path = scenario(folder, one={}, other={})

@@ -85,15 +85,15 @@ def equip(settings: Sequence[Setting], units: Units, number: np.ndarray, tick: f
     """Gives the units their posts: for every kind of message that an application sends or hears, on every kind of radio."""
     radios = list(dict.fromkeys(each.scenario.radio.kind for each in settings))
     for radio, kind in product(radios, registry.known("message").values()):
-        if is_wanted(settings, kind, radio):
+        if any(is_wanted(each, kind, radio) for each in settings):
             need = need_of(settings, units, kind, radio)
             units.posts.append(post(kind, registry.find("radio", radio), need, units.entity, number, units.world, tick))
 
 
-def is_wanted(settings: Sequence[Setting], kind: Kind, radio: str) -> bool:
-    """Whether an application has a port for a kind of message."""
-    groups = [group for each in settings if each.scenario.radio.kind == radio for group in each.scenario.applications.values()]
-    ports = [one for group in groups for one in (*port.seen(module_of(group)), *port.done(module_of(group)))]
+def is_wanted(each: Setting, kind: Kind, radio: str) -> bool:
+    """Whether a world has this radio, and an application with a port for a kind of message; else nobody sends it."""
+    modules = [module_of(group) for group in each.scenario.applications.values()] if each.scenario.radio.kind == radio else []
+    ports = [one for module in modules for one in (*port.seen(module), *port.done(module))]
     return any(one.what in (INBOX, OUTBOX) and one.kind == kind.name for one in ports)
 
 
@@ -103,7 +103,7 @@ def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: str) -
     pairs: list[tuple[int, int]] = []
     most = 0
     for w, each in enumerate(settings):
-        if each.scenario.radio.kind != radio:
+        if not is_wanted(each, kind, radio):
             continue
         sending, at_once = senders_of(each, units, w, kind)
         senders |= sending
