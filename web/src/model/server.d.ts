@@ -1711,6 +1711,23 @@ export interface components {
             type: "refused";
         };
         /**
+         * Revision
+         * @description What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was.
+         */
+        Revision: {
+            /** Folder */
+            folder: string;
+            /** Commit */
+            commit: string;
+            /** Patch */
+            patch: string;
+            /**
+             * Is Cut
+             * @description whether the patch was too long to be kept as a whole
+             */
+            is_cut: boolean;
+        };
+        /**
          * Run
          * @description A run in the database; `parameters` are those that were set, by path.
          */
@@ -1755,7 +1772,7 @@ export interface components {
         };
         /**
          * RunDetail
-         * @description A run with its scenario, what can be plotted of it, and what happened.
+         * @description A run with its scenario, what can be plotted of it, what happened, and of what code it is made.
          */
         RunDetail: {
             /** Run */
@@ -1795,6 +1812,27 @@ export interface components {
             metrics: {
                 [key: string]: components["schemas"]["Metric"];
             };
+            /**
+             * Kinds
+             * @description digests of all kinds that it used, by sort.name
+             */
+            kinds: {
+                [key: string]: string;
+            };
+            /**
+             * Host
+             * @description name of the machine; null for a run of an older studio
+             */
+            host: string | null;
+            /**
+             * Versions
+             * @description of Python and of the packages that compute
+             */
+            versions: {
+                [key: string]: string;
+            };
+            /** Revisions */
+            revisions: components["schemas"]["Revision"][];
             /** Document */
             document: {
                 [key: string]: unknown;
