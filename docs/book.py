@@ -73,9 +73,9 @@ def written() -> dict[str, str]:
 
 def made() -> dict[str, str]:
     """The pages that are made from the code."""
-    from docs.reference import catalogue, channel, command, kind, module, rest, scenario, vehicle
+    from docs.reference import catalogue, channel, command, event, kind, module, rest, scenario, vehicle
 
-    single = {"scenario": scenario, "vehicle": vehicle, "catalogue": catalogue, "channels": channel,
+    single = {"scenario": scenario, "vehicle": vehicle, "catalogue": catalogue, "channels": channel, "events": event,
               "commands": command, "rest": rest}  # fmt: skip
     return {f"reference/{name}.md": each.page() for name, each in single.items()} | kind.pages() | module.pages()
 

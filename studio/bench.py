@@ -138,7 +138,7 @@ def crowd_document(count: int) -> dict[str, Any]:
             for k, members in enumerate(platoons)
             if len(members) > 1
         },
-        "triggers": {"brake": {"time": 1, "vehicle": names[0], "do": {"maneuver": "brake", "deceleration": 2}}},
+        "script": {"brake": {"when": {"kind": "time", "at": 1}, "do": {"kind": "brake", "vehicle": names[0], "deceleration": 2}}},
     }
 
 

@@ -1,8 +1,8 @@
-"""The sample with changes of the road, and ways to drive through it."""
+"""The sample with a script, and ways to drive through it."""
 
 import numpy as np
-import yaml
 
+from studio.scenario import file
 from studio.scenario.setup import complete
 from studio.vehicle.state import V_X
 from studio.world.build import build
@@ -10,16 +10,15 @@ from studio.world.setting import setting
 from studio.world.table.mind import STATION
 from studio.world.tick import tick
 
-SLOW = {"change": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
+SLOW = {"kind": "limit", "route": "east_to_west", "start": 470, "end": 560, "speed": 8.3}
 
 
-def scenario(sample, changes, *, alone=True, lane=None, minding=(), **parts):
-    """The sample with these changes; its leader alone, or everybody; on this lane of three, or that of their route.
+def scenario(sample, script, *, alone=True, lane=None, minding=(), **parts):
+    """The sample with this script; its leader alone, or everybody; on this lane of three, or that of their route.
 
     Drivers overrule applications for what they are minding.
     """
-    document = yaml.safe_load(sample.read_text())
-    document |= {"changes": changes, "triggers": {}, "goals": {}}
+    document = file.read(sample) | {"script": script, "goals": {}}
     for vehicle in document["vehicles"].values() if lane is not None else ():
         vehicle["position"] = {"road": "340498991", "lane": lane, "offset": vehicle["position"]["along"]}
     for vehicle in document["vehicles"].values() if minding else ():

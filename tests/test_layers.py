@@ -91,10 +91,10 @@ ROWS = (
 
 
 def test_only_vehicle_and_world_index_rows():
-    """Numbers of rows are used there, by sensors, where a frame for the eye or a record is made of them, and by rig and benchmark."""
+    """Numbers of rows are used there, by kinds, where a frame for the eye is made of them, and by rig and benchmark."""
     named = tuple(f"from studio.{module} import" for module in ROWS)
     users = {path.relative_to(PACKAGE).parts[0] for path in FILES if any(line in path.read_text(encoding="utf-8") for line in named)}
-    assert users == {"vehicle", "world", "kinds", "execution", "server", "rig", "bench.py"}
+    assert users == {"vehicle", "world", "kinds", "server", "rig", "bench.py"}
 
 
 def test_nothing_is_imported_by_a_star():

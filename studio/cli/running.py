@@ -36,7 +36,7 @@ def run(
     with progress("starting") as report:
         result = job.run(loaded, seed=seed, runs=open_runs(db), parent=parent, progress=report)
     if as_json:
-        print_json(run_json(result.row))
+        print_json(run_json(result.row) | events_json(result.record.happenings))
     else:
         print_run(result.row)
     if result.status == "failed":
@@ -71,14 +71,17 @@ def show(
     sources: Annotated[bool, typer.Option("--sources", help="The texts of the kinds that it used, and what was not committed.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Shows one run: what was set, and every metric; or the texts of its kinds."""
+    """Shows one run: what was set, every metric, and what happened; or the texts of its kinds."""
     runs = existing(db)
     row = runs.find(run)
     if sources:
         texts, patches = runs.sources(row), {each["folder"]: runs.text(each["patch"]) for each in row.revisions}
         print_json({"kinds": texts, "patches": patches}) if as_json else print_sources(row, texts, patches)
+    elif as_json:
+        print_json(run_json(row) | events_json(runs.events(run)))
     else:
-        print_json(run_json(row)) if as_json else print_run(row)
+        print_run(row)
+        print_events(runs.events(run))
 
 
 @commands.command()
@@ -175,6 +178,17 @@ def run_json(row) -> dict[str, Any]:
     plain = asdict(row)
     plain["metrics"] = {name: asdict(each) for name, each in row.metrics.items()}
     return plain
+
+
+def events_json(events) -> dict[str, Any]:
+    """What happened, as scripts read it."""
+    return {"events": [each.as_json() for each in events]}
+
+
+def print_events(events) -> None:
+    """What happened, for people."""
+    if events:
+        print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
 
 
 def print_run(row) -> None:

@@ -1,4 +1,4 @@
-"""Events in words: what compiled code has noticed, as sentences with names.
+"""Events: what compiled code has noticed, with names and in words.
 
 watched(settings, world)     →  Watch              what is looked out for
 Teller(settings, world)      .tell(watch)          →  (world, Happening), in the order in which things happened
@@ -7,16 +7,20 @@ Teller(settings, world)      .tell(watch)          →  (world, Happening), in t
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from math import isnan
 
 import numpy as np
 
-from studio.execution.record import Chain, Happening
+from studio.execution.happening import Happening, happening
+from studio.execution.record import Chain
 from studio.scenario.schema import REASONS
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.setting import Setting
-from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
+from studio.world.table.event import COMPANY_CAME, COMPANY_LEFT, EVENTS, SCRIPT_BEGUN, SCRIPT_ENDED, TAKES_OVER
 from studio.world.world import World
+
+NOBODY = -1
 
 
 @dataclass(frozen=True)
@@ -67,68 +71,41 @@ class Teller:
 
     def __init__(self, settings: Sequence[Setting], world: World) -> None:
         self.world = world
-        self.triggers = [trigger for each in settings for trigger in each.scenario.triggers.items()]
         self.sites = [site for each in settings for site in each.sites]
         self.followers = followers(settings)
-        self.words = {
-            notice.TRIGGERED: self.triggered,
-            notice.BEGUN: self.begun,
-            notice.ENDED: self.ended,
-            notice.HIT: self.hit,
-            notice.ROLLED_OVER: self.rolled_over,
-            notice.ARRIVED: self.arrived,
-            notice.COMPANY: self.company,
-            notice.WAITS: self.waits,
-            notice.TAKES_OVER: self.takes_over,
+        self.special = {
+            SCRIPT_BEGUN: self.turned,
+            SCRIPT_ENDED: self.turned,
+            COMPANY_CAME: self.company,
+            COMPANY_LEFT: self.company,
+            TAKES_OVER: self.takes_over,
         }
 
     def tell(self, watch: Watch) -> Iterator[tuple[int, Happening]]:
         """Empties the table."""
         rows, watch.count[0] = watch.table[:, : watch.count[0]].T.tolist(), 0
-        for when, kind, world, subject, other in rows:
-            at, text, vehicle = self.words[int(kind)](when, int(world), int(subject), int(other))
-            yield int(world), Happening(round(at, 6), text, vehicle)
+        for when, kind, world, subject, other, x, y, value in rows:
+            make = self.special.get(int(kind), self.plain)
+            place = None if isnan(x) else (x, y)
+            yield int(world), make(int(kind), when, int(world), int(subject), int(other), place, value)
 
-    def triggered(self, _when: float, _world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A scripted maneuver has begun."""
-        name, trigger = self.triggers[subject]
-        return trigger.time, f"{name}: {trigger.do.maneuver} with {trigger.do.deceleration:g} m/s²", trigger.vehicle
+    def plain(self, kind, when, world, subject, other, place, value) -> Happening:
+        """What is about a vehicle, and perhaps another one or an object, with one number or none."""
+        units = tuple(self.world.name_of(number, world) for number in (subject, other) if number != NOBODY)
+        return happening(kind, when, units, place=place, **dict.fromkeys(EVENTS[kind].numbers, value))
 
-    def begun(self, _when: float, _world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A change of the road has begun."""
+    def turned(self, kind, when, _world, subject, _other, place, _value) -> Happening:
+        """An entry of the script has begun or ended."""
         site = self.sites[subject]
-        return float(self.world.changes.turned[0, subject]), f"{site.name} begins: {site.text}", site.begins.vehicle
+        return happening(kind, when, site.vehicles, place=place or site.place, entry=site.name, action=site.text)
 
-    def ended(self, _when: float, _world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A change of the road is over."""
-        site = self.sites[subject]
-        return float(self.world.changes.turned[1, subject]), f"{site.name} ends", site.ends.vehicle
-
-    def hit(self, _when: float, world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A collision."""
-        hit = self.world.events.hits_of(world)[:, subject]
-        first, second = (self.world.name_of(int(hit[row]), world) for row in (HIT_FIRST, HIT_SECOND))
-        return float(hit[HIT_TIME]), f"collision of {first} and {second} at {hit[HIT_SPEED]:.1f} m/s", first
-
-    def rolled_over(self, when: float, world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A vehicle has rolled over: what it does after it is not claimed."""
-        return when, "rolled over; what it does after this is not claimed", self.world.names[world][subject]
-
-    def arrived(self, when: float, world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A named vehicle has reached the end of its route."""
-        return when, "arrived at the end of its route", self.world.names[world][subject]
-
-    def company(self, when: float, world: int, subject: int, other: int) -> tuple[float, str, str]:
+    def company(self, kind, when, world, subject, other, place, _value) -> Happening:
         """Somebody has come between a follower and the car that it listens to, or has gone again."""
         follower = self.followers[subject]
-        if other < 0:
-            return when, f"nobody is between it and {follower.ahead} any more", follower.name
-        return when, f"{self.world.names[world][other]} is between it and {follower.ahead}", follower.name
+        between = () if other == NOBODY else (self.world.names[world][other],)
+        return happening(kind, when, (follower.name, *between, follower.ahead), place=place)
 
-    def waits(self, when: float, world: int, subject: int, _other: int) -> tuple[float, str, str]:
-        """A named vehicle has come to a stand at a red light."""
-        return when, "waits at a red light", self.world.names[world][subject]
-
-    def takes_over(self, when: float, world: int, subject: int, other: int) -> tuple[float, str, str]:
+    def takes_over(self, kind, when, world, subject, _other, place, value) -> Happening:
         """A driver has begun to overrule the application of his vehicle."""
-        return when, f"driver takes over: {REASONS[other].replace('_', ' ')}", self.world.names[world][subject]
+        reason = REASONS[int(value)].replace("_", " ")
+        return happening(kind, when, (self.world.names[world][subject],), place=place, reason=reason)

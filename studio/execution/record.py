@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.errors import UnknownError, nearest
+from studio.execution.happening import Happening
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
@@ -18,15 +19,6 @@ from studio.world.world import World
 
 ROW = {each.name: row for row, each in enumerate(CHANNELS)}
 CHUNK = 128  # samples that room is made for at a time
-
-
-@dataclass(frozen=True)
-class Happening:
-    """Something that happened: when [s], what, to which vehicle."""
-
-    time: float
-    text: str
-    vehicle: str
 
 
 @dataclass(frozen=True)

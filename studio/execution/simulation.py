@@ -7,7 +7,8 @@ import numpy as np
 
 from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
-from studio.execution.record import Happening, Record, Recorder
+from studio.execution.happening import Happening, happening
+from studio.execution.record import Record, Recorder
 from studio.vehicle import broken
 from studio.world.board.host import Fault
 from studio.world.build import build
@@ -16,6 +17,7 @@ from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
+from studio.world.table.event import FAILED
 from studio.world.tick import environment, gather, look, meet, part
 from studio.world.world import World
 
@@ -40,9 +42,9 @@ class Case:
         """Whether there is nothing left to do."""
         return self.status != "running"
 
-    def happen(self, when: float, text: str, vehicle: str) -> None:
+    def happen(self, event: Happening) -> None:
         """Adds an event."""
-        self.happenings.append(Happening(round(when, 6), text, vehicle))
+        self.happenings.append(event)
 
 
 @dataclass
@@ -91,9 +93,9 @@ class Simulation:
 
     def tell(self) -> None:
         """Makes events of what has been noticed; what happens in a world that is over is not told."""
-        for world, happening in self.teller.tell(self.watch):
+        for world, event in self.teller.tell(self.watch):
             if not self.cases[world].is_over:
-                self.cases[world].happenings.append(happening)
+                self.cases[world].happen(event)
 
     def end(self, status: str) -> None:
         """The runs are over: drivers look around once more, and a last sample is taken."""
@@ -127,7 +129,7 @@ class Simulation:
         self.tell()
         self.cases[number].error = reason
         self.close(number, "failed")
-        self.cases[number].happen(self.time, f"failed: {reason.splitlines()[0]}", "")
+        self.cases[number].happen(happening(FAILED, self.time, reason=reason.splitlines()[0]))
         self.world.leave(number)
 
     def check_drivers(self) -> None:

@@ -1,55 +1,108 @@
 """Settings as numbers: what compiled code gets of a pydantic model, and how it is spelled in a loop that is written for it.
 
-A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one.
+A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one, a name (VehicleName and its
+like) is the column or number of what it names, and what is left empty is not a number.
 
     numbers(settings)                  →  [60.0, 1.0, 2.0]
     tuple_of(module, Settings)         →  a NamedTuple with the same fields, which belongs to the module
-    spelled(Settings, "settings", 0)   →  "settings[0, j], settings[1, j], ..."
+    spelled([1, 1], "settings")        →  "settings[0, j], settings[1, j]"
 """
 
 from collections import namedtuple
-from types import ModuleType
-from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
+from collections.abc import Callable
+from math import nan
+from types import ModuleType, NoneType, UnionType
+from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
+from studio.kind.settings import StationOf, marks, named
+
+Find = Callable[[str, str], float]  # what is named, and its name, as a number
+
+
+def nothing(what: str, name: str) -> float:
+    """Of settings that name nothing."""
+    raise TypeError(f"nobody knows a {what} {name!r} here")
+
 
 class Shape(NamedTuple):
-    """A field: how many numbers it holds, 1 for a plain one, and its choices where it is one."""
+    """A field: how many numbers it holds, 1 for a plain one, its choices where it is one, and what it names where it does."""
 
     name: str
     size: int
     choices: tuple[Any, ...] = ()
+    names: str = ""
 
 
 def shapes(model: type[BaseModel]) -> list[Shape]:
     """The fields of a model; raises TypeError for one that is no number."""
-    return [shape(name, field.annotation) for name, field in model.model_fields.items() if name != "kind"]
+    return [shape(name, field.annotation, named(field)) for name, field in model.model_fields.items() if name != "kind"]
 
 
-def shape(name: str, kind: Any) -> Shape:
+def sizes(model: type[BaseModel]) -> list[int]:
+    """How many numbers each field of a model holds."""
+    return [each.size for each in shapes(model)]
+
+
+def shape(name: str, kind: Any, names: str) -> Shape:
     """One field."""
-    if get_origin(kind) is Annotated:
-        kind = get_args(kind)[0]
+    kind = plain(kind)
+    if names and kind is str:
+        return Shape(name, 1, names=names)
     if get_origin(kind) is Literal:
         return Shape(name, 1, get_args(kind))
     if get_origin(kind) is tuple and set(get_args(kind)) <= {float, int} and Ellipsis not in get_args(kind):
         return Shape(name, len(get_args(kind)))
     if kind in (float, int, bool):
         return Shape(name, 1)
-    raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: float, int, bool, Literal[...], tuple[float, float]")
+    allowed = "float, int, bool, Literal[...], tuple[float, float], and names such as VehicleName"
+    raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")
 
 
-def numbers(settings: BaseModel) -> list[float]:
-    """The values, one after another."""
-    return [value for each in shapes(type(settings)) for value in values(each, getattr(settings, each.name))]
+def plain(kind: Any) -> Any:
+    """A type without what is said about it, and without the possibility that nothing is there."""
+    if get_origin(kind) is Annotated:
+        return plain(get_args(kind)[0])
+    if get_origin(kind) in (Union, UnionType) and NoneType in get_args(kind) and len(get_args(kind)) == 2:
+        return plain(next(each for each in get_args(kind) if each is not NoneType))
+    return kind
 
 
-def values(of: Shape, value: Any) -> list[float]:
+def unplain(model: type[BaseModel]) -> str:
+    """What of some settings is no number; "" when all is."""
+    try:
+        shapes(model)
+    except TypeError as error:
+        return str(error)
+    return ""
+
+
+def numbers(settings: BaseModel, find: Find = nothing) -> list[float]:
+    """The values, one after another; `find` knows what is named."""
+    return [value for each in shapes(type(settings)) for value in values(each, getattr(settings, each.name), find)]
+
+
+def values(of: Shape, value: Any, find: Find = nothing) -> list[float]:
     """Those of one field."""
+    if value is None:
+        return [nan] * of.size
+    if of.names:
+        return [find(of.names, value)]
     if of.choices:
         return [float(of.choices.index(value))]
     return [float(each) for each in value] if of.size > 1 else [float(value)]
+
+
+def stations(model: type[BaseModel]) -> list[tuple[str, str]]:
+    """Which fields are stations on the route of which vehicle: their names."""
+    return [(name, mark.field) for name, field in model.model_fields.items() for mark in marks(field, StationOf)]
+
+
+def row_of(model: type[BaseModel], name: str) -> int:
+    """The place of a field's first number among all of them."""
+    before = shapes(model)
+    return sum(each.size for each in before[: [each.name for each in before].index(name)])
 
 
 def tuple_of(module: ModuleType, model: type[BaseModel]) -> type:

@@ -1,8 +1,18 @@
-"""Settings: what may be set, with unit, range and meaning. The parts of a scenario are made of these, and so is every kind."""
+"""Settings: what may be set, with unit, range and meaning. The parts of a scenario are made of these, and so is every kind.
 
-from typing import Any
+A field that names something of the scenario says so by its type, and what follows from that follows for every kind: the name must
+exist, and compiled code gets the column of what it names.
+
+    vehicle: VehicleName = Field(..., title="Vehicle")
+    along: Annotated[float, StationOf("vehicle")] = number(..., unit="m", title="Along its route")
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any, NamedTuple, get_args
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic.fields import FieldInfo
 
 
 def number(default: Any, *, unit: str, title: str, description: str = "", **bounds: Any) -> Any:
@@ -14,3 +24,70 @@ class Part(BaseModel):
     """Base of all parts: unknown fields are refused, numbers must be finite."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, str_strip_whitespace=True)
+
+
+# -- names ---------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Names:
+    """Of a text: it names something of the scenario, a vehicle for instance."""
+
+    what: str
+
+
+@dataclass(frozen=True)
+class StationOf:
+    """Of a number: it is a station [m] on the route of the vehicle that another field names."""
+
+    field: str
+
+
+Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
+VehicleName = Annotated[Name, Names("vehicle")]
+UnitName = Annotated[Name, Names("unit")]
+RouteName = Annotated[Name, Names("route")]
+EntryName = Annotated[Name, Names("entry")]
+
+
+class Reference(NamedTuple):
+    """A name in a document: where it stands, what it names, and the name."""
+
+    path: str
+    what: str
+    name: str
+
+
+def references(part: BaseModel, path: str = "") -> Iterator[Reference]:
+    """Every name in a part and in the parts within it."""
+    for name, field in type(part).model_fields.items():
+        yield from within(getattr(part, name), named(field), f"{path}.{name}" if path else name)
+
+
+def within(value: Any, what: str, path: str) -> Iterator[Reference]:
+    """The names in a value, which stands in a field that names `what`."""
+    if isinstance(value, BaseModel):
+        yield from references(value, path)
+    elif isinstance(value, dict | list | tuple):
+        for key, each in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from within(each, what, f"{path}.{key}")
+    elif what and isinstance(value, str):
+        yield Reference(path, what, value)
+
+
+def named(field: FieldInfo) -> str:
+    """What a field names; "" when nothing."""
+    found = marks(field, Names)
+    return found[0].what if found else ""
+
+
+def marks(field: FieldInfo, kind: type) -> list[Any]:
+    """What is said about a field by its type."""
+    return [each for each in (*field.metadata, *nested(field.annotation)) if isinstance(each, kind)]
+
+
+def nested(annotation: Any) -> Iterator[Any]:
+    """What is said about the members of a union or the entries of a list."""
+    for each in get_args(annotation):
+        yield from getattr(each, "__metadata__", ())
+        yield from nested(each)

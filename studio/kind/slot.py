@@ -47,8 +47,10 @@ class Slot:
         if not isinstance(given, dict):
             return given
         named = {"kind": self.usual} | given if self.usual else given
+        if "kind" not in named:
+            return named
         try:
-            registry.find(self.sort, str(named.get("kind", "")))
+            registry.find(self.sort, str(named["kind"]))
         except UnknownError as error:
             raise PydanticCustomError("unknown_kind", "{what}", {"what": error.message}) from None
         return named

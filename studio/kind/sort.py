@@ -17,8 +17,9 @@ from pydantic_core import PydanticUndefined
 from studio.application import port
 from studio.errors import Problem
 from studio.kind.driver import Driver
-from studio.kind.number import shapes
+from studio.kind.number import unplain
 from studio.kind.quantity import quantities
+from studio.kind.settings import named
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
 
@@ -32,6 +33,11 @@ class Need:
     test: Test
     example: str
     optional: bool = False
+
+
+def fits(_value: Any) -> str:
+    """Whatever it is."""
+    return ""
 
 
 def text(value: Any) -> str:
@@ -67,11 +73,7 @@ def person(value: Any) -> str:
         return what
     if not issubclass(value, Driver):
         return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
-    try:
-        shapes(value)
-    except TypeError as error:
-        return str(error)
-    return ""
+    return unplain(value)
 
 
 def needy(value: Any) -> str:
@@ -79,6 +81,22 @@ def needy(value: Any) -> str:
     if not (isinstance(value, type) and issubclass(value, BaseModel)):
         return f"is {value!r}, not a pydantic model"
     return next((f"{name}: {what}" for name, field in value.model_fields.items() if (what := unlabelled(field))), "")
+
+
+def waited(value: Any) -> str:
+    """A pydantic model of plain numbers, whose fields may have to be given."""
+    return needy(value) or unplain(value)
+
+
+def told_and_done(module: ModuleType) -> str:
+    """An action commands a vehicle, or does something to the road."""
+    if not hasattr(module, "act"):
+        return "" if hasattr(module, "effects") else "has neither act nor effects"
+    settings = getattr(module, "Settings", BaseModel)
+    if unplain(settings):
+        return f"Settings: {unplain(settings)}"
+    field = settings.model_fields.get("vehicle")
+    return "" if field and named(field) == "vehicle" else "has act, but no vehicle that it is about"
 
 
 def unlabelled(field: Any) -> str:
@@ -155,6 +173,8 @@ class Sort:
     name: str
     does: str
     needs: tuple[Need, ...]
+    whole: Test = fits  # what its parts must be together
+    remedy: str = ""
 
 
 SORTS = {
@@ -194,8 +214,10 @@ SORTS = {
         )),
         Sort("condition", "when something begins or ends", (
             TITLE,
-            Need("Settings", "what it waits for", needy, "class Settings(Part): ..."),
+            Need("Settings", "what it waits for", waited, "class Settings(Part): ..."),
             Need("holds", "whether it is so at this tick", function("view", "settings", compiled=True), "def holds(view, settings)"),
+            Need("moment", "the time [s] from which on it is so, where the settings alone tell it", function("settings"),
+                 "def moment(settings)", optional=True),
         )),
         Sort("action", "what is done", (
             TITLE,
@@ -204,7 +226,7 @@ SORTS = {
                  "def act(settings, sees)", optional=True),
             Need("effects", "what it does to the road", function("settings", "place"), "def effects(settings, place)", optional=True),
             Need("told", "the action in words, for the list of events", function("settings"), "def told(settings)", optional=True),
-        )),
+        ), told_and_done, "write act for a vehicle that is named by vehicle: VehicleName, or effects on the road"),
         Sort("metric", "a number that a run is judged by", (
             TITLE,
             UNIT,
@@ -242,6 +264,8 @@ def problems(module: ModuleType, sort: Sort) -> Iterator[Problem]:
             yield Problem(f"{where}: {need.name}", "is missing", allowed=need.example, remedy=f"add it: {need.meaning}")
         elif value is not MISSING and (what := need.test(value)):
             yield Problem(located(where, value), f"{need.name} {what}", allowed=need.example, remedy=need.meaning)
+    if what := sort.whole(module):
+        yield Problem(where, what, remedy=sort.remedy)
 
 
 def ports(module: ModuleType, sort: Sort, where: str) -> Iterator[Problem]:

@@ -16,7 +16,10 @@ def problems(error: ValidationError, where: str, model: type, *, under: str = ""
 
 def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Problem:
     """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
-    path = under + located(model.model_json_schema(), finding["loc"])[0] or "the scenario"
+    path, node = located(model.model_json_schema(), finding["loc"])
+    path = under + path or "the scenario"
+    if finding["type"] in ("unknown_kind", "union_tag_not_found"):
+        return kind_problem(finding, f"{where}: {path}.kind", list(node["discriminator"]["mapping"]))
     what = finding["msg"].removeprefix("Value error, ")
     value, remedy = short(finding["input"]), ""
     if finding["type"] == "extra_forbidden":
@@ -25,6 +28,13 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
     elif finding["type"] == "missing":
         what, value, remedy = "is missing", "", "add it"
     return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
+
+
+def kind_problem(finding: ErrorDetails, where: str, known: list[str]) -> Problem:
+    """A kind that cannot be had, or none at all."""
+    if finding["type"] == "union_tag_not_found":
+        return Problem(where, "is missing", allowed=", ".join(known), remedy="add it")
+    return Problem(where, lower(finding["msg"]), repr(finding["input"].get("kind")), ", ".join(known))
 
 
 def lower(text: str) -> str:

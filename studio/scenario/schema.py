@@ -13,12 +13,10 @@ from pydantic import BaseModel, Field, model_validator
 
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.kind import registry
-from studio.kind.settings import Part, number
+from studio.kind.settings import Name, Part, RouteName, UnitName, number
 from studio.kind.slot import Every, Slot
 
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 LONGEST = 3600.0  # [s] a run
-MOST_OBJECTS = 500  # of one change
 MOST_SENSORS = 16  # of one unit
 Reason = Literal["collision", "red_light", "right_of_way"]
 REASONS: tuple[Reason, ...] = get_args(Reason)  # why a driver may overrule an application
@@ -156,7 +154,7 @@ class Vehicle(Part, defer_build=True):
         examples=MODELS,
         description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario",
     )
-    route: Name = Field(..., title="Route")
+    route: RouteName = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Driver")
@@ -202,8 +200,8 @@ class Application(Part):
     """One application on one or several units; every unit has its own instance."""
 
     application: str = Field(..., title="Application", description="a registered name")
-    units: list[Name] = Field(..., min_length=1, title="On these units", description="vehicles or stations")
-    listens_to: list[Name | list[Name]] = Field(
+    units: list[UnitName] = Field(..., min_length=1, title="On these units", description="vehicles or stations")
+    listens_to: list[UnitName | list[UnitName]] = Field(
         [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
     )
     parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
@@ -225,25 +223,6 @@ class Application(Part):
         return [given] if isinstance(given, str) else given
 
 
-class Brake(Part):
-    """Brakes with a constant deceleration."""
-
-    maneuver: Literal["brake"] = "brake"
-    deceleration: float = number(6.0, unit="m/s²", title="Deceleration", gt=0, le=10)
-    duration: float = number(3.0, unit="s", title="Duration", gt=0, le=600)
-    to_speed: float = number(
-        0.0, unit="m/s", title="Down to", description="ends earlier at this speed; the brakes still need their time to release", ge=0, le=70
-    )
-
-
-class Trigger(Part):
-    """At a time, a vehicle does something that is scripted."""
-
-    time: float = number(..., unit="s", title="Time", ge=0, le=3600)
-    vehicle: Name = Field(..., title="Vehicle")
-    do: Brake = Field(default_factory=Brake, title="Maneuver")
-
-
 class Traffic(Part, defer_build=True):
     """Cars that fill the map, placed at random on the ways from any arm to any other."""
 
@@ -260,115 +239,31 @@ class Traffic(Part, defer_build=True):
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
 
 
-class Moment(Part):
-    """When a change begins or ends: at a time, or when a vehicle passes a station of its route."""
+class Entry(Part, defer_build=True):
+    """One thing that happens: when it begins, when it ends, and what is done meanwhile."""
 
-    time: float | None = Field(None, ge=0, le=LONGEST, title="Time", json_schema_extra={"unit": "s"})
-    vehicle: Name | None = Field(None, title="Vehicle", description="whose centre of gravity passes the station")
-    along: float | None = Field(None, ge=0, title="Along its route", json_schema_extra={"unit": "m"})
-
-    @model_validator(mode="after")
-    def one_way_to_say_it(self):
-        timed, passing = self.time is not None, (self.vehicle is not None, self.along is not None)
-        if timed == any(passing) or any(passing) != all(passing):
-            raise ValueError("give either `time`, or `vehicle` with `along`")
-        return self
-
-
-class Stretch(Part):
-    """A stretch along a route, or along a lane of a road."""
-
-    route: Name | None = Field(None, title="Along the route")
-    road: str | None = Field(None, max_length=100, title="Along the road")
-    lane: int = Field(0, ge=0, le=9, title="Lane", description="of the road; 0 is the lane at the kerb")
-    start: float = number(..., unit="m", title="From station", ge=0)
-    end: float = number(..., unit="m", title="To station", gt=0)
-
-    @model_validator(mode="after")
-    def is_a_stretch(self):
-        if (self.route is None) == (self.road is None):
-            raise ValueError("give either `route`, or `road` with `lane`")
-        return ordered(self)
-
-
-def ordered(stretch):
-    """A stretch that ends behind its start."""
-    if stretch.end <= stretch.start:
-        raise ValueError(f"the stretch must end ({stretch.end} m) behind its start ({stretch.start} m)")
-    return stretch
-
-
-class Limit(Stretch):
-    """Lowers the limit on all lanes of a stretch; drivers slow down before it."""
-
-    change: Literal["limit"] = "limit"
-    speed: float = number(..., unit="m/s", title="Limit", ge=1, le=70)
-
-
-class Friction(Stretch):
-    """Makes the road more or less slippery: ice, leaves, spilt oil, new asphalt."""
-
-    change: Literal["friction"] = "friction"
-    friction: float = number(..., unit="1", title="Friction", description="over that of a dry test track", ge=0.02, le=1.5)
-    width: float = number(3.5, unit="m", title="Width", ge=0.2, le=20)
-    side: Literal["both", "left", "right"] = Field("both", title="Side", description="of the line of route or lane")
-
-
-class LaneWork(Part):
-    """Something about one lane of a road, with a taper before it and behind it on which cars go over."""
-
-    road: str = Field(..., max_length=100, title="Road")
-    lane: int = Field(0, ge=0, le=9, title="Lane", description="of the road; 0 is the lane at the kerb")
-    start: float = number(..., unit="m", title="From station", description="of the road", ge=0)
-    end: float = number(..., unit="m", title="To station", gt=0)
-    taper: float = number(30.0, unit="m", title="Taper", description="before the start and behind the end", ge=10, le=200)
-
-    @model_validator(mode="after")
-    def is_a_stretch(self):
-        return ordered(self)
-
-
-class CloseLane(LaneWork):
-    """Closes a lane with cones and barriers; cars are led onto the nearest open lane, and stop where there is none."""
-
-    change: Literal["close_lane"] = "close_lane"
-
-
-class ShiftLane(LaneWork):
-    """Moves the line of a lane sideways."""
-
-    change: Literal["shift_lane"] = "shift_lane"
-    offset: float = number(..., unit="m", title="Offset", description="to the left", ge=-5, le=5)
-
-
-class Objects(Stretch):
-    """Puts a row of objects along a stretch; drivers brake for what stands in their way."""
-
-    change: Literal["objects"] = "objects"
-    kind: Literal["cones", "barriers"] = Field("cones", title="Kind", description="a radar sees barriers, and no cones")
-    spacing: float = number(5.0, unit="m", title="Spacing", ge=0.5, le=100)
-    offset: float = number(0.0, unit="m", title="Offset", description="to the left of the line of route or lane", ge=-20, le=20)
-
-    @model_validator(mode="after")
-    def few_enough(self):
-        count = int((self.end - self.start) / self.spacing) + 1
-        if count > MOST_OBJECTS:
-            raise ValueError(f"these are {count} objects, more than {MOST_OBJECTS}: give them a wider spacing")
-        return self
-
-
-class Change(Part):
-    """Something about the road that begins, and may end, during a run."""
-
-    start: Moment = Field(Moment(time=0), title="Begins")
-    end: Moment = Field(Moment(time=LONGEST), title="Ends", description="the longest run's end: never")
-    do: CloseLane | ShiftLane | Limit | Friction | Objects = Field(..., discriminator="change", title="Change")
+    when: Annotated[Any, Slot("condition")] = Field(
+        {"kind": "time", "at": 0.0}, validate_default=True, title="When", description="left out: from the start"
+    )
+    until: Annotated[Any, Slot("condition")] | None = Field(
+        None, title="Until", description="left out: as long as the action lasts, which for the road is to the end of the run"
+    )
+    do: Annotated[Any, Slot("action")] = Field(..., title="Do")
 
     @model_validator(mode="after")
     def ends_after_its_start(self):
-        if self.start.time is not None and self.end.time is not None and self.end.time <= self.start.time:
-            raise ValueError(f"the change must end ({self.end.time} s) after its start ({self.start.time} s)")
+        begins, ends = moment_of(self.when), moment_of(self.until)
+        if begins is not None and ends is not None and ends <= begins:
+            raise ValueError(f"it must end ({ends:g} s) after its beginning ({begins:g} s)")
         return self
+
+
+def moment_of(condition: Any) -> float | None:
+    """The time [s] from which on a condition holds, where its settings alone tell it."""
+    if condition is None:
+        return None
+    module = registry.find("condition", condition.kind).module
+    return module.moment(condition) if hasattr(module, "moment") else None
 
 
 class Weather(Part):
@@ -415,10 +310,9 @@ class Scenario(Part, defer_build=True):
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
     stations: dict[Name, Station] = Field({}, title="Stations", description="units that stand at a place")
     applications: dict[Name, Application] = Field({}, title="Applications")
-    triggers: dict[Name, Trigger] = Field({}, title="Triggers")
     traffic: Traffic = Field(default_factory=Traffic, title="Traffic")
     weather: Weather = Field(default_factory=Weather, title="Weather")
-    changes: dict[Name, Change] = Field({}, title="Changes", description="of the road, over time")
+    script: dict[Name, Entry] = Field({}, title="Script", description="what happens, to vehicles and to the road")
     radio: Annotated[Any, Slot("radio", usual="ad_hoc")] = Field(default_factory=dict, validate_default=True, title="Radio")
     messages: Annotated[Any, Every("message")] = Field(
         default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
@@ -427,7 +321,7 @@ class Scenario(Part, defer_build=True):
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
 
 
-WITH_SLOTS = (Vehicle, Station, Traffic, Scenario)
+WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)
 
 
 def make_anew() -> None:

@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from studio.execution.happening import Happening
 from studio.kind.registry import Kind
 from studio.scenario.text.patch import Operation, is_text
 
@@ -181,12 +182,29 @@ class Channel(BaseModel):
     label: str
 
 
-class Event(BaseModel):
-    """Something that happened in a run."""
+class Number(BaseModel):
+    """A number with its unit."""
 
-    time: float
+    value: float
+    unit: str
+
+
+class Event(BaseModel):
+    """Something that happened in a run: of which kind, to which units, where, its numbers; and all of it in words."""
+
+    time: float = Field(description="[s]")
     text: str
-    vehicle: str
+    vehicle: str = Field(description="the first of the units; empty when it is about none")
+    kind: str = Field(description="empty in runs that were saved before events had kinds")
+    units: list[str]
+    x: float | None = Field(description="[m] to the east")
+    y: float | None = Field(description="[m] to the north")
+    numbers: dict[str, Number]
+
+
+def event(happened: Happening) -> Event:
+    """One of a run."""
+    return Event.model_validate(happened.as_json())
 
 
 class Revision(BaseModel):

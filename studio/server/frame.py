@@ -35,7 +35,7 @@ def frame(world: World, seen: np.ndarray) -> Frame:
 
 def first_frame(setting: Setting) -> Frame:
     """The picture at the start."""
-    standing = [int(setting.sites[each.change].begins.time == 0.0) for each in things(setting.sites)]
+    standing = [int(setting.sites[each.entry].is_there_from_the_start) for each in things(setting.sites)]
     return Frame(poses(at_start(setting)), first_lights(setting), np.array(standing, dtype=np.int8))
 
 

@@ -100,9 +100,9 @@ class LiveRun:
                 self.samples.setdefault(name, []).extend(each)
             self.tell(SamplesNews(time=times.tolist(), channels=news))
 
-    def on_event_news(self, when: float, text: str, vehicle: str) -> None:
+    def on_event_news(self, happened: dict[str, Any]) -> None:
         """Something happened."""
-        event = EventNews(time=when, text=text, vehicle=vehicle)
+        event = EventNews(**happened)
         with self.lock:
             self.events.append(event)
             self.tell(event)

@@ -156,7 +156,7 @@ def run(run: int, desk: AtDesk) -> answer.RunDetail:
     """One run with its scenario, channels and events."""
     kept = desk.runs()
     row = kept.find(run)
-    events = [vars(event) for event in kept.events(run)]
+    events = [answer.event(each) for each in kept.events(run)]
     return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events)
 
 

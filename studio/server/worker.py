@@ -24,6 +24,7 @@ from studio.errors import StudioError
 from studio.execution.loop import Pace
 from studio.execution.simulation import Case, Simulation, simulation
 from studio.kind.registry import load_folder
+from studio.server import answer
 from studio.server.frame import blend, frame, poses
 from studio.store.runs import open_runs
 
@@ -167,7 +168,7 @@ class Live:
         """Happenings that have not been told."""
         happenings = self.case.happenings
         for each in happenings[self.told :]:
-            self.pipe.send(("event", each.time, each.text, each.vehicle))
+            self.pipe.send(("event", answer.event(each).model_dump()))
         self.told = len(happenings)
 
     def send_samples(self) -> None:

@@ -3,7 +3,7 @@
 A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
 says "running", the run was killed; the row says so as soon as somebody looks.
 
-What only traces and events need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
+What only traces need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
 
 import hashlib
@@ -22,12 +22,13 @@ from sqlite_utils import Database
 
 from studio.assess.metric import Measured
 from studio.errors import UnknownError
+from studio.execution.happening import Happening, Number
 from studio.store.tables import open_database, reopen_database, unusable
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from studio.execution.record import Happening, Record
+    from studio.execution.record import Record
     from studio.kind.registry import Kind
     from studio.provenance import Provenance
 
@@ -139,7 +140,7 @@ class Runs:
         with self.writing():
             self.database.table("runs").update(run, ending)
             self.database.table("metrics").insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
-            self.database.table("events").insert_all({"run": run, **asdict(each)} for each in record.happenings)
+            self.database.table("events").insert_all(event_row(run, each) for each in record.happenings)
             self.database.table("traces").insert({"run": run, "parquet": parquet}, pk="run", replace=True)
 
     def end(self, run: int, status: str, error: str) -> None:
@@ -239,12 +240,9 @@ class Runs:
 
         return trace.read(self.parquet(run), names)
 
-    def events(self, run: int) -> list["Happening"]:
+    def events(self, run: int) -> list[Happening]:
         """What happened in a run."""
-        from studio.execution.record import Happening
-
-        rows = self.rows("select time, text, vehicle from events where run = ? order by time, rowid", [run])
-        return [Happening(**row) for row in rows]
+        return [event_of(row) for row in self.rows("select * from events where run = ? order by time, rowid", [run])]
 
     def close(self) -> None:
         """Closes the file."""
@@ -265,6 +263,20 @@ def reopen_runs(path: Path) -> Runs:
 def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:
     """Metrics as rows."""
     return [{"run": run, "name": name, **asdict(each)} for name, each in metrics.items()]
+
+
+def event_row(run: int, event: Happening) -> dict[str, Any]:
+    """An event as a row; units and numbers as JSON."""
+    plain = event.as_json()
+    return {"run": run} | plain | {key: json.dumps(plain[key], ensure_ascii=False) for key in ("units", "numbers")}
+
+
+def event_of(row: dict[str, Any]) -> Happening:
+    """An event of the database's row, which has no kind where it was written before there were any."""
+    numbers = {name: Number(**each) for name, each in json.loads(row["numbers"] or "{}").items()}
+    units = tuple(json.loads(row["units"] or "[]"))
+    plain = {key: row[key] for key in ("time", "text", "vehicle", "x", "y")}
+    return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers)
 
 
 STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}

@@ -3,7 +3,7 @@
     scenarios   hash → document            what was run, by content
     runs        run → scenario, parent, seed, status, ...
     metrics     run, name → value, unit, goal
-    events      run → time, text, vehicle
+    events      run → time, kind, text, vehicle, units, x, y, numbers
     traces      run → one Parquet file with a column per channel
     kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
     texts       digest → text                  files of kinds, and patches; equal ones stand once
@@ -52,7 +52,21 @@ TABLES = {
         (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
     ),
     "metrics": ({"run": int, "name": str, "value": float, "unit": str, "goal": str}, ("run", "name"), (("run", "runs", "run"),)),
-    "events": ({"run": int, "time": float, "text": str, "vehicle": str}, None, (("run", "runs", "run"),)),
+    "events": (
+        {
+            "run": int,
+            "time": float,
+            "text": str,
+            "vehicle": str,
+            "kind": str,
+            "units": str,
+            "x": float,
+            "y": float,
+            "numbers": str,
+        },
+        None,
+        (("run", "runs", "run"),),
+    ),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
     "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
     "texts": ({"digest": str, "text": str}, "digest", ()),

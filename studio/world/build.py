@@ -13,24 +13,25 @@ from studio.conventions import GRAVITY
 from studio.kind.driver import Driver
 from studio.model.driver import sight_speed
 from studio.road.network import shadow
-from studio.scenario.schema import REASONS, Friction, Intervention, Weather
+from studio.scenario.schema import REASONS, Intervention, Weather
 from studio.vehicle.command import U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground
 from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
 from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world.board.crew import hosts
 from studio.world.board.equipment import units_of
-from studio.world.change import changes_of
+from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.obstacle import obstacles_of
 from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
 from studio.world.passes.neighbour import neighbours
 from studio.world.passes.queue import queues
+from studio.world.script import script_of
 from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
 from studio.world.snapshot import gather, origin_of
-from studio.world.table.mind import DRIVER, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION
+from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
 
@@ -58,8 +59,8 @@ def build(settings: Sequence[Setting]) -> World:
         worlds=worlds,
         roads=roads,
         units=units,
-        events=events_of(settings, worlds),
-        changes=changes_of(settings, worlds, lines),
+        events=events_of(settings),
+        script=script_of(settings, worlds, lines),
         detours=detours_of(settings, worlds, lines, table, known),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
@@ -106,12 +107,12 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     starts = [Start(car.model, *pose(car.path, car.station), car.speed) for car in cars]
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
+    mind[GAP] = np.nan  # nobody has looked yet
     mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY]] = np.inf
     return Vehicles(
         **vars(fleet(starts, ground=ground_of(cars))),
         drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
-        script=np.tile([[0.0], [-np.inf], [0.0]], n),
         returns=np.array([int(car.returns) for car in cars]),
         app_command=np.full((len(ACTUATORS), n), np.nan),
     )
@@ -170,9 +171,10 @@ def surface_of(settings: Sequence[Setting]) -> dict[str, Any]:
     """Weather per world, and the pieces of all slippery stretches."""
     placed = [(w, site) for w, each in enumerate(settings) for site in each.sites]
     found = [
-        ground.pieces(site.change.do, site.line, w, number)
+        ground.pieces(each.effect, each.line, w, number)
         for number, (w, site) in enumerate(placed)
-        if isinstance(site.change.do, Friction)
+        for each in site.laid
+        if isinstance(each.effect, Slippery)
     ]
     return {
         "weather": np.array([each.scenario.weather.friction for each in settings]),
@@ -212,22 +214,9 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
     }
 
 
-def events_of(settings: Sequence[Setting], worlds: Worlds) -> Events:
-    """Triggers in the order of the file."""
-    rows = [
-        (trigger.time, first + each.names.index(trigger.vehicle), trigger.do.deceleration, trigger.do.duration, trigger.do.to_speed)
-        for each, first in zip(settings, worlds.first, strict=True)
-        for trigger in each.scenario.triggers.values()
-    ]  # fmt: skip
-    table = np.array(rows).reshape(-1, 5).T
-    return Events(
-        trigger_time=table[0].copy(),
-        trigger_vehicle=table[1].astype(np.int64),
-        trigger_script=table[2:].copy(),
-        fired=np.zeros(table.shape[1], dtype=np.int64),
-        hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))),
-        found=np.zeros(len(settings), dtype=np.int64),
-    )
+def events_of(settings: Sequence[Setting]) -> Events:
+    """No collisions yet."""
+    return Events(hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
 
 
 def settle(world: World) -> None:

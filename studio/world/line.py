@@ -46,7 +46,7 @@ def lines_of(settings: Sequence[Setting]) -> Lines:
     first_of: dict[tuple[int, int], int] = {}
 
     def lay(w: int, path: Path) -> None:
-        key = (w if settings[w].sites else -1, id(path))
+        key = (w if settings[w].changes_roads else -1, id(path))
         if key not in first_of:
             first_of[key] = sum(each.shape[1] for each in points)
             points.append(path.points)
@@ -92,7 +92,8 @@ def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table:
     for j, v in enumerate(vehicles):
         way = lines.ways[v]
         count, number = len(way.works), lines.base[v]
-        work[:count, j] = np.array(way.works) + first[worlds.of[v]]
+        of = settings[worlds.of[v]].works.of
+        work[:count, j] = np.array([of[number] for number in way.works]) + first[worlds.of[v]]
         span[: 2 * count, number : number + len(way.paths)] = way.spans.reshape(len(way.paths), -1).T
     return Detours(
         vehicle=vehicles,
@@ -101,7 +102,7 @@ def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table:
         base=lines.base[vehicles],
         lines=table,
         span=span,
-        held=np.zeros(sum(len(each.sites) for each in settings), dtype=np.int64),
+        held=np.zeros(sum(len(each.sites) for each in settings) if any(each.changes_roads for each in settings) else 0, dtype=np.int64),
         known=known,
     )
 

@@ -11,11 +11,11 @@ import numpy as np
 from studio.compiled import lean
 from studio.road.ways.detour import Work
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
-from studio.scenario.schema import CloseLane, Objects
+from studio.world.effect import Closing, Row
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting
 from studio.world.site import Site
-from studio.world.table.street import ACTING, BARRIER, CONE, O_CHANGE, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
+from studio.world.table.street import ACTING, BARRIER, CONE, O_ENTRY, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
 from studio.world.world import Obstacles
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width
@@ -27,25 +27,30 @@ WIDEST = 1.6  # [m] half of the widest vehicle, with the distance that drivers k
 
 
 class Thing(NamedTuple):
-    """One object: kind, place [m], heading [rad], and the number of the change that it belongs to."""
+    """One object: kind, place [m], heading [rad], and the number of the entry of the script that it belongs to."""
 
     kind: int
     x: float
     y: float
     heading: float
-    change: int
+    entry: int
 
 
 def things(sites: Sequence[Site]) -> Iterator[Thing]:
-    """All objects of the changes of a scenario."""
+    """All objects of a script."""
     for number, site in enumerate(sites):
-        do = site.change.do
-        if isinstance(do, Objects):
-            kind = {"cones": CONE, "barriers": BARRIER}[do.kind]
-            for station in np.arange(do.start, do.end + 1e-9, do.spacing):
-                yield beside(site.line, station, do.offset, kind, number)
-        elif isinstance(do, CloseLane) and site.work:
-            yield from fence(site.work, site.edges, number)
+        for each in site.laid:
+            if isinstance(each.effect, Row):
+                yield from row(each.effect, each.line, number)
+            elif isinstance(each.effect, Closing) and each.work:
+                yield from fence(each.work, each.edges, number)
+
+
+def row(effect: Row, line: Path, number: int) -> Iterator[Thing]:
+    """Objects along a stretch."""
+    kind = {"cones": CONE, "barriers": BARRIER}[effect.what]
+    for station in np.arange(effect.stretch.start, effect.stretch.end + 1e-9, effect.spacing):
+        yield beside(line, station, effect.offset, kind, number)
 
 
 def fence(work: Work, edges: tuple[int, ...], number: int) -> Iterator[Thing]:
@@ -63,11 +68,11 @@ def fence(work: Work, edges: tuple[int, ...], number: int) -> Iterator[Thing]:
             yield beside(work.line, station, edge - work.side * CONE_INSET, CONE, number)
 
 
-def beside(line: Path, station: float, offset: float, kind: int, change: int, *, turned: float = 0.0) -> Thing:
+def beside(line: Path, station: float, offset: float, kind: int, entry: int, *, turned: float = 0.0) -> Thing:
     """An object at a station of a line, `offset` [m] to its left, its length along the line or `turned` [rad] from it."""
     grid = np.arange(line.points.shape[1]) * PATH_SPACING
     x, y, heading = (float(np.interp(station, grid, line.points[row])) for row in (PATH_X, PATH_Y, PATH_HEADING))
-    return Thing(kind, x - offset * np.sin(heading), y + offset * np.cos(heading), heading + turned, change)
+    return Thing(kind, x - offset * np.sin(heading), y + offset * np.cos(heading), heading + turned, entry)
 
 
 def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
@@ -76,7 +81,7 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
     counts = np.array([len(each) for each in found])
     first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
-        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.change) for w, some in enumerate(found) for each in some
+        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.entry) for w, some in enumerate(found) for each in some
     ]
     table = np.array(rows).reshape(-1, len(OBSTACLE)).T.copy()
     swept = [sweep(each.path, table, first[each.world], counts[each.world]) for each in lines.laid]
@@ -98,9 +103,9 @@ def names(sites: Sequence[Site], found: list[Thing]) -> Iterator[str]:
     """What each is called: barrier_3 of roadworks."""
     seen: dict[tuple[int, int], int] = {}
     for each in found:
-        key = (each.change, each.kind)
+        key = (each.entry, each.kind)
         seen[key] = seen.get(key, 0) + 1
-        yield f"{WORDS[each.kind]}_{seen[key]} of {sites[each.change].name}"
+        yield f"{WORDS[each.kind]}_{seen[key]} of {sites[each.entry].name}"
 
 
 def sweep(path: Path, table: np.ndarray, first: int, count: int) -> np.ndarray:
@@ -131,8 +136,8 @@ def passed(apart: np.ndarray, heading: float, station: float, row: np.ndarray) -
 
 @lean
 def put_up(table, phase, held, standing):
-    """Objects stand while their change acts; those of a closed lane are put up once the last car has left it."""
+    """Objects stand while their entry of the script acts; those of a closed lane are put up once the last car has left it."""
     for i in range(standing.size):
-        change = int(table[O_CHANGE, i])
-        acts = phase[change] == ACTING
-        standing[i] = 1 if acts and (standing[i] == 1 or held[change] == 0) else 0
+        entry = int(table[O_ENTRY, i])
+        acts = phase[entry] == ACTING
+        standing[i] = 1 if acts and (standing[i] == 1 or held[entry] == 0) else 0

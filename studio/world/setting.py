@@ -5,6 +5,7 @@ setting(scenario)   →  Setting
 
 import os
 import re
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 
@@ -13,6 +14,7 @@ import numpy as np
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
 from studio.kind.driver import Driver
+from studio.kind.settings import references
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
 from studio.road.ways import path as road_path
@@ -55,7 +57,7 @@ class Car:
 
 @dataclass(frozen=True)
 class Setting:
-    """A scenario with everything resolved that names something: its map, its cars, and where its changes lie."""
+    """A scenario with everything resolved that names something: its map, its cars, and its script in its place."""
 
     scenario: Scenario
     network: Network
@@ -68,6 +70,11 @@ class Setting:
     def names(self) -> tuple[str, ...]:
         """The vehicles, in the order of their columns."""
         return tuple(car.name for car in self.cars)
+
+    @property
+    def changes_roads(self) -> bool:
+        """Whether something in the script is about the roads."""
+        return any(site.laid for site in self.sites)
 
 
 def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
@@ -141,36 +148,36 @@ def refuse(found: list[Problem], where: str) -> None:
 
 
 def name_problems(scenario: Scenario, where: str) -> list[Problem]:
-    """Every vehicle, route, model and sender that is named must exist."""
-    vehicles, known_models, found = set(scenario.vehicles), set(catalogue.vehicle_names()), []
-    units = vehicles | set(scenario.stations)
-
-    def check(path: str, name: str, known, kind: str) -> None:
-        if name not in known:
-            found.append(Problem(f"{where}: {path}", f"names no {kind}", repr(name), remedy=nearest(name, known)))
-
-    for name, vehicle in scenario.vehicles.items():
-        check(f"vehicles.{name}.route", vehicle.route, set(scenario.routes), "route of this scenario")
-        if not catalogue.is_path(vehicle.model, ".yaml", ".yml"):
-            check(f"vehicles.{name}.model", vehicle.model, known_models, "vehicle of the catalogue")
-    if not catalogue.is_path(scenario.traffic.model, ".yaml", ".yml"):
-        check("traffic.model", scenario.traffic.model, known_models, "vehicle of the catalogue")
-    for group, application in scenario.applications.items():
-        for i, name in enumerate(application.units):
-            check(f"applications.{group}.units.{i}", name, units, "unit of this scenario")
-            for sender in application.senders(i):
-                check(f"applications.{group}.listens_to.{i}", sender, units, "unit of this scenario")
-    for name, trigger in scenario.triggers.items():
-        check(f"triggers.{name}.vehicle", trigger.vehicle, vehicles, "vehicle of this scenario")
+    """Every vehicle, route, entry, model and channel that is named must exist."""
+    names = {
+        "vehicle": (scenario.vehicles, "vehicle of this scenario"),
+        "unit": ({**scenario.vehicles, **scenario.stations}, "unit of this scenario"),
+        "route": (scenario.routes, "route of this scenario"),
+        "entry": (scenario.script, "entry of the script"),
+    }
+    found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario)]
+    models = set(catalogue.vehicle_names())
+    for path, model in models_named(scenario):
+        found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
     for i, name in enumerate(scenario.recording.channels):
-        check(f"recording.channels.{i}", name, set(channels()), "channel")
-    for name, change in scenario.changes.items():
-        if (route := getattr(change.do, "route", None)) is not None:
-            check(f"changes.{name}.do.route", route, set(scenario.routes), "route of this scenario")
-        for field, moment in (("start", change.start), ("end", change.end)):
-            if moment.vehicle is not None:
-                check(f"changes.{name}.{field}.vehicle", moment.vehicle, vehicles, "vehicle of this scenario")
-    return found + reserved(scenario, where) + untimely(scenario, where) + crew.problems(scenario, where)
+        found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
+    return [each for each in found if each] + reserved(scenario, where) + untimely(scenario, where) + crew.problems(scenario, where)
+
+
+def unknown(where: str, path: str, name: str, known: Collection[str], kind: str) -> Problem | None:
+    """What is wrong with a name."""
+    return None if name in known else Problem(f"{where}: {path}", f"names no {kind}", repr(name), remedy=nearest(name, known))
+
+
+def models_named(scenario: Scenario) -> Iterator[tuple[str, str]]:
+    """Where models of the catalogue are named."""
+    named = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
+    yield from ((path, model) for path, model in [*named.items(), ("traffic.model", scenario.traffic.model)] if not is_file(model))
+
+
+def is_file(model: str) -> bool:
+    """Whether a model is a vehicle file, and no name of the catalogue."""
+    return catalogue.is_path(model, ".yaml", ".yml")
 
 
 def reserved(scenario: Scenario, where: str) -> list[Problem]:
@@ -279,12 +286,12 @@ def check_works(cars: list[Car], works: Works, where: str) -> None:
     for car in cars:
         way = works.way(car.path)
         if len(way.works) > MOST_WORKS:
-            names = ", ".join(works.sites[number].name for number in way.works)
+            names = ", ".join(works.name(number) for number in way.works)
             what = f"passes {len(way.works)} closed or shifted lanes: {names}"
             found.append(Problem(f"{where}: vehicles.{car.name}.route", what, allowed=f"at most {MOST_WORKS}"))
         elif way.is_touched(car.station, CAR_LENGTH, works.first):
             what = "lies where a lane is closed or shifted from the beginning, or on the taper before it"
-            remedy = "start elsewhere, or let the change begin later"
+            remedy = "start elsewhere, or let it begin later"
             found.append(Problem(f"{where}: vehicles.{car.name}.position", what, f"{car.station} m", remedy=remedy))
     refuse(found, where)
 

@@ -1,124 +1,139 @@
-"""Where the changes of a scenario lie: each stretch as a line on the map, each moment as a time or a place.
+"""The script of a scenario in its place: what each entry does to the road, and where that lies.
 
 place_problems(scenario, network, where)   what is wrong with their places, all of it
-sites(scenario, network)                   →  Site, one for each change, in the order of the file
+sites(scenario, network)                   →  Site, one for each entry of the script, in the order of the file
 """
 
+import traceback
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf
+from functools import cached_property
+from typing import get_args
 
 import numpy as np
 
-from studio.errors import Problem, RouteError, nearest
+from studio.errors import Problem, RouteError, ScenarioError
+from studio.kind import registry
+from studio.kind.settings import StationOf, marks, references
+from studio.kind.stretch import LaneStretch
 from studio.road.assembly.alignment import SHARPEST
 from studio.road.network import Lane, Network
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import STEEPEST, Work, lane_line
-from studio.road.ways.path import Path
+from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.road.ways.route import connect
-from studio.scenario.schema import Change, CloseLane, LaneWork, Moment, Scenario, ShiftLane
+from studio.scenario.schema import Entry, Scenario, moment_of
+from studio.world.effect import Closing, Effect, Place, Row, Shift, length_problem, row_problem
 
-WORDS = {
-    "limit": "limit {0.speed:g} m/s",
-    "friction": "friction {0.friction:g}",
-    "close_lane": "lane {0.lane} of {0.road} closed",
-    "shift_lane": "lane {0.lane} of {0.road} shifted by {0.offset:g} m",
-    "objects": "{0.kind} on the road",
-}
-
-
-@dataclass(frozen=True)
-class Occasion:
-    """A moment with everything resolved: a time [s], or a vehicle and a station [m] of its path."""
-
-    time: float = inf
-    vehicle: str = ""
-    station: float = 0.0
+Effects = dict[str, list[Effect]]  # by the name of the entry
 
 
 @dataclass(frozen=True, eq=False)
-class Site:
-    """One change in its place: `line` is what its stations count along, `work` what a lane's closing or shift means there.
+class Laid:
+    """An effect in its place: `line` is what its stations count along, `work` what a lane's closing or shift means there.
 
     `edges` are the sides of a closed lane (1 left, -1 right) on which another lane stays open beside it.
     """
 
-    name: str
-    change: Change
+    effect: Effect
     line: Path
-    begins: Occasion
-    ends: Occasion
     work: Work | None = None
     edges: tuple[int, ...] = ()
 
+
+@dataclass(frozen=True, eq=False)
+class Site:
+    """One entry of the script, and all its effects on the road."""
+
+    name: str
+    entry: Entry
+    laid: tuple[Laid, ...]
+
     @property
+    def is_there_from_the_start(self) -> bool:
+        """Whether it begins before anything has moved."""
+        moment = moment_of(self.entry.when)
+        return moment is not None and moment <= 0.0
+
+    @cached_property
     def text(self) -> str:
         """What it does, in words."""
-        return WORDS[self.change.do.change].format(self.change.do)
+        kind = registry.find("action", self.entry.do.kind)
+        return kind.module.told(self.entry.do) if hasattr(kind.module, "told") else kind.title
+
+    @property
+    def vehicles(self) -> tuple[str, ...]:
+        """Those that it is about: the one that acts, else those that it waits for."""
+        found = [each.name for part in (self.entry.do, self.entry.when) for each in references(part) if each.what == "vehicle"]
+        return tuple(dict.fromkeys(found))
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Where its first effect begins [m]; None when it has none."""
+        if not self.laid:
+            return None
+        first = self.laid[0]
+        at = min(int(first.effect.stretch.start / PATH_SPACING), first.line.points.shape[1] - 1)
+        return float(first.line.points[PATH_X, at]), float(first.line.points[PATH_Y, at])
 
 
 def sites(scenario: Scenario, network: Network) -> tuple[Site, ...]:
-    """Every change in its place; the scenario has none of its `place_problems`."""
-    return tuple(site(name, each, scenario, network) for name, each in scenario.changes.items())
+    """Every entry in its place; the scenario has none of its `place_problems`."""
+    place = Place(scenario, network)
+    effects = {name: list(effects_of(entry, place)) for name, entry in scenario.script.items()}
+    closed = closings(effects)
+    return tuple(Site(name, scenario.script[name], tuple(laid(each, place, closed) for each in found)) for name, found in effects.items())
 
 
-def site(name: str, each: Change, scenario: Scenario, network: Network) -> Site:
-    """One of them."""
-    begins, ends = (occasion(moment, scenario, network) for moment in (each.start, each.end))
-    if not isinstance(each.do, LaneWork):
-        return Site(name, each, line_of(each.do, scenario, network), begins, ends)
-    lane = network.lanes_of(each.do.road)[each.do.lane]
-    line = lane_line(network, lane)
-    if isinstance(each.do, ShiftLane):
-        return Site(
-            name, each, line, begins, ends, Work(line, each.do.start, each.do.end, each.do.taper, lane.width, offset=each.do.offset)
-        )
-    target = open_lane(each.do, scenario, network)
-    work = Work(line, each.do.start, each.do.end, each.do.taper, lane.width)
+def effects_of(entry: Entry, place: Place) -> list[Effect]:
+    """What an entry does to the road."""
+    module = registry.find("action", entry.do.kind).module
+    return list(module.effects(entry.do, place)) if hasattr(module, "effects") else []
+
+
+def laid(effect: Effect, place: Place, closed: list[LaneStretch]) -> Laid:
+    """An effect in its place."""
+    line = place.line(effect.stretch)
+    return laid_work(effect, line, place, closed) if isinstance(effect, Closing | Shift) else Laid(effect, line)
+
+
+def laid_work(effect: Closing | Shift, line: Path, place: Place, closed: list[LaneStretch]) -> Laid:
+    """A closed or shifted lane, with what it means for those who come along."""
+    stretch = effect.stretch
+    lane = place.network.lanes_of(stretch.road)[stretch.lane]
+    if isinstance(effect, Shift):
+        return Laid(effect, line, Work(line, stretch.start, stretch.end, stretch.taper, lane.width, offset=effect.offset))
+    target = open_lane(stretch, closed, place.network)
+    work = Work(line, stretch.start, stretch.end, stretch.taper, lane.width)
     if target is not None:
-        side = network.middle * np.sign(target.index - lane.index)
-        work = Work(line, each.do.start, each.do.end, each.do.taper, lane.width, lane_line(network, target), side)
-    return Site(name, each, line, begins, ends, work, open_sides(each.do, scenario, network))
+        side = place.network.middle * np.sign(target.index - lane.index)
+        work = Work(line, stretch.start, stretch.end, stretch.taper, lane.width, lane_line(place.network, target), side)
+    return Laid(effect, line, work, open_sides(stretch, closed, place.network))
 
 
-def open_lane(do: CloseLane, scenario: Scenario, network: Network) -> Lane | None:
+def open_lane(stretch: LaneStretch, closed: list[LaneStretch], network: Network) -> Lane | None:
     """The lane that a closed one leads onto: the nearest that is open, of two the one towards the middle of the road."""
-    closed = {other.lane for other in closings(scenario) if overlap(do, other)}
-    usable = [lane for lane in network.lanes_of(do.road) if lane.open and lane.index not in closed]
-    return min(usable, key=lambda lane: (abs(lane.index - do.lane), -lane.index), default=None)
+    shut = {other.lane for other in closed if overlap(stretch, other)}
+    usable = [lane for lane in network.lanes_of(stretch.road) if lane.open and lane.index not in shut]
+    return min(usable, key=lambda lane: (abs(lane.index - stretch.lane), -lane.index), default=None)
 
 
-def open_sides(do: CloseLane, scenario: Scenario, network: Network) -> tuple[int, ...]:
+def open_sides(stretch: LaneStretch, closed: list[LaneStretch], network: Network) -> tuple[int, ...]:
     """The sides of a closed lane on which the next lane is not closed as well."""
-    closed = {other.lane for other in closings(scenario) if overlap(do, other)}
-    beside = [step for step in (1, -1) if 0 <= do.lane + step < len(network.lanes_of(do.road)) and do.lane + step not in closed]
+    shut = {other.lane for other in closed if overlap(stretch, other)}
+    count = len(network.lanes_of(stretch.road))
+    beside = [step for step in (1, -1) if 0 <= stretch.lane + step < count and stretch.lane + step not in shut]
     return tuple(int(network.middle) * step for step in beside)
 
 
-def closings(scenario: Scenario) -> list[CloseLane]:
-    """All closings of a scenario."""
-    return [each.do for each in scenario.changes.values() if isinstance(each.do, CloseLane)]
+def closings(effects: Effects) -> list[LaneStretch]:
+    """All closed stretches of a script."""
+    return [each.stretch for found in effects.values() for each in found if isinstance(each, Closing)]
 
 
-def overlap(one: LaneWork, other: LaneWork) -> bool:
+def overlap(one: LaneStretch, other: LaneStretch) -> bool:
     """Whether two works share some of the road with their tapers."""
     return one.road == other.road and one.start - one.taper < other.end + other.taper and other.start - other.taper < one.end + one.taper
-
-
-def line_of(do, scenario: Scenario, network: Network) -> Path:
-    """The line of a stretch."""
-    if do.road is not None:
-        return lane_line(network, network.lanes_of(do.road)[do.lane])
-    return road_path.path(network, connect(network, scenario.routes[do.route].roads))
-
-
-def occasion(moment: Moment, scenario: Scenario, network: Network) -> Occasion:
-    """A moment, its station counted on the path that the vehicle drives, which may begin later than its route."""
-    if moment.time is not None:
-        return Occasion(time=moment.time)
-    assert moment.vehicle is not None and moment.along is not None  # a moment has these or a time
-    return Occasion(vehicle=moment.vehicle, station=moment.along - joined_at(moment.vehicle, scenario, network))
 
 
 def joined_at(vehicle: str, scenario: Scenario, network: Network) -> float:
@@ -139,91 +154,96 @@ def joins(start: str, roads: list[str], network: Network) -> float:
 
 
 def place_problems(scenario: Scenario, network: Network, where: str) -> list[Problem]:
-    """Roads and lanes that do not exist, stretches and moments beyond what they lie on."""
-    found = []
-    for name, each in scenario.changes.items():
-        at = f"{where}: changes.{name}"
-        known = list(stretch_problems(each.do, scenario, network, f"{at}.do"))
-        found += known
-        if isinstance(each.do, LaneWork) and not known:
-            found += taper_problems(each.do, scenario, network, f"{at}.do")
-        for field, moment in (("start", each.start), ("end", each.end)):
-            found += moment_problems(moment, scenario, network, f"{at}.{field}")
-    return found + list(overlap_problems(scenario, where))
+    """Roads and lanes that do not exist, stretches and stations beyond what they lie on."""
+    place, effects, found = Place(scenario, network), {}, []
+    for name, entry in scenario.script.items():
+        effects[name], wrong = attempted(entry, place, f"{where}: script.{name}.do")
+        found += wrong
+    closed = closings(effects)
+    for name, entry in scenario.script.items():
+        at = f"{where}: script.{name}"
+        for effect in effects[name]:
+            found += effect_problems(effect, place, f"{at}.do") or work_problems(effect, closed, place, f"{at}.do")
+        for field in ("when", "until"):
+            found += station_problems(getattr(entry, field), scenario, network, f"{at}.{field}")
+    return found + list(overlap_problems(effects, place, where))
 
 
-def stretch_problems(do, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
-    """A stretch must lie on a route of the scenario or a lane of the map."""
-    if isinstance(do, LaneWork) or do.road is not None:
-        yield from lane_problems(do, network, at)
-    elif (length := route_length(do.route, scenario, network)) < do.end:
-        yield Problem(f"{at}.end", "lies beyond the end of its route", f"{do.end} m", f"≤ {length:.0f} m")
-
-
-def lane_problems(do, network: Network, at: str) -> Iterator[Problem]:
-    """Road, lane, and the length of it."""
-    roads = {road.id for road in network.roads.values() if not road.internal}
-    if do.road not in roads:
-        yield Problem(f"{at}.road", "names no road of this map", repr(do.road), remedy=nearest(do.road, roads))
-        return
-    lanes = network.lanes_of(do.road)
-    if do.lane >= len(lanes):
-        yield Problem(f"{at}.lane", f"names no lane of road {do.road!r}", str(do.lane), f"0 to {len(lanes) - 1}")
-        return
-    length = np.floor(lanes[do.lane].length)
-    if do.end > length:
-        yield Problem(f"{at}.end", f"lies beyond the end of road {do.road!r}", f"{do.end} m", f"≤ {length:.0f} m")
-
-
-def taper_problems(do: LaneWork, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
-    """The tapers must lie on the road, and be long enough for a car to go over."""
-    lane = network.lanes_of(do.road)[do.lane]
-    room = min(do.start, np.floor(lane.length) - do.end)
-    if do.taper > room:
-        remedy = "close less of the road, or farther from its ends"
-        yield Problem(
-            f"{at}.taper",
-            f"does not fit on road {do.road!r} before the start and behind the end",
-            f"{do.taper} m",
-            f"≤ {room:.0f} m",
-            remedy,
-        )
-    target = open_lane(do, scenario, network) if isinstance(do, CloseLane) else None
-    width = abs(do.offset) if isinstance(do, ShiftLane) else lane.width * abs(target.index - lane.index) if target else 0.0
-    shortest = np.ceil(np.sqrt(STEEPEST * width / SHARPEST))
-    if do.taper < shortest:
-        yield Problem(f"{at}.taper", f"is too short to go over by {width:g} m", f"{do.taper} m", f"≥ {shortest:.0f} m")
-
-
-def overlap_problems(scenario: Scenario, where: str) -> Iterator[Problem]:
-    """Works share a road only as one site: closings of several lanes with the same stretch."""
-    works = {name: each.do for name, each in scenario.changes.items() if isinstance(each.do, LaneWork)}
-    for i, (name, one) in enumerate(works.items()):
-        for other_name, other in list(works.items())[:i]:
-            if overlap(one, other) and not is_one_site(one, other):
-                what = f"overlaps {other_name!r} on road {one.road!r}, tapers included"
-                remedy = "keep their tapers apart, or close several lanes with the same start, end and taper"
-                yield Problem(f"{where}: changes.{name}.do", what, f"{one.start} to {one.end} m", remedy=remedy)
-
-
-def is_one_site(one: LaneWork, other: LaneWork) -> bool:
-    """Whether two works that overlap close two lanes of one stretch."""
-    same = (one.start, one.end, one.taper) == (other.start, other.end, other.taper)
-    return same and isinstance(one, CloseLane) and isinstance(other, CloseLane) and one.lane != other.lane
-
-
-def moment_problems(moment: Moment, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
-    """The vehicle must come by."""
-    if moment.vehicle not in scenario.vehicles or moment.along is None:
-        return
-    length = route_length(scenario.vehicles[moment.vehicle].route, scenario, network)
-    if moment.along > length:
-        yield Problem(f"{at}.along", f"lies beyond the end of the route of {moment.vehicle!r}", f"{moment.along} m", f"≤ {length:.0f} m")
-
-
-def route_length(route: str, scenario: Scenario, network: Network) -> float:
-    """Length of a route [m]; without an end when there is no such route or it does not connect, which is told elsewhere."""
+def attempted(entry: Entry, place: Place, at: str) -> tuple[list[Effect], list[Problem]]:
+    """The effects of an entry, or what went wrong in its action."""
     try:
-        return road_path.path(network, connect(network, scenario.routes[route].roads)).length
+        found = effects_of(entry, place)
+    except ScenarioError:
+        raise
+    except Exception:
+        kind = registry.find("action", entry.do.kind)
+        remedy = f"mend {kind.source}\n{traceback.format_exc()}"
+        return [], [Problem(at, f"the effects of the action {kind.name!r} cannot be told", remedy=remedy)]
+    strange = [each for each in found if not isinstance(each, Effect)]
+    if strange:
+        allowed = ", ".join(each.__name__ for each in get_args(Effect))
+        return [], [Problem(at, "its action gives what is no effect", repr(strange[0]), allowed)]
+    return found, []
+
+
+def effect_problems(effect: Effect, place: Place, at: str) -> list[Problem]:
+    """What is wrong with the place of an effect."""
+    stretch = effect.stretch
+    if getattr(stretch, "route", None) is not None and stretch.route not in place.scenario.routes:
+        return []  # told where names are checked
+    return length_problem(stretch, place, at) + (row_problem(effect, at) if isinstance(effect, Row) else [])
+
+
+def work_problems(effect: Effect, closed: list[LaneStretch], place: Place, at: str) -> Iterator[Problem]:
+    """The tapers must lie on the road, and be long enough for a car to go over."""
+    if not isinstance(effect, Closing | Shift):
+        return
+    stretch = effect.stretch
+    lane = place.network.lanes_of(stretch.road)[stretch.lane]
+    room = min(stretch.start, np.floor(lane.length) - stretch.end)
+    if stretch.taper > room:
+        what = f"does not fit on road {stretch.road!r} before the start and behind the end"
+        remedy = "close less of the road, or farther from its ends"
+        yield Problem(f"{at}.taper", what, f"{stretch.taper} m", f"≤ {room:.0f} m", remedy)
+    target = open_lane(stretch, closed, place.network) if isinstance(effect, Closing) else None
+    width = abs(effect.offset) if isinstance(effect, Shift) else lane.width * abs(target.index - lane.index) if target else 0.0
+    shortest = np.ceil(np.sqrt(STEEPEST * width / SHARPEST))
+    if stretch.taper < shortest:
+        yield Problem(f"{at}.taper", f"is too short to go over by {width:g} m", f"{stretch.taper} m", f"≥ {shortest:.0f} m")
+
+
+def overlap_problems(effects: Effects, place: Place, where: str) -> Iterator[Problem]:
+    """Works share a road only as one site: closings of several lanes with the same stretch."""
+    works = [(name, each) for name, found in effects.items() for each in found if isinstance(each, Closing | Shift)]
+    for i, (name, one) in enumerate(works):
+        for other_name, other in works[:i]:
+            if overlap(one.stretch, other.stretch) and not is_one_site(one, other):
+                what = f"overlaps {other_name!r} on road {one.stretch.road!r}, tapers included"
+                remedy = "keep their tapers apart, or close several lanes with the same start, end and taper"
+                yield Problem(f"{where}: script.{name}.do", what, f"{one.stretch.start} to {one.stretch.end} m", remedy=remedy)
+
+
+def is_one_site(one: Closing | Shift, other: Closing | Shift) -> bool:
+    """Whether two works that overlap close two lanes of one stretch."""
+    a, b = one.stretch, other.stretch
+    same = (a.start, a.end, a.taper) == (b.start, b.end, b.taper)
+    return same and isinstance(one, Closing) and isinstance(other, Closing) and a.lane != b.lane
+
+
+def station_problems(part, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
+    """A vehicle must come by the stations of its route."""
+    for name, field in type(part).model_fields.items() if part is not None else ():
+        for mark in marks(field, StationOf):
+            vehicle, station = getattr(part, mark.field), getattr(part, name)
+            length = route_length(vehicle, scenario, network)
+            if station > length:
+                what = f"lies beyond the end of the route of {vehicle!r}"
+                yield Problem(f"{at}.{name}", what, f"{station} m", f"≤ {length:.0f} m")
+
+
+def route_length(vehicle: str, scenario: Scenario, network: Network) -> float:
+    """Length of a vehicle's route [m]; without an end when there is none or it does not connect, which is told elsewhere."""
+    try:
+        return Place(scenario, network).route(scenario.vehicles[vehicle].route).length
     except (KeyError, RouteError):
-        return inf
+        return np.inf

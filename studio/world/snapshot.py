@@ -15,7 +15,7 @@ import numpy as np
 from studio.errors import Problem, SnapshotError
 from studio.rows import MOVES
 from studio.source import source_digest
-from studio.world import change
+from studio.world import script
 from studio.world.setting import Setting
 from studio.world.world import World
 
@@ -69,7 +69,7 @@ def restore(world: World, kept: Snapshot) -> None:
     check(world, kept)
     world.arena[:] = np.frombuffer(kept.content, np.uint8)
     world.clock.k = kept.k
-    change.follow(world)
+    script.follow(world)
 
 
 def check(world: World, kept: Snapshot) -> None:
@@ -95,13 +95,14 @@ def identity(world: World) -> Identity:
 
 
 def origin_of(settings: Sequence[Setting], world: World) -> str:
-    """Digest of what a world was built from: scenarios with their seeds, maps, vehicles, and the files of drivers and applications."""
+    """Digest of what a world was built from: scenarios with their seeds, maps, vehicles, and the files of kinds."""
     digest = hashlib.sha256()
     for each in settings:
         digest.update(f"{each.network.digest} {each.scenario.model_dump_json()}\n".encode())
     for fixed in (world.vehicles.parameter, world.vehicles.gears, world.vehicles.tyres):
         digest.update(fixed.tobytes())
-    for kind in [*(seats.kind for seats in world.seats), *(hosted.application for hosted in world.hosted)]:
+    of_script = [each.kind for each in (*world.script.asked, *world.script.maneuvers)]
+    for kind in [*(seats.kind for seats in world.seats), *(hosted.application for hosted in world.hosted), *of_script]:
         digest.update(kind.digest.encode())
     return digest.hexdigest()
 

@@ -1,6 +1,6 @@
 """One tick of the world: the table of contents of the simulator.
 
-At a tick everybody meets: lights change, triggers fire, drivers look around, sensors measure, messages arrive,
+At a tick everybody meets: the script goes on, lights change, drivers look around, sensors measure, messages arrive,
 applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps.
 """
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from math import nan
 
 from studio.vehicle import fleet
-from studio.world import change
+from studio.world import script
 from studio.world.board import own
 from studio.world.board.host import Fault
 from studio.world.board.post import Post, freshest
@@ -56,13 +56,12 @@ def part(world: World) -> None:
 
 
 def environment(world: World) -> None:
-    """Changes of the road, lights, triggers, and the ground under the wheels."""
-    v, r, e, time = world.vehicles, world.roads, world.events, world.clock.time
-    change.turn(world)
+    """The script, lights, and the ground under the wheels."""
+    v, r, time = world.vehicles, world.roads, world.clock.time
+    script.turn(world)
     ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
     ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
-    control.fire(time, e.trigger_time, e.trigger_vehicle, e.trigger_script, e.fired, world.vehicles.script)
 
 
 def gather(world: World) -> None:
@@ -152,7 +151,10 @@ def applications(world: World, refuse: Refuse = let_through) -> None:
 def act(world: World) -> None:
     """Maneuvers, applications and drivers command the actuators."""
     v, clock = world.vehicles, world.clock
-    control.command(clock.k, clock.time, v.state, v.ground, v.parameter, v.script, v.drivers, v.mind, v.app_command, v.commands)
+    script.act(world)
+    control.command(
+        clock.k, clock.time, v.state, v.ground, v.parameter, world.script.commands, v.drivers, v.mind, v.app_command, v.commands
+    )
 
 
 def move(world: World) -> None:

@@ -17,7 +17,7 @@ MOST_WORKS = 4  # on one path: each doubles the number of its paths
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """`paths` by number; the sites of its works; where each path enters and leaves each work, float64[path, work, 2] [m]."""
+    """`paths` by number; the numbers of its works; where each path enters and leaves each work, float64[path, work, 2] [m]."""
 
     paths: tuple[Path, ...]
     works: tuple[int, ...]
@@ -32,24 +32,33 @@ class Way:
 
 
 class Works:
-    """The ways of all paths among the sites of a scenario, each made once; `first` are those there from the beginning."""
+    """The ways of all paths among the works of a script, each made once.
+
+    `of` is the entry that each work belongs to; `first` are the works that are there from the beginning.
+    """
 
     def __init__(self, sites: Sequence[Site]) -> None:
         self.sites = tuple(sites)
-        self.first = {i for i, site in enumerate(sites) if site.work is not None and site.begins.time <= 0.0}
+        placed = [(number, each.work) for number, site in enumerate(sites) for each in site.laid if each.work is not None]
+        self.of = [number for number, _ in placed]
+        self.works = [work for _, work in placed]
+        self.first = {i for i, number in enumerate(self.of) if sites[number].is_there_from_the_start}
         self._known: dict[int, tuple[Path, Way]] = {}
 
     def way(self, path: Path) -> Way:
         """The way of a path."""
         if id(path) not in self._known:
-            self._known[id(path)] = path, way(path, self.sites)
+            self._known[id(path)] = path, way(path, self.works)
         return self._known[id(path)][1]
 
+    def name(self, work: int) -> str:
+        """The entry of the script that a work belongs to."""
+        return self.sites[self.of[work]].name
 
-def way(path: Path, sites: Sequence[Site]) -> Way:
+
+def way(path: Path, placed: Sequence[Work]) -> Way:
     """All that may become of a path; the number of its works is not bounded here."""
-    placed = {number: site.work for number, site in enumerate(sites) if site.work is not None}
-    passed = {number: passing(path, work) for number, work in placed.items()}
+    passed = {number: passing(path, work) for number, work in enumerate(placed)}
     works = tuple(number for number, stations in passed.items() if np.isfinite(stations).any())
     paths, spans = [], []
     for choice in range(2 ** min(len(works), MOST_WORKS)):

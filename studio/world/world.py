@@ -1,11 +1,12 @@
 """The world: all arrays of a batch of runs, in one place. What moves is one buffer; a copy of it is a snapshot."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
@@ -38,11 +39,10 @@ class Clock:
 
 @dataclass
 class Vehicles(Fleet):
-    """A fleet with drivers: what they want, know and are told, [row, vehicle]."""
+    """A fleet with drivers: what they want and know, [row, vehicle]."""
 
     drivers: np.ndarray
     mind: Moving
-    script: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
 
@@ -102,15 +102,44 @@ class Conflicts:
 
 
 @dataclass
-class Changes:
-    """Changes of the road. `phase` and since when are state; what follows from them is made anew when one turns."""
+class Asked:
+    """Everybody who waits for one kind of condition: which turn of which entry, and the settings, [field, who]."""
 
-    world: np.ndarray  # number of the world, per change
-    moments: Moving  # [row, change] of all beginnings, then of all ends
-    phase: Moving  # int64[change]: BEFORE, ACTING, OVER
-    turned: Moving  # [s] float64[2, change]: when it began and ended, not a number before
-    limits: list[tuple[int, np.ndarray, np.ndarray]]  # change, columns of points, speed there
+    kind: Kind
+    entry: np.ndarray
+    turn: np.ndarray  # 0 to begin, 1 to end
+    settings: Moving  # stations move with the paths that they lie on
+    stations: list[tuple[int, int]]  # which fields are stations of which vehicles
+    run: Callable
+
+
+@dataclass
+class Maneuvers:
+    """All maneuvers of one kind: their entries, vehicles and settings, [field, maneuver]."""
+
+    kind: Kind
+    entry: np.ndarray
+    vehicle: np.ndarray  # columns
+    settings: np.ndarray
+    run: Callable
+
+
+@dataclass
+class Script:
+    """What happens. The phases of the entries and since when are state; what follows from them is made anew when one turns."""
+
+    world: np.ndarray  # number of the world, per entry
+    vehicle: np.ndarray  # column of the vehicle whose maneuver it is, -1 for none
+    phase: Moving  # int64[entry]: BEFORE, ACTING, OVER
+    turned: Moving  # [s] float64[2, entry]: when it began and ended, not a number before
+    come: np.ndarray  # scratch, int64[entry]: 1 when its turn has come
+    commands: Moving  # [row, vehicle] of maneuvers
+    asked: list[Asked]
+    maneuvers: list[Maneuvers]
+    limits: list[tuple[int, np.ndarray, np.ndarray]]  # entry, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
+    waiting: np.ndarray  # places in `asked` of what somebody waits for now
+    acting: np.ndarray  # places in `maneuvers` of kinds of which one lasts now
 
 
 @dataclass
@@ -119,11 +148,11 @@ class Detours:
 
     vehicle: np.ndarray  # int64[m]: columns
     choice: Moving  # int64[m]: bit b is work b
-    work: np.ndarray  # int64[MOST_WORKS, m]: change that work b is, -1 for none
+    work: np.ndarray  # int64[MOST_WORKS, m]: entry of the script that work b belongs to, -1 for none
     base: np.ndarray  # int64[m]: column of `lines` with choice 0
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
-    held: Moving  # int64[change]: vehicles that are still within it on the usual path
+    held: Moving  # int64[entry]: vehicles that are still within it on the usual path
     known: dict[tuple[int, int], np.ndarray]  # zones of pairs of tracks, by their first points
 
 
@@ -170,12 +199,8 @@ class Units:
 
 @dataclass
 class Events:
-    """Triggers with their scripts, and the collisions found."""
+    """The collisions found."""
 
-    trigger_time: np.ndarray
-    trigger_vehicle: np.ndarray
-    trigger_script: np.ndarray
-    fired: Moving
     hits: Moving  # every world has its share of the columns
     found: Moving  # how many collisions each world has had
 
@@ -200,7 +225,7 @@ class World:
     roads: Roads
     units: Units
     events: Events
-    changes: Changes
+    script: Script
     detours: Detours
     obstacles: Obstacles
     neighbours: Neighbours
@@ -241,10 +266,10 @@ class World:
 
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
-        v, u, e, c, o = self.vehicles, self.units, self.events, self.changes, self.obstacles
-        units = [u.now, u.satellite, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
-        happened = [e.fired, e.hits, c.phase, c.turned, o.standing, self.detours.choice]
-        return [v.state, v.wheels, v.mind, v.script, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
+        v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
+        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
+        return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
         """SHA-256 of these parts and the clock; of those of one world, which do not depend on the batch that it runs in."""
@@ -255,9 +280,9 @@ class World:
 
     def parts_of(self, number: int) -> Iterator[np.ndarray]:
         """The shares of one world in the moving parts."""
-        v, u, e, c, o, d = self.vehicles, self.units, self.events, self.changes, self.obstacles, self.detours
+        v, u, e, s, o, d = self.vehicles, self.units, self.events, self.script, self.obstacles, self.detours
         columns, of = self.columns(number), self.worlds.of
-        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.script, 1), (v.commands, RING), (u.satellite, 1)
+        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.commands, RING), (u.satellite, 1)
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
         yield u.now[:, u.world == number]
@@ -266,11 +291,10 @@ class World:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
             yield post.inbox[:, u.world[post.link_receiver] == number]
-        yield e.fired[of[e.trigger_vehicle] == number]
         share = e.hits.shape[1] // e.found.size
         yield e.hits[:, number * share : (number + 1) * share]
-        yield c.phase[c.world == number]
-        yield c.turned[:, c.world == number]
+        yield s.phase[s.world == number]
+        yield s.turned[:, s.world == number]
         yield o.standing[self.objects(number)]
         yield d.choice[of[d.vehicle] == number]
         yield from (memory for group, memory in self.memories() if group.world == number)

@@ -7,9 +7,11 @@ from studio.assess import compare
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
 from studio.assess.safety import time_to_collision
-from studio.execution.record import Chain, Happening, Record
+from studio.execution.happening import happening
+from studio.execution.record import Chain, Record
 from studio.scenario.schema import Goal
 from studio.world.channel import CHANNELS
+from studio.world.table.event import ARRIVED, HIT
 
 NAMES = [channel.name for channel in CHANNELS]
 
@@ -70,7 +72,7 @@ def test_jerk_of_a_ramp():
 
 
 def test_collisions_are_counted():
-    events = (Happening(1.0, "collision of a and b at 3.0 m/s", "a"), Happening(2.0, "arrived at the end of its route", "a"))
+    events = (happening(HIT, 1.0, ("a", "b"), impact_speed=3.0), happening(ARRIVED, 2.0, ("a",)))
     assert measure_all(record(happenings=events))["collisions"].value == 1
 
 

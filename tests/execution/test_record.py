@@ -71,11 +71,9 @@ def test_an_annotated_speed_stands_where_the_route_has_it(sample):
     assert np.hypot(*(place(along) - place(other))) < 6.0
 
 
-def test_a_trigger_may_have_any_name(sample):
-    loaded = job.load(sample, {"clock.duration": 1})
-    renamed = loaded.scenario.model_copy(
-        update={"triggers": {"hits": loaded.scenario.triggers["hard_brake"].model_copy(update={"time": 0.5})}}
-    )
+def test_an_entry_of_the_script_may_have_any_name(sample):
+    loaded = job.load(sample, {"clock.duration": 1, "script.hard_brake.when.at": 0.5})
+    renamed = loaded.scenario.model_copy(update={"script": {"hits": loaded.scenario.script["hard_brake"]}})
     run = simulation(job.prepare(replace(loaded, scenario=renamed)))
     as_fast_as_possible(run)
     assert [event.time for event in run.cases[0].happenings] == [0.5]
@@ -92,4 +90,4 @@ def test_what_happens_to_the_platoon_is_told(sample):
     takes_over = told["follower_4", "driver takes over: red light"]
     acting = run.trace("follower_4.intervening")
     assert run.time[acting == 1.0][0] == pytest.approx(takes_over - 0.02)
-    assert told["leader", "hard_brake: brake with 6 m/s²"] == 20
+    assert told["leader", "hard_brake begins: brake with 6 m/s²"] == 20

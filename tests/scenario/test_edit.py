@@ -29,7 +29,7 @@ def test_items_of_lists(sample):
         ("applications.platoon.parameters.hedway", "applications.platoon.parameters.headway"),
         ("application.platoon.parameters.headway", "applications"),
         ("clock.duration.seconds", ""),
-        ("triggers.hard_brake.do.decelaration", "triggers.hard_brake.do.deceleration"),
+        ("script.hard_brake.do.decelaration", "script.hard_brake.do.deceleration"),
         ("applications.platoon.vehicles.9", ""),
     ],
 )

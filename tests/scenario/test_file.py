@@ -86,7 +86,7 @@ def folder(tmp_path, sample):
 
 def test_names_that_do_not_exist(document, folder):
     wrong = change_vehicle(document, model="bmw_320", route="east")
-    wrong["triggers"]["hard_brake"]["vehicle"] = "leeder"
+    wrong["script"]["hard_brake"]["do"]["vehicle"] = "leeder"
     with pytest.raises(ScenarioError) as caught:
         prepared(wrong, folder)
     text = str(caught.value)

@@ -96,7 +96,9 @@ def test_samples_and_events(client):
     samples = seen[0]
     assert samples["type"] == "samples" and samples["time"][0] == 0 and samples["time"][-1] == pytest.approx(22)
     assert len(samples["channels"]["follower_1.gap"]) == len(samples["time"]) > 200
-    assert any(each["type"] == "event" and "hard_brake" in each["text"] and each["time"] == 20 for each in seen)
+    assert any(
+        each["type"] == "event" and each["kind"] == "script_begun" and "hard_brake" in each["text"] and each["time"] == 20 for each in seen
+    )
 
 
 def test_a_live_run_has_the_bits_of_any_other(client):

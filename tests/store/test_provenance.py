@@ -90,6 +90,7 @@ def test_every_kind_of_a_run_stands_in_its_row(sample, tmp_path):
     loaded = job.load(sample, {"clock.duration": 0.1})
     row = job.run(loaded, runs=runs).row
     named = {"application.cacc", "message.awareness", "sensor.front_radar", "driver.attentive", "radio.ad_hoc"}
+    named |= {"condition.time", "action.brake"}
     judging = {f"{sort}.{name}" for sort in ("metric", "channel") for name in registry.known(sort)}
     assert set(row.kinds) == named | judging
     assert row.kinds["application.cacc"] == registry.find("application", "cacc").digest

@@ -12,9 +12,11 @@ import pytest
 
 from studio import job
 from studio.errors import StoreError, UnknownError
+from studio.execution.happening import Happening, happening
 from studio.store import trace
 from studio.store.comparison import compare
-from studio.store.runs import open_runs
+from studio.store.runs import event_of, event_row, open_runs
+from studio.world.table.event import HIT
 from tests.patience import until
 
 
@@ -214,3 +216,35 @@ def test_a_finished_run_is_never_killed(kept):
     runs, first = kept
     runs.end(first.row.run, "killed", "too late")
     assert runs.find(first.row.run).status == "done"
+
+
+def test_events_are_as_they_happened(sample, tmp_path):
+    """Kind, units, place and numbers too."""
+    runs = open_runs(tmp_path / "runs.db")
+    result = job.run(job.load(sample, {"clock.duration": 3, "script.hard_brake.when.at": 1}), runs=runs)
+    events = (*result.record.happenings, happening(HIT, 2.5, ("leader", "cone_1 of a"), place=(1.0, 2.0), impact_speed=3.0))
+    assert runs.events(1) == list(result.record.happenings) and events[0].kind == "script_begun" and events[0].x is not None
+    assert [event_of(event_row(1, each)) for each in events] == list(events)
+
+
+def test_a_file_of_the_first_layout_keeps_its_events(tmp_path):
+    """Its events had a time, a text and a vehicle; they still have, and newer ones stand beside them."""
+    path = tmp_path / "runs.db"
+    open_runs(path).close()
+    old = sqlite3.connect(path)
+    old.executescript(
+        "drop table events; create table events (run integer, time float, text text, vehicle text); pragma user_version = 1;"
+        "insert into runs (run, scenario, seed, status, code_version, created, parameters, unmet)"
+        " values (1, 'old', 1, 'done', '1', '', '{}', '[]');"
+        "insert into events values (1, 20.0, 'brake: brake with 6 m/s²', 'leader');"
+    )
+    old.close()
+    for _ in range(2):  # the second time it has the present layout
+        runs = open_runs(path)
+        assert runs.events(1) == [Happening(20.0, "brake: brake with 6 m/s²", "leader")]
+        runs.close()
+    runs = open_runs(path)
+    newer = happening(HIT, 21.0, ("a", "b"), impact_speed=2.0)
+    with runs.writing():
+        runs.database.table("events").insert(event_row(1, newer))
+    assert runs.events(1)[1] == newer and runs.find(1).status == "done"

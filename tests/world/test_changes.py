@@ -13,6 +13,7 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.model.driver import FOG_SPEED, REACTION, sight_speed
 from studio.road.ways.path import PATH_SPEED
+from studio.scenario import file
 from studio.scenario.schema import Scenario, unit_at
 from studio.vehicle.contact import MU
 from studio.vehicle.parameter import FRONT
@@ -59,7 +60,7 @@ def test_a_limit_is_for_all_lanes_and_all_who_come_by(sample):
 
 
 def test_a_limit_comes_and_goes(sample):
-    made = build([scenario(sample, {"slow": {"start": {"time": 1}, "end": {"time": 2}, "do": SLOW}})])
+    made = build([scenario(sample, {"slow": {"when": {"kind": "time", "at": 1}, "until": {"kind": "time", "at": 2}, "do": SLOW}})])
     before = made.roads.points.copy()
     seen = []
     for _ in range(150):
@@ -83,11 +84,13 @@ def test_a_limit_stands_on_a_lane_of_a_road_too(sample):
 
 def test_an_event_is_as_good_as_its_time(sample):
     """A change that a vehicle begins ends in the same bits as one that begins at the time when it passed."""
-    by_event = simulation(scenario(sample, {"slow": {"start": {"vehicle": "leader", "along": 430}, "do": SLOW}}, clock={"duration": 15}))
+    by_event = simulation(
+        scenario(sample, {"slow": {"when": {"kind": "passed", "vehicle": "leader", "along": 430}, "do": SLOW}}, clock={"duration": 15})
+    )
     as_fast_as_possible(by_event)
     (begun,) = [each for each in by_event.cases[0].happenings if each.text.startswith("slow begins")]
     assert begun.vehicle == "leader"
-    by_time = simulation(scenario(sample, {"slow": {"start": {"time": begun.time}, "do": SLOW}}, clock={"duration": 15}))
+    by_time = simulation(scenario(sample, {"slow": {"when": {"kind": "time", "at": begun.time}, "do": SLOW}}, clock={"duration": 15}))
     as_fast_as_possible(by_time)
     assert by_event.world.digest() == by_time.world.digest()
     passed = by_event.record().channel("station")[0]
@@ -95,7 +98,13 @@ def test_an_event_is_as_good_as_its_time(sample):
 
 
 def test_beginning_and_end_are_told(sample):
-    changes = {"ice": {"start": {"time": 1}, "end": {"time": 2}, "do": SLOW | {"change": "friction", "friction": 0.3, "speed": 0}}}
+    changes = {
+        "ice": {
+            "when": {"kind": "time", "at": 1},
+            "until": {"kind": "time", "at": 2},
+            "do": SLOW | {"kind": "friction", "friction": 0.3, "speed": 0},
+        }
+    }
     del changes["ice"]["do"]["speed"]
     run = simulation(scenario(sample, changes, clock={"duration": 3}))
     as_fast_as_possible(run)
@@ -104,8 +113,8 @@ def test_beginning_and_end_are_told(sample):
 
 
 def test_friction_is_felt_while_it_acts(sample):
-    oil = {"change": "friction", "route": "east_to_west", "start": 300, "end": 500, "width": 20, "friction": 0.3}
-    made = build([scenario(sample, {"oil": {"start": {"time": 0.5}, "end": {"time": 1.0}, "do": oil}})])
+    oil = {"kind": "friction", "route": "east_to_west", "start": 300, "end": 500, "width": 20, "friction": 0.3}
+    made = build([scenario(sample, {"oil": {"when": {"kind": "time", "at": 0.5}, "until": {"kind": "time", "at": 1.0}, "do": oil}})])
     felt = []
     for _ in range(75):
         tick(made)
@@ -117,10 +126,10 @@ def test_friction_is_felt_while_it_acts(sample):
 
 
 CHANGES = {
-    "slow": {"start": {"time": 2}, "do": SLOW},
+    "slow": {"when": {"kind": "time", "at": 2}, "do": SLOW},
     "oil": {
-        "start": {"vehicle": "leader", "along": 400},
-        "do": {"change": "friction", "route": "east_to_west", "start": 380, "end": 460, "friction": 0.4, "width": 8},
+        "when": {"kind": "passed", "vehicle": "leader", "along": 400},
+        "do": {"kind": "friction", "route": "east_to_west", "start": 380, "end": 460, "friction": 0.4, "width": 8},
     },
 }
 
@@ -137,23 +146,23 @@ def test_a_world_changes_alone(sample):
 
 def test_the_phase_is_part_of_the_hash(sample):
     """Far from every car a change does nothing, and yet the world is another one."""
-    far = {"slow": {"start": {"time": 1}, "do": SLOW | {"start": 1500, "end": 1600}}}
-    later = {"slow": {"start": {"time": 3}, "do": SLOW | {"start": 1500, "end": 1600}}}
+    far = {"slow": {"when": {"kind": "time", "at": 1}, "do": SLOW | {"start": 1500, "end": 1600}}}
+    later = {"slow": {"when": {"kind": "time", "at": 3}, "do": SLOW | {"start": 1500, "end": 1600}}}
     one, other = (run_for([scenario(sample, each)], 2) for each in (far, later))
     assert one.vehicles.state.tobytes() == other.vehicles.state.tobytes()
     assert one.digest() == one.digest(0) != other.digest()
 
 
 def test_a_change_is_set_by_its_path(sample, tmp_path):
-    document = yaml.safe_load(sample.read_text()) | {"changes": {"slow": {"do": SLOW}}}
-    file = tmp_path / "slow.yaml"
-    file.write_text(yaml.safe_dump(document))
-    loaded = job.load(file, {"changes.slow.start.time": 10, "changes.slow.do.speed": 5.0, "weather.visibility": 80})
-    assert loaded.document["changes"]["slow"]["start"]["time"] == 10
-    assert loaded.document["changes"]["slow"]["do"]["speed"] == 5.0
+    document = file.read(sample) | {"script": {"slow": {"do": SLOW}}}
+    path = tmp_path / "slow.yaml"
+    path.write_text(yaml.safe_dump(document))
+    loaded = job.load(path, {"script.slow.when.at": 10, "script.slow.do.speed": 5.0, "weather.visibility": 80})
+    assert loaded.document["script"]["slow"]["when"]["at"] == 10
+    assert loaded.document["script"]["slow"]["do"]["speed"] == 5.0
     with pytest.raises(ScenarioError) as caught:
-        job.load(file, {"changes.slow.do.sped": 5.0})
-    assert "changes.slow.do.speed" in caught.value.problems[0].remedy
+        job.load(path, {"script.slow.do.sped": 5.0})
+    assert "script.slow.do.speed" in caught.value.problems[0].remedy
 
 
 # -- sight ---------------------------------------------------------------------------------------------
@@ -196,8 +205,8 @@ def test_nobody_collides_in_fog(sample):
 @pytest.mark.parametrize(
     ("path", "unit"),
     [
-        ("changes.x.do.speed", "m/s"), ("changes.x.do.taper", "m"), ("changes.x.do.friction", "1"), ("changes.x.start.time", "s"),
-        ("vehicles.a.position.along", "m"), ("weather.visibility", "m"), ("changes.x.do.nothing", ""),
+        ("script.x.do.speed", "m/s"), ("script.x.do.taper", "m"), ("script.x.do.friction", "1"), ("script.x.when.at", "s"),
+        ("vehicles.a.position.along", "m"), ("weather.visibility", "m"), ("script.x.do.nothing", ""),
     ],
 )  # fmt: skip
 def test_fields_of_alternatives_have_their_unit(path, unit):
@@ -205,9 +214,9 @@ def test_fields_of_alternatives_have_their_unit(path, unit):
 
 
 def test_the_readme_shows_changes_that_are_valid(sample, root):
-    (block,) = re.findall(r"```yaml\n(changes:.*?)```", (root / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    (block,) = re.findall(r"```yaml\n(script:.*?)```", (root / "README.md").read_text(encoding="utf-8"), re.DOTALL)
     shown = yaml.safe_load(block)
-    made = scenario(sample, shown["changes"], weather=shown["weather"])
+    made = scenario(sample, shown["script"], weather=shown["weather"])
     assert [site.name for site in made.sites] == ["roadworks", "slow", "spill"]
 
 
@@ -221,34 +230,38 @@ def test_all_that_is_wrong_is_told_at_once(sample):
         "c": {"do": SLOW | {"route": None, "road": "340498991", "lane": 3}},
         "d": {"do": SLOW | {"route": None, "road": "340498991", "end": 900}},
         "e": {"do": SLOW | {"end": 5000}},
-        "f": {"start": {"vehicle": "leder", "along": 10}, "do": SLOW},
-        "g": {"end": {"vehicle": "leader", "along": 9999}, "do": SLOW},
+        "f": {"when": {"kind": "passed", "vehicle": "leder", "along": 10}, "do": SLOW},
+        "g": {"until": {"kind": "passed", "vehicle": "leader", "along": 9999}, "do": SLOW},
     }
     with pytest.raises(ScenarioError) as caught:
         scenario(sample, changes)
     told = {problem.where.removeprefix("changing: "): problem for problem in caught.value.problems}
     assert sorted(told) == [
-        "changes.a.do.route", "changes.b.do.road", "changes.c.do.lane", "changes.d.do.end", "changes.e.do.end",
-        "changes.f.start.vehicle", "changes.g.end.along",
+        "script.a.do.route", "script.b.do.road", "script.c.do.lane", "script.d.do.end", "script.e.do.end",
+        "script.f.when.vehicle", "script.g.until.along",
     ]  # fmt: skip
-    assert told["changes.a.do.route"].remedy == "did you mean 'east_to_west'?"
-    assert told["changes.b.do.road"].remedy == "did you mean '340498991'?"
-    assert told["changes.f.start.vehicle"].remedy == "did you mean 'leader'?"
-    assert told["changes.c.do.lane"].allowed == "0 to 2" and told["changes.d.do.end"].allowed == "≤ 683 m"
+    assert told["script.a.do.route"].remedy == "did you mean 'east_to_west'?"
+    assert told["script.b.do.road"].remedy == "did you mean '340498991'?"
+    assert told["script.f.when.vehicle"].remedy == "did you mean 'leader'?"
+    assert told["script.c.do.lane"].allowed == "0 to 2" and told["script.d.do.end"].allowed == "≤ 683 m"
 
 
 @pytest.mark.parametrize(
     ("change", "field", "word"),
     [
-        ({"do": SLOW | {"change": "limt"}}, "changes.x.do", "limit"),
-        ({"do": SLOW | {"sped": 3}}, "changes.x.do.sped", "speed"),
-        ({"do": SLOW | {"speed": 0}}, "changes.x.do.speed", "1"),
-        ({"do": SLOW | {"road": "340498991"}}, "changes.x.do", "either"),
-        ({"do": SLOW | {"end": 300}}, "changes.x.do", "behind"),
-        ({"do": SLOW, "start": {"time": 3, "vehicle": "leader"}}, "changes.x.start", "either"),
-        ({"do": SLOW, "start": {"vehicle": "leader"}}, "changes.x.start", "along"),
-        ({"do": SLOW, "start": {"time": 3}, "end": {"time": 3}}, "changes.x", "after"),
-        ({}, "changes.x.do", "missing"),
+        ({"do": SLOW | {"kind": "limt"}}, "script.x.do.kind", "did you mean 'limit'?"),
+        ({"do": {"speed": 3}}, "script.x.do.kind", "close_lane"),
+        ({"do": SLOW | {"sped": 3}}, "script.x.do.sped", "speed"),
+        ({"do": SLOW | {"speed": 0}}, "script.x.do.speed", "1"),
+        ({"do": SLOW | {"road": "340498991"}}, "script.x.do", "either"),
+        ({"do": SLOW | {"end": 300}}, "script.x.do", "behind"),
+        ({"do": SLOW, "when": {"kind": "tim", "at": 3}}, "script.x.when.kind", "did you mean 'time'?"),
+        ({"do": SLOW, "until": {"kind": "pased"}}, "script.x.until.kind", "did you mean 'passed'?"),
+        ({"do": SLOW, "when": {"kind": "time", "at": 3, "vehicle": "leader"}}, "script.x.when.vehicle", "not a field"),
+        ({"do": SLOW, "when": {"kind": "passed", "vehicle": "leader"}}, "script.x.when.along", "missing"),
+        ({"do": SLOW, "until": {"kind": "passed", "vehicle": "leader"}}, "script.x.until.along", "missing"),
+        ({"do": SLOW, "when": {"kind": "time", "at": 3}, "until": {"kind": "time", "at": 3}}, "script.x", "after its beginning (3 s)"),
+        ({}, "script.x.do", "missing"),
     ],
 )
 def test_bad_changes_are_named(sample, change, field, word):
@@ -261,7 +274,7 @@ def test_bad_changes_are_named(sample, change, field, word):
 
 # -- objects -------------------------------------------------------------------------------------------
 
-WALL = {"change": "objects", "route": "east_to_west", "start": 450, "end": 451, "kind": "barriers", "spacing": 5}
+WALL = {"kind": "objects", "route": "east_to_west", "start": 450, "end": 451, "what": "barriers", "spacing": 5}
 
 
 def wall(at=450.0, **other):
@@ -272,7 +285,7 @@ def wall(at=450.0, **other):
 @pytest.mark.parametrize("kind", ["cones", "barriers"])
 def test_a_driver_stops_before_what_stands_in_the_way(sample, kind):
     """At the gap that he wants at rest, comfortably; the gap is recorded as that to a car."""
-    run = simulation(scenario(sample, wall(kind=kind), clock={"duration": 20}))
+    run = simulation(scenario(sample, wall(what=kind), clock={"duration": 20}))
     as_fast_as_possible(run)
     half = {"cones": 0.15, "barriers": 0.75}[kind]
     bumper = run.record().channel("station")[0] + run.world.vehicles.parameter[FRONT, 0]
@@ -292,30 +305,31 @@ def test_what_stands_aside_is_passed(sample):
 def test_a_collision_with_an_object_is_told_by_its_name(sample):
     """Nobody can stop before a barrier that appears 5 m ahead at 13 m/s, but before the next one, 20 m farther on."""
     changes = wall(at=450.0)
-    changes["wall"]["start"] = {"vehicle": "leader", "along": 443}
+    changes["wall"]["when"] = {"kind": "passed", "vehicle": "leader", "along": 443}
     changes["wall"]["do"] |= {"end": 470, "spacing": 20}
     run = simulation(scenario(sample, changes, clock={"duration": 12}))
     as_fast_as_possible(run)
-    hits = [each for each in run.cases[0].happenings if each.text.startswith("collision")]
-    assert [each.text.partition(" at ")[0] for each in hits] == ["collision of leader and barrier_1 of wall"]
-    assert 8.0 < float(hits[0].text.split()[-2]) < 13.0
+    hits = [each for each in run.cases[0].happenings if each.kind == "collision"]
+    assert [each.units for each in hits] == [("leader", "barrier_1 of wall")]
+    assert 8.0 < hits[0].numbers["impact_speed"].value < 13.0 and hits[0].numbers["impact_speed"].unit == "m/s"
+    assert hits[0].text == f"collision of leader and barrier_1 of wall at {hits[0].numbers['impact_speed'].value:.1f} m/s"
     contact = run.record().channel("station")[0][np.searchsorted(run.record().time, hits[0].time)] + run.world.vehicles.parameter[FRONT, 0]
     assert 450.0 - 0.75 - 0.3 < contact < 450.0 - 0.75 + 0.6
 
 
 def test_the_radar_sees_a_barrier_at_rest_and_no_cone(sample):
     for kind, seen in (("barriers", True), ("cones", False)):
-        world = run_for([scenario(sample, wall(kind=kind))], 0.5)
-        sensors, state = world.units.mounted[0].out[:, 0], world.vehicles.state[:, 0]
-        assert sensors[0] == seen
+        world = run_for([scenario(sample, wall(what=kind))], 0.5)
+        (found, distance, rate, _), state = world.units.mounted[0].out[:, 0], world.vehicles.state[:, 0]
+        assert found == seen
         if seen:
-            assert sensors[1] == pytest.approx(450.0 - 0.75 - world.vehicles.mind[STATION, 0] - world.vehicles.parameter[FRONT, 0], abs=0.6)
-            assert sensors[2] == pytest.approx(-state[V_X], abs=0.3)
+            assert distance == pytest.approx(450.0 - 0.75 - world.vehicles.mind[STATION, 0] - world.vehicles.parameter[FRONT, 0], abs=0.6)
+            assert rate == pytest.approx(-state[V_X], abs=0.3)
 
 
 def test_objects_come_and_go(sample):
     changes = wall(at=600.0)
-    changes["wall"] |= {"start": {"time": 0.2}, "end": {"time": 0.4}}
+    changes["wall"] |= {"when": {"kind": "time", "at": 0.2}, "until": {"kind": "time", "at": 0.4}}
     made = build([scenario(sample, changes)])
     stand = []
     for _ in range(30):

@@ -4,9 +4,9 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import pytest
-import yaml
 
 from studio import job
+from studio.scenario import file
 from studio.scenario.setup import complete
 from studio.world.build import build
 from studio.world.setting import setting
@@ -18,7 +18,7 @@ SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
 
 def prepared(sample, *, reverse=False):
     """A sample, its vehicles in the order of the file or the other way round."""
-    document = yaml.safe_load(sample.read_text(encoding="utf-8"))
+    document = file.read(sample)
     if reverse:
         document["vehicles"] = dict(reversed(document["vehicles"].items()))
     return setting(complete(document, sample.name), sample.parent, sample.name)

@@ -25,7 +25,7 @@ from tests.changing import drive, run_for
 
 scenario = partial(changing.scenario, lane=1)  # the cars come along the middle lane
 ROAD, LANE_WIDTH = "340498991", 3.2  # three lanes; the sample's leader comes along the middle one
-CLOSED = {"change": "close_lane", "road": ROAD, "lane": 1, "start": 460, "end": 520, "taper": 40}
+CLOSED = {"kind": "close_lane", "road": ROAD, "lane": 1, "start": 460, "end": 520, "taper": 40}
 WORKS = {"works": {"do": CLOSED}}
 
 
@@ -77,7 +77,7 @@ def test_a_led_path_has_its_points_a_metre_apart(closed):
 
 def test_a_taper_eases_over_by_a_lane(closed):
     """On a straight road the offset is the lane's width times 10 u³ - 15 u⁴ + 6 u⁵, the greatest curvature 10/√3 D/T²."""
-    site, way = closed.sites[0], closed.works.way(closed.cars[0].path)
+    site, way = closed.sites[0].laid[0], closed.works.way(closed.cars[0].path)
     new = way.paths[1]
     stations, left = beside(site.line, new.points[[PATH_X, PATH_Y]])
     taper = (stations > 420) & (stations < 460)
@@ -128,7 +128,7 @@ def two_lanes():
 def test_cars_drive_around_a_closed_lane(sample, closed):
     """Within the closed stretch the car is a lane's width aside, to 0.3 m; it strikes nothing, and comes back."""
     places, world = driven(closed, 18)
-    stations, left = beside(closed.sites[0].line, places)
+    stations, left = beside(closed.sites[0].laid[0].line, places)
     inside = (stations > 460) & (stations < 520)
     assert inside.sum() > 100
     assert left[inside].min() > LANE_WIDTH - 0.3
@@ -152,12 +152,12 @@ def test_objects_stand_where_cars_used_to_drive(closed):
 @pytest.mark.parametrize("along", [400.0, 450.0, 480.0])
 def test_who_is_within_goes_on_and_the_lane_is_closed_behind(sample, along):
     """At the moment of closing: before the taper a car goes around, on it and behind it goes on; the fence waits for it."""
-    begin = {"vehicle": "leader", "along": along}
-    setting = scenario(sample, {"works": {"start": begin, "do": CLOSED}})
+    begin = {"kind": "passed", "vehicle": "leader", "along": along}
+    setting = scenario(sample, {"works": {"when": begin, "do": CLOSED}})
     world, left, standing = build([setting]), [], []
     for _ in range(900):
         tick(world)
-        left.append(beside(setting.sites[0].line, world.vehicles.state[[X, Y], :1]))
+        left.append(beside(setting.sites[0].laid[0].line, world.vehicles.state[[X, Y], :1]))
         standing.append(int(world.obstacles.standing.sum()))
     stations, left = np.array(left)[:, :, 0].T
     inside = (stations > 460) & (stations < 520)
@@ -171,9 +171,9 @@ def test_who_is_within_goes_on_and_the_lane_is_closed_behind(sample, along):
 
 
 def test_a_lane_opens_again(sample):
-    setting = scenario(sample, {"works": {"end": {"time": 2}, "do": CLOSED}})
+    setting = scenario(sample, {"works": {"until": {"kind": "time", "at": 2}, "do": CLOSED}})
     places, world = driven(setting, 18)
-    stations, left = beside(setting.sites[0].line, places)
+    stations, left = beside(setting.sites[0].laid[0].line, places)
     assert np.abs(left[(stations > 440) & (stations < 540)]).max() < 0.3
     assert not world.obstacles.standing.any() and (world.detours.choice == 0).all()
 
@@ -191,7 +191,7 @@ def test_two_closed_lanes_are_passed_on_the_third(sample):
     vehicles = {"leader": {"route": "east_to_west", "position": {"road": ROAD, "lane": 0, "offset": 360}, "speed": 12.0}}
     setting = scenario(sample, changes, vehicles=vehicles)
     places, world = driven(setting, 18)
-    stations, left = beside(setting.sites[0].line, places)
+    stations, left = beside(setting.sites[0].laid[0].line, places)
     inside = (stations > 460) & (stations < 520)
     assert left[inside] == pytest.approx(2 * LANE_WIDTH, abs=0.3)
     assert world.events.hits_found == 0
@@ -199,12 +199,12 @@ def test_two_closed_lanes_are_passed_on_the_third(sample):
 
 @pytest.mark.parametrize("offset", [1.2, -0.8])
 def test_a_shifted_lane_is_driven_where_it_is_now(sample, offset):
-    shift = CLOSED | {"change": "shift_lane", "offset": offset}
+    shift = CLOSED | {"kind": "shift_lane", "offset": offset}
     setting = scenario(sample, {"shift": {"do": shift}})
     places, world = driven(setting, 18)
-    stations, left = beside(setting.sites[0].line, places)
+    stations, left = beside(setting.sites[0].laid[0].line, places)
     usual, _ = driven(scenario(sample, {}), 18)
-    before = np.interp(stations, *beside(setting.sites[0].line, usual))
+    before = np.interp(stations, *beside(setting.sites[0].laid[0].line, usual))
     inside = (stations > 460) & (stations < 520)
     assert (left - before)[inside] == pytest.approx(offset, abs=0.15)
     assert np.abs(left - before)[(stations < 415) | (stations > 575)].max() < 0.1
@@ -221,11 +221,11 @@ def test_cars_side_by_side_sort_themselves_at_the_taper(sample):
 def test_traffic_and_platoon_pass_three_sites(sample, seed):
     """A minute of everybody with a closed lane on the way in, on the circle and on the way out: nobody collides, all keep their line."""
     changes = {
-        "way_in": {"start": {"time": 5}, "do": CLOSED},
-        "circle": {"do": {"change": "close_lane", "road": "30194726", "lane": 2, "start": 30, "end": 45, "taper": 25}},
+        "way_in": {"when": {"kind": "time", "at": 5}, "do": CLOSED},
+        "circle": {"do": {"kind": "close_lane", "road": "30194726", "lane": 2, "start": 30, "end": 45, "taper": 25}},
         "way_out": {
-            "start": {"vehicle": "leader", "along": 700},
-            "do": {"change": "close_lane", "road": "206170873#1", "start": 40, "end": 90},
+            "when": {"kind": "passed", "vehicle": "leader", "along": 700},
+            "do": {"kind": "close_lane", "road": "206170873#1", "start": 40, "end": 90},
         },
     }
     world = build([scenario(sample, changes, alone=False, minding=["right_of_way"], seed=seed)])
@@ -245,9 +245,9 @@ def test_a_closing_does_not_know_its_batch(sample):
     variants = [
         scenario(sample, changes, alone=False)
         for changes in (
-            {"works": {"start": {"time": 3}, "do": CLOSED}},
+            {"works": {"when": {"kind": "time", "at": 3}, "do": CLOSED}},
             {},
-            {"works": {"start": {"vehicle": "leader", "along": 390}, "do": CLOSED}},
+            {"works": {"when": {"kind": "passed", "vehicle": "leader", "along": 390}, "do": CLOSED}},
         )
     ]
     alone = [run_for([each], 14).digest(0) for each in variants]
@@ -260,7 +260,7 @@ def test_a_closing_does_not_know_its_batch(sample):
 @pytest.mark.parametrize("seconds", [1.0, 4.0, 10.0])
 def test_a_snapshot_goes_on_around_a_closing(sample, seconds):
     """Before the lane is closed, while the first cars are led, and while one has not left it."""
-    settings = [scenario(sample, {"works": {"start": {"time": 3}, "do": CLOSED}}, alone=False, applications={})]
+    settings = [scenario(sample, {"works": {"when": {"kind": "time", "at": 3}, "do": CLOSED}}, alone=False, applications={})]
     world, twin = run_for(settings, seconds), build(settings)
     restore(twin, snapshot(world))
     for _ in range(300):
@@ -271,8 +271,8 @@ def test_a_snapshot_goes_on_around_a_closing(sample, seconds):
 
 def test_an_event_on_a_led_path_is_where_it_was(sample):
     """A station of a route is a place: a limit that begins behind a closing begins there on the led path as well."""
-    slow = {"change": "limit", "route": "east_to_west", "start": 900, "end": 950, "speed": 5}
-    after = {"slow": {"start": {"vehicle": "leader", "along": 600}, "do": slow}}
+    slow = {"kind": "limit", "route": "east_to_west", "start": 900, "end": 950, "speed": 5}
+    after = {"slow": {"when": {"kind": "passed", "vehicle": "leader", "along": 600}, "do": slow}}
     setting = scenario(sample, WORKS | after, clock={"duration": 30})
     run = simulation(setting)
     as_fast_as_possible(run)
@@ -288,16 +288,16 @@ def test_an_event_on_a_led_path_is_where_it_was(sample):
 @pytest.mark.parametrize(
     ("changes", "field", "word"),
     [
-        ({"a": CLOSED | {"start": 20}}, "changes.a.do.taper", "≤ 20 m"),
-        ({"a": CLOSED | {"end": 670}}, "changes.a.do.taper", "≤ 13 m"),
-        ({"a": CLOSED | {"lane": 3}}, "changes.a.do.lane", "0 to 2"),
-        ({"a": CLOSED | {"road": "x"}}, "changes.a.do.road", "road of this map"),
-        ({"a": CLOSED | {"taper": 10}}, "changes.a.do.taper", "≥ 12 m"),
-        ({"a": CLOSED, "b": CLOSED}, "changes.b.do", "overlaps 'a'"),
-        ({"a": CLOSED, "b": CLOSED | {"lane": 0, "start": 590, "end": 600}}, "changes.b.do", "overlaps 'a'"),
-        ({"a": CLOSED, "b": CLOSED | {"change": "shift_lane", "offset": 1, "lane": 2}}, "changes.b.do", "overlaps 'a'"),
+        ({"a": CLOSED | {"start": 20}}, "script.a.do.taper", "≤ 20 m"),
+        ({"a": CLOSED | {"end": 670}}, "script.a.do.taper", "≤ 13 m"),
+        ({"a": CLOSED | {"lane": 3}}, "script.a.do.lane", "0 to 2"),
+        ({"a": CLOSED | {"road": "x"}}, "script.a.do.road", "road of this map"),
+        ({"a": CLOSED | {"taper": 10}}, "script.a.do.taper", "≥ 12 m"),
+        ({"a": CLOSED, "b": CLOSED}, "script.b.do", "overlaps 'a'"),
+        ({"a": CLOSED, "b": CLOSED | {"lane": 0, "start": 590, "end": 600}}, "script.b.do", "overlaps 'a'"),
+        ({"a": CLOSED, "b": CLOSED | {"kind": "shift_lane", "offset": 1, "lane": 2}}, "script.b.do", "overlaps 'a'"),
         ({"a": CLOSED | {"start": 350, "end": 370}}, "vehicles.leader.position", "from the beginning"),
-        ({"a": CLOSED | {"speed": 3}}, "changes.a.do.speed", "not a field"),
+        ({"a": CLOSED | {"speed": 3}}, "script.a.do.speed", "not a field"),
         (
             {f"w{i}": CLOSED | {"start": 60 + 120 * i, "end": 70 + 120 * i, "taper": 20} for i in range(5)},
             "vehicles.leader.route",
@@ -314,7 +314,7 @@ def test_bad_works_are_named(sample, changes, field, word):
 def test_no_traffic_starts_within_a_closing(sample):
     """The sample's traffic is where it was, but for those who would stand on the closed ground."""
     free = scenario(sample, {}, alone=False)
-    works = {"way_out": {"do": {"change": "close_lane", "road": "206170873#1", "lane": 0, "start": 100, "end": 600}}}
+    works = {"way_out": {"do": {"kind": "close_lane", "road": "206170873#1", "lane": 0, "start": 100, "end": 600}}}
     closed = scenario(sample, works, alone=False)
     assert len(closed.cars) == len(free.cars)
     for car in closed.cars:

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-import yaml
 
 from studio.errors import ScenarioError
 from studio.execution.simulation import simulation
+from studio.scenario import file
 from studio.scenario.setup import complete
 from studio.vehicle.contact import MU
 from studio.vehicle.state import V_X
@@ -14,18 +14,17 @@ from studio.world.setting import setting
 from studio.world.table.mind import STATION
 from studio.world.tick import environment, tick
 
-ALONG = {"change": "friction", "route": "east_to_west"}
+ALONG = {"kind": "friction", "route": "east_to_west"}
 
 
-def scenario(sample, *, weather=1.0, **stretches):
+def scenario(sample, *, weather=1.0, script=None, **stretches):
     """The sample's leader alone, on another surface."""
-    document = yaml.safe_load(sample.read_text())
-    changes = {name: {"do": ALONG | stretch} for name, stretch in stretches.items()}
+    document = file.read(sample)
+    script = script or {name: {"do": ALONG | stretch} for name, stretch in stretches.items()}
     document |= {
         "weather": {"friction": weather},
-        "changes": changes,
+        "script": script,
         "applications": {},
-        "triggers": {},
         "traffic": {"count": 0},
         "goals": {},
     }
@@ -83,10 +82,10 @@ def test_a_batch_has_its_own_roads(sample):
 def test_ice_lengthens_the_way_to_a_stop(sample):
     """The same driver needs several times the distance from 13 m/s to a stop where the road is icy."""
     ways = []
+    brake = {"brake": {"do": {"kind": "brake", "vehicle": "leader", "deceleration": 8, "duration": 100}}}
     for friction in (1.0, 0.15):
-        run = simulation(scenario(sample, weather=friction))
+        run = simulation(scenario(sample, weather=friction, script=brake))
         for _ in range(500):
-            run.world.vehicles.script[:, 0] = (8.0, 100.0, -1.0)
             run.advance()
             if run.world.vehicles.state[V_X, 0] < 0.1:
                 break
@@ -97,11 +96,11 @@ def test_ice_lengthens_the_way_to_a_stop(sample):
 @pytest.mark.parametrize(
     ("stretch", "field"),
     [
-        ({"route": "nowhere"}, "changes.ice.do.route"),
-        ({"end": 100_000.0}, "changes.ice.do.end"),
-        ({"end": 10.0}, "changes.ice.do"),
-        ({"friction": -1.0}, "changes.ice.do.friction"),
-        ({"side": "top"}, "changes.ice.do.side"),
+        ({"route": "nowhere"}, "script.ice.do.route"),
+        ({"end": 100_000.0}, "script.ice.do.end"),
+        ({"end": 10.0}, "script.ice.do"),
+        ({"friction": -1.0}, "script.ice.do.friction"),
+        ({"side": "top"}, "script.ice.do.side"),
     ],
 )
 def test_bad_stretches_are_named(sample, stretch, field):

@@ -214,7 +214,7 @@ def test_it_is_an_event_and_a_channel(road):
     running.advance(600)
     record = running.record()
     (told,) = record.happenings
-    assert (told.vehicle, told.text) == ("car", "driver takes over: collision")
+    assert (told.vehicle, told.kind, told.text) == ("car", "driver_takes_over", "driver takes over: collision")
     trace = record.trace("car.intervening")
     assert set(trace) == {0.0, 1.0} and record.time[trace == 1.0][0] == pytest.approx(told.time - TICK)
     assert not record.trace("standing.intervening").any()
@@ -228,7 +228,7 @@ def passed_lights(sample, *reasons, reaction_time=1.0):
     vehicle = {"route": "way", "position": {"along": 100}, "speed": 13}
     vehicle["intervention"] = {"reasons": list(reasons), "reaction_time": reaction_time}
     changes = {
-        "traffic.count": 0, "triggers": {}, "applications": {}, "goals": {}, "vehicles": {"car": vehicle},
+        "traffic.count": 0, "script": {}, "applications": {}, "goals": {}, "vehicles": {"car": vehicle},
         "routes": {"way": {"roads": ["340498991", "206170873#1"]}},
     }  # fmt: skip
     world = commanding(build([job.prepare(job.load(sample, changes))]), APP_ACCELERATOR, 0.4)

@@ -21,7 +21,8 @@ from tests.changing import SLOW, scenario
 from tests.conftest import ROOT
 
 SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
-FOLLOWS = {"world.roads.points", "world.roads.pieces", *(f"world.roads.conflicts.{each.name}" for each in fields(Conflicts))}  # made anew
+ROADS, SCRIPT = ("points", "pieces", *(f"conflicts.{each.name}" for each in fields(Conflicts))), ("waiting", "acting")
+FOLLOWS = {*(f"world.roads.{name}" for name in ROADS), *(f"world.script.{name}" for name in SCRIPT)}  # made anew
 SORTED = {f"world.{name}.{each.name}" for name, kind in (("neighbours", Neighbours), ("queues", Queues)) for each in fields(kind)}
 SCRATCH = {"world.roads.near", "world.vehicles.tile", *SORTED}
 KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and kept: zones of pairs of lines, open sky
@@ -64,15 +65,18 @@ def variants(sample, count):
 
 def changing(sample):
     """The cars' lane is closed and opened again; a limit begins at a place behind it, ice for a while; the leader brakes."""
-    lane = {"change": "close_lane", "road": "340498991", "lane": 1, "start": 460, "end": 520, "taper": 40}
-    ice = {"change": "friction", "route": "east_to_west", "start": 300, "end": 700, "friction": 0.5, "width": 20}
-    changes = {
-        "works": {"start": {"time": 2}, "end": {"time": 6}, "do": lane},
-        "slow": {"start": {"vehicle": "leader", "along": 560}, "do": SLOW},
-        "ice": {"start": {"time": 1}, "end": {"time": 5}, "do": ice},
+    lane = {"kind": "close_lane", "road": "340498991", "lane": 1, "start": 460, "end": 520, "taper": 40}
+    ice = {"kind": "friction", "route": "east_to_west", "start": 300, "end": 700, "friction": 0.5, "width": 20}
+    script = {
+        "works": {"when": {"kind": "time", "at": 2}, "until": {"kind": "time", "at": 6}, "do": lane},
+        "slow": {"when": {"kind": "passed", "vehicle": "leader", "along": 560}, "do": SLOW},
+        "ice": {"when": {"kind": "time", "at": 1}, "until": {"kind": "time", "at": 5}, "do": ice},
+        "brake": {
+            "when": {"kind": "time", "at": 1.3},
+            "do": {"kind": "brake", "vehicle": "leader", "deceleration": 3, "duration": 1, "to_speed": 5},
+        },
     }
-    brake = {"time": 1.3, "vehicle": "leader", "do": {"maneuver": "brake", "deceleration": 3, "duration": 1, "to_speed": 5}}
-    return scenario(sample, changes, alone=False, lane=1, triggers={"brake": brake})
+    return scenario(sample, script, alone=False, lane=1)
 
 
 def goes_on(settings, before, ticks):

@@ -1,5 +1,7 @@
 """Pairs of vehicles, traffic included, whose bodies touched."""
 
+from studio.world.table.event import EVENTS, HIT
+
 KIND = "metric"
 TITLE = "Collisions"
 UNIT = "1"
@@ -8,4 +10,4 @@ BETTER = "lower"
 
 def measure(record):
     """Number of pairs [1]."""
-    return sum(event.text.startswith("collision") for event in record.happenings)
+    return sum(event.kind == EVENTS[HIT].name for event in record.happenings)

@@ -13,8 +13,10 @@ from studio.errors import Problem, ScenarioError
 from studio.scenario.finding import short
 from studio.scenario.schema import VERSION
 from studio.scenario.text import doors as part
+from studio.scenario.text import script
 from studio.scenario.text.document import applied
 from studio.scenario.text.patch import Layout, Operation, operation
+from studio.scenario.text.section import free, section
 from studio.scenario.text.source import Source
 
 Migration = Callable[[Source], tuple[list[Operation], list[str]]]
@@ -85,11 +87,6 @@ def unknown(now: Source) -> Iterator[Problem]:
             yield Problem(now.told(f"road.patches.{name}"), "is no stretch", short(stretch), "route, start, end, friction")
 
 
-def section(value: Any) -> Any:
-    """A section of a file; one that was left empty holds nothing."""
-    return {} if value is None else value
-
-
 def doubled(now: Source) -> Iterator[Problem]:
     """A friction that stands in both places: one of the two would be lost."""
     road, beside = now.value["road"], now.value.get("weather")
@@ -120,17 +117,8 @@ def patches(document: dict[str, Any], road: dict[str, Any]) -> tuple[list[Operat
     return [operation("add", ["changes", name], value=each) for name, each in made.items()], told
 
 
-def free(name: str, taken: set[str]) -> str:
-    """The name, with a number behind it when it is taken."""
-    tried, number = name, 1
-    while tried in taken:
-        number += 1
-        tried = f"{name}_{number}"
-    return tried
-
-
 # Version 3 names kinds. Each part of the change is a function of its own; their patches are about different sections.
-DOORS: tuple[Migration, ...] = (part.sensors, part.units, part.messages, part.channels)
+DOORS: tuple[Migration, ...] = (part.sensors, part.units, part.messages, part.channels, script.script)
 
 
 def doors(now: Source) -> tuple[list[Operation], list[str]]:

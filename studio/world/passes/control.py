@@ -1,13 +1,13 @@
-"""Control: who commands what. Triggers start scripted maneuvers; maneuver, application and driver share the actuators.
+"""Control: who commands what. Maneuvers of the script, applications and drivers share the actuators.
 
-Order of precedence on the pedals: a scripted maneuver, then the application, then the driver. What an application does not
+Order of precedence on pedals and wheel: a scripted maneuver, then the application, then the driver. What an application does not
 command stays the driver's. He overrules it only where the scenario says so (intervention.py).
 
 An acceleration is turned into torques by inverting the resistances: F = m_eff u + F_air + F_roll + m g sin(slope). The
 engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain does not do.
 """
 
-from math import cos, inf, isnan, nan, sin
+from math import cos, isnan, nan, sin
 
 from studio.application.port import ACTUATORS
 from studio.compiled import inlined, lean
@@ -19,7 +19,7 @@ from studio.vehicle.contact import SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
 from studio.vehicle.state import ACCELERATOR, ACTIVE, CLUTCH, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X
 from studio.world.passes.intervention import attended, is_minding, let_go
-from studio.world.table.mind import SCRIPT_BRAKE, SCRIPT_SPEED, SCRIPT_UNTIL, STEER_WISH, WISH
+from studio.world.table.mind import DRIVES, SCRIPT_ACCELERATION, SCRIPT_STEERING, STEER_WISH, STEERS, WISH
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
@@ -27,29 +27,6 @@ HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
 ) = range(len(ACTUATORS))  # fmt: skip
-
-
-@lean
-def fire(time, trigger_time, trigger_vehicle, trigger_script, fired, script):
-    """Starts the maneuvers whose time has come."""
-    for i in range(trigger_time.size):
-        if fired[i] == 0 and time >= trigger_time[i] - 1e-9:
-            fired[i] = 1
-            v = trigger_vehicle[i]
-            script[SCRIPT_BRAKE, v] = trigger_script[SCRIPT_BRAKE, i]
-            script[SCRIPT_UNTIL, v] = time + trigger_script[SCRIPT_UNTIL, i]
-            script[SCRIPT_SPEED, v] = trigger_script[SCRIPT_SPEED, i]
-
-
-@inlined
-def is_scripted(v, time, state, script):
-    """Whether a maneuver commands the pedals; it ends with its time, or once its speed is reached."""
-    if time >= script[SCRIPT_UNTIL, v] - 1e-9:
-        return False
-    if state[V_X, v] <= script[SCRIPT_SPEED, v]:
-        script[SCRIPT_UNTIL, v] = -inf
-        return False
-    return True
 
 
 @inlined
@@ -156,10 +133,23 @@ def take_over(v, column, limit, state, parameter, app_command, commands):
 
 
 @inlined
-def steer(v, column, parameter, mind, app_command, commands):
-    """Steering: a torque at the wheel, or an angle; the driver's when the application commands neither."""
-    angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
+def scripted(acceleration):
+    """What a maneuver asks for [m/s²], within the bounds of the interface; what is not finite stays so, and ends the run as failed."""
+    if not acceleration >= STRONGEST_BRAKE:
+        return acceleration if isnan(acceleration) else STRONGEST_BRAKE
+    return min(acceleration, STRONGEST_DRIVE)
+
+
+@inlined
+def steer(v, column, parameter, script, mind, app_command, commands):
+    """Steering: a torque at the wheel, or an angle; the maneuver's, else the application's, else the driver's."""
     limit = parameter[STEER_MAX, v]
+    if script[STEERS, v] != 0.0:
+        angle = script[SCRIPT_STEERING, v]
+        commands[U_STEER, column] = angle if isnan(angle) else min(max(angle, -limit), limit)
+        commands[U_STEER_TORQUE, column] = nan
+        return
+    angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
     commands[U_STEER, column] = min(max(angle, -limit), limit)
     commands[U_STEER_TORQUE, column] = app_command[APP_STEERING_TORQUE, v]
 
@@ -170,16 +160,16 @@ def command(k, time, state, ground, parameter, script, drivers, mind, app_comman
     n = state.shape[1]
     for v in range(n):
         column, is_active = (k % RING) * n + v, state[ACTIVE, v] != 0.0
-        scripted = is_active and is_scripted(v, time, state, script)
+        is_scripted = is_active and script[DRIVES, v] != 0.0
         limit = NO_LIMIT
         if is_minding(v, drivers):
-            limit = permitted(v, time, scripted or not is_active, state, parameter, drivers, mind, app_command)
-        steer(v, column, parameter, mind, app_command, commands)
+            limit = permitted(v, time, is_scripted or not is_active, state, parameter, drivers, mind, app_command)
+        steer(v, column, parameter, script, mind, app_command, commands)
         commands[U_GEAR, column] = app_command[APP_GEAR, v]
         if not is_active:
             pedals(v, column, STRONGEST_BRAKE, state, ground, parameter, commands)
-        elif scripted:
-            pedals(v, column, -script[SCRIPT_BRAKE, v], state, ground, parameter, commands)
+        elif is_scripted:
+            pedals(v, column, scripted(script[SCRIPT_ACCELERATION, v]), state, ground, parameter, commands)
         else:
             pedals(v, column, request(v, limit, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
             take_over(v, column, limit, state, parameter, app_command, commands)

@@ -3,7 +3,7 @@ stretches of the roads. Two passes a tick.
 
 A road has no slope across: under a wheel lies the plane that touches the path beside it.
 
-A stretch is cut into pieces one metre long, across a width or one half of it; they count while their change acts. Where
+A stretch is cut into pieces one metre long, across a width or one half of it; they count while their entry of the script acts. Where
 stretches overlap, the later one of the file counts.
 """
 
@@ -22,15 +22,15 @@ from studio.road.ways.path import (
     interpolate,
 )
 from studio.road.ways.path import Path as RoadPath
-from studio.scenario.schema import Friction
 from studio.vehicle.contact import HEIGHT, MU, SLOPE_X, SLOPE_Y
 from studio.vehicle.corner import side_of
 from studio.vehicle.parameter import L_F, L_R, TRACK_F, TRACK_R
 from studio.vehicle.state import PSI, X, Y
+from studio.world.effect import Slippery
 from studio.world.table.street import (
     PIECE,
     PIECE_ACTS,
-    PIECE_CHANGE,
+    PIECE_ENTRY,
     PIECE_FRICTION,
     PIECE_HEADING,
     PIECE_LEFT,
@@ -78,16 +78,16 @@ def is_raised(path: RoadPath) -> bool:
     return bool(path.points[PATH_HEIGHT].any())
 
 
-def pieces(stretch: Friction, path: RoadPath, world: int, change: int) -> np.ndarray:
-    """float64[PIECE, n] of a stretch along its path."""
+def pieces(effect: Slippery, path: RoadPath, world: int, entry: int) -> np.ndarray:
+    """float64[PIECE, n] of a slippery stretch along its path."""
+    stretch = effect.stretch
     stations = np.arange(stretch.start + 0.5 * PATH_SPACING, stretch.end, PATH_SPACING)
     grid = np.arange(path.points.shape[1]) * PATH_SPACING
     made = np.zeros((len(PIECE), stations.size))
     for row, source in ((PIECE_X, PATH_X), (PIECE_Y, PATH_Y), (PIECE_HEADING, PATH_HEADING)):
         made[row] = np.interp(stations, grid, path.points[source])
-    made[PIECE_LEFT] = 0.0 if stretch.side == "right" else 0.5 * stretch.width
-    made[PIECE_RIGHT] = 0.0 if stretch.side == "left" else 0.5 * stretch.width
-    made[PIECE_FRICTION], made[PIECE_WORLD], made[PIECE_CHANGE] = stretch.friction, world, change
+    made[PIECE_LEFT], made[PIECE_RIGHT] = effect.left, effect.right
+    made[PIECE_FRICTION], made[PIECE_WORLD], made[PIECE_ENTRY] = effect.friction, world, entry
     return made
 
 
@@ -111,7 +111,7 @@ def friction_at(x, y, friction, near, found, table):
 
 @lean
 def near_pieces(v, world, state, table, near):
-    """Fills `near` with the pieces around a vehicle whose change acts; how many there are."""
+    """Fills `near` with the pieces around a vehicle that act; how many there are."""
     found = 0
     for i in range(table.shape[1]):
         dx, dy = table[PIECE_X, i] - state[X, v], table[PIECE_Y, i] - state[Y, v]

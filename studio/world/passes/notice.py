@@ -1,33 +1,50 @@
 """Notices: what has happened in a tick, found by compiled code and written into a table that is emptied now and then.
 
-A notice is a row of numbers; words are made of it only when somebody reads the table. Everything is noticed once, but for
-company, waiting at red lights and drivers who overrule applications, which come and go.
+A notice is a row of numbers; words are made of it only when somebody reads the table (execution/event.py). Everything is noticed once,
+but for company, waiting at red lights and drivers who overrule applications, which come and go, and for red lights that are passed.
 """
 
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
+from studio.road.network.signals import RED
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
-from studio.vehicle.state import ACTIVE, ROLL, V_X
+from studio.vehicle.state import ACTIVE, ROLL, V_X, X, Y
+from studio.world.table.event import (
+    ARRIVED,
+    COMPANY_CAME,
+    COMPANY_LEFT,
+    HIT,
+    RED_PASSED,
+    ROLLED_OVER,
+    SCRIPT_BEGUN,
+    SCRIPT_ENDED,
+    TAKES_OVER,
+    WAITS,
+)
 from studio.world.table.mind import ACTS_COLLISION, AHEAD, RED_STATION, STATION
+from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
 from studio.world.world import World
 
 NOTICE = Table("notice", Role.RECORD, per="notice")
-N_TIME = NOTICE.row("time", "s", "at the end of the tick in which it was found")
-N_KIND = NOTICE.row("kind", "1", "what has happened")
+N_TIME = NOTICE.row("time", "s", "when it happened")
+N_KIND = NOTICE.row("kind", "1", "what has happened, as table/event.py numbers it")
 N_WORLD = NOTICE.row("world", "1", "number of the world")
-N_SUBJECT = NOTICE.row("subject", "1", "number of the trigger, change or follower in the batch, of the collision or vehicle in its world")
-N_OTHER = NOTICE.row("other", "1", "number of the vehicle that has come between, or of the reason; -1 for none")
-TRIGGERED, BEGUN, ENDED, HIT, ROLLED_OVER, ARRIVED, COMPANY, WAITS, TAKES_OVER = range(9)
+N_SUBJECT = NOTICE.row("subject", "1", "number of the vehicle in its world, or of the entry of the script or the follower in the batch")
+N_OTHER = NOTICE.row("other", "1", "number of another vehicle, or OBJECT - i; -1 for none")
+N_X = NOTICE.row("x", "m", "east position of what it is about; not a number when it has none")
+N_Y = NOTICE.row("y", "m", "north position")
+N_VALUE = NOTICE.row("value", "1", "its number, in the unit that table/event.py gives it")
 
 AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is the one that waits
 STANDING = 0.1  # [m/s]
 ROLLED = 1.0  # [rad] a vehicle that leans farther has rolled over
 REASONS = 3  # for which a driver overrules an application
-TOLD_OF_A_VEHICLE = 3 + REASONS  # notices that one vehicle may give in one tick
+TOLD_OF_A_VEHICLE = 4 + REASONS  # notices that one vehicle may give in one tick
 
 
 @dataclass
@@ -35,17 +52,17 @@ class Watch:
     """What is looked out for, what has been told of it, and the table of notices, [row, notice]; `count` of them stand in it."""
 
     named: np.ndarray  # int64[vehicle], 1 for a vehicle of the file, whose arrival and waiting is told
-    trigger_world: np.ndarray
-    change_world: np.ndarray
+    script_world: np.ndarray  # per entry
     follower: np.ndarray  # column of each car that listens to the one ahead of it
     member_first: np.ndarray  # of its chain, per follower
     member_count: np.ndarray
     member: np.ndarray  # numbers of the chains' vehicles in their world
-    triggers_told: np.ndarray
-    changes_told: np.ndarray  # [begun or over, change]
+    script_told: np.ndarray  # [begun or over, entry]
     hits_told: np.ndarray  # per world
     vehicles_told: np.ndarray  # [rolled over or arrived, vehicle]
     waiting: np.ndarray  # int64[vehicle], 1 while it stands at a red light
+    front: np.ndarray  # [m] per vehicle, the station of its bumper at the tick before; not a number when it was on another path
+    path: np.ndarray  # per vehicle, the first point of its path at the tick before
     acting: np.ndarray  # int64[reason, vehicle], 1 while its driver overrules its application
     between: np.ndarray  # per follower, the number of the car between it and the one that it listens to
     table: np.ndarray
@@ -59,22 +76,22 @@ class Watch:
 
 def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int, ...]]]) -> Watch:
     """Looks out for everything; followers are columns, each with the numbers of the vehicles of its chain."""
-    w, e, c, n = world.worlds, world.events, world.changes, world.size
+    w, e, s, n = world.worlds, world.events, world.script, world.size
     sizes = np.array([len(members) for _, members in followers], dtype=np.int64)
-    most = e.fired.size + 2 * c.phase.size + e.hits.shape[1] + TOLD_OF_A_VEHICLE * n + sizes.size
+    most = 2 * s.phase.size + e.hits.shape[1] + TOLD_OF_A_VEHICLE * n + sizes.size
     return Watch(
         named=named,
-        trigger_world=w.of[e.trigger_vehicle],
-        change_world=c.world,
+        script_world=s.world,
         follower=np.array([column for column, _ in followers], dtype=np.int64),
         member_first=np.cumsum(sizes) - sizes,
         member_count=sizes,
         member=np.array([number for _, members in followers for number in members], dtype=np.int64),
-        triggers_told=np.zeros(e.fired.size, dtype=np.int64),
-        changes_told=np.zeros((2, c.phase.size), dtype=np.int64),
+        script_told=np.zeros((2, s.phase.size), dtype=np.int64),
         hits_told=np.zeros(w.first.size, dtype=np.int64),
         vehicles_told=np.zeros((2, n), dtype=np.int64),
         waiting=np.zeros(n, dtype=np.int64),
+        front=np.full(n, nan),
+        path=np.full(n, -1),
         acting=np.zeros((REASONS, n), dtype=np.int64),
         between=np.full(sizes.size, -1),
         table=np.zeros((len(NOTICE), 2 * most)),
@@ -84,19 +101,21 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
 
 def notice(world: World, at: Watch) -> None:
     """The pass: all that has happened in the tick that is over."""
-    v, e, time = world.vehicles, world.events, world.clock.time
-    notice_events(
-        time, e.fired, at.trigger_world, at.triggers_told, world.changes.phase, at.change_world, at.changes_told, e.found, at.hits_told,
-        at.table, at.count,
+    v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
+    if s.phase.size:
+        notice_script(s.phase, s.turned, s.vehicle, v.state, at.script_world, at.script_told, at.table, at.count)
+    notice_hits(e.found, e.hits, w.first, v.state, at.hits_told, at.table, at.count)
+    notice_vehicles(time, v.state, w.of, w.number, at.named, at.vehicles_told, at.table, at.count)
+    notice_company(time, v.state, v.mind, w.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
+    notice_lights(
+        time, world.clock.tick, v.state, v.mind, v.parameter, w.of, w.number, at.named, r.path_first, r.stop_first, r.stop_count,
+        r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
     )  # fmt: skip
-    notice_vehicles(time, v.state, world.worlds.of, world.worlds.number, at.named, at.vehicles_told, at.table, at.count)
-    notice_company(time, v.mind, world.worlds.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
-    notice_waiting(time, v.state, v.mind, v.parameter, world.worlds.of, world.worlds.number, at.named, at.waiting, at.table, at.count)
-    notice_drivers(time, v.mind, world.worlds.of, world.worlds.number, at.acting, at.table, at.count)
+    notice_drivers(time, v.state, v.mind, w.of, w.number, at.acting, at.table, at.count)
 
 
 @lean
-def note(time, kind, world, subject, other, table, count):
+def note(time, kind, world, subject, other, x, y, value, table, count):
     """Writes one notice."""
     i = count[0]
     table[N_TIME, i] = time
@@ -104,7 +123,16 @@ def note(time, kind, world, subject, other, table, count):
     table[N_WORLD, i] = world
     table[N_SUBJECT, i] = subject
     table[N_OTHER, i] = other
+    table[N_X, i] = x
+    table[N_Y, i] = y
+    table[N_VALUE, i] = value
     count[0] = i + 1
+
+
+@inlined
+def note_vehicle(time, kind, v, other, value, state, world_of, number, table, count):
+    """Writes one notice about a vehicle, at its place."""
+    note(time, kind, world_of[v], number[v], other, state[X, v], state[Y, v], value, table, count)
 
 
 @lean
@@ -117,19 +145,27 @@ def is_news(true, told, i):
 
 
 @lean
-def notice_events(time, fired, trigger_world, triggers_told, phase, change_world, changes_told, found, hits_told, table, count):
-    """Maneuvers that have begun, changes of the road that have begun or ended, collisions."""
-    for i in range(fired.size):
-        if is_news(fired[i] != 0, triggers_told, i):
-            note(time, TRIGGERED, trigger_world[i], i, -1, table, count)
+def notice_script(phase, turned, vehicle, state, script_world, told, table, count):
+    """Entries of the script that have begun or ended."""
     for i in range(phase.size):
-        for turn in range(2):
-            if is_news(phase[i] > turn, changes_told[turn], i):
-                note(time, BEGUN + turn, change_world[i], i, -1, table, count)
+        v = vehicle[i]
+        x, y = (state[X, v], state[Y, v]) if v >= 0 else (nan, nan)
+        if is_news(phase[i] > 0, told[0], i):
+            note(turned[0, i], SCRIPT_BEGUN, script_world[i], i, -1, x, y, nan, table, count)
+        if is_news(phase[i] > 1, told[1], i):
+            note(turned[1, i], SCRIPT_ENDED, script_world[i], i, -1, x, y, nan, table, count)
+
+
+@lean
+def notice_hits(found, hits, first, state, told, table, count):
+    """Collisions, at the place of their first vehicle."""
+    share = hits.shape[1] // found.size
     for w in range(found.size):
-        for i in range(hits_told[w], found[w]):
-            note(time, HIT, w, i, -1, table, count)
-        hits_told[w] = found[w]
+        for i in range(w * share + told[w], w * share + found[w]):
+            a, b = int(hits[HIT_FIRST, i]), int(hits[HIT_SECOND, i])
+            v = first[w] + a
+            note(hits[HIT_TIME, i], HIT, w, a, b, state[X, v], state[Y, v], hits[HIT_SPEED, i], table, count)
+        told[w] = found[w]
 
 
 @lean
@@ -144,30 +180,50 @@ def notice_vehicles(time, state, world_of, number, named, told, table, count):
     """Vehicles that have rolled over, and named ones that have arrived."""
     for v in range(named.size):
         if is_news(abs(state[ROLL, v]) > ROLLED, told[0], v):
-            note(time, ROLLED_OVER, world_of[v], number[v], -1, table, count)
+            note_vehicle(time, ROLLED_OVER, v, -1, nan, state, world_of, number, table, count)
     for v in range(named.size):
         if named[v] != 0 and is_news(state[ACTIVE, v] == 0.0, told[1], v):
-            note(time, ARRIVED, world_of[v], number[v], -1, table, count)
+            note_vehicle(time, ARRIVED, v, -1, nan, state, world_of, number, table, count)
 
 
 @lean
-def notice_waiting(time, state, mind, parameter, world_of, number, named, waiting, table, count):
-    """Named vehicles that have come to a stand at a red light."""
+def notice_lights(time, tick, state, mind, parameter, world_of, number, named, path_first, stop_first, stop_count, stop_station, stop_link,
+                  shown, waiting, front, path, table, count):  # fmt: skip
+    """Named vehicles that have come to a stand at a red light, or have passed one.
+
+    A line is passed between the last look at the own place and the one before it, so it is told for the beginning of the tick.
+    """
     for v in range(named.size):
-        waits = named[v] != 0 and is_waiting(v, state, mind, parameter)
+        if named[v] == 0 or stop_count[v] == 0:
+            continue
+        waits = is_waiting(v, state, mind, parameter)
         if waits and waiting[v] == 0:
-            note(time, WAITS, world_of[v], number[v], -1, table, count)
+            note_vehicle(time, WAITS, v, -1, nan, state, world_of, number, table, count)
         waiting[v] = 1 if waits else 0
+        bumper = mind[STATION, v] + parameter[FRONT, v]
+        before = front[v] if path[v] == path_first[v] else nan
+        front[v], path[v] = bumper, path_first[v]
+        if state[ACTIVE, v] > 0.0 and has_passed_red(before, bumper, stop_first[v], stop_count[v], stop_station, stop_link, shown):
+            note_vehicle(time - tick, RED_PASSED, v, -1, state[V_X, v], state, world_of, number, table, count)
 
 
 @lean
-def notice_drivers(time, mind, world_of, number, acting, table, count):
+def has_passed_red(before, bumper, first, count, stop_station, stop_link, shown):
+    """Whether a bumper has come over a stop line that shows red; [m]."""
+    for i in range(first, first + count):
+        if before < stop_station[i] <= bumper and shown[stop_link[i]] == RED:
+            return True
+    return False
+
+
+@lean
+def notice_drivers(time, state, mind, world_of, number, acting, table, count):
     """Drivers who have begun to overrule their application, and for which reason."""
     for i in range(REASONS):
         for v in range(number.size):
             acts = mind[ACTS_COLLISION + i, v] != 0.0
             if acts and acting[i, v] == 0:
-                note(time, TAKES_OVER, world_of[v], number[v], i, table, count)
+                note_vehicle(time, TAKES_OVER, v, -1, i, state, world_of, number, table, count)
             acting[i, v] = 1 if acts else 0
 
 
@@ -181,12 +237,14 @@ def is_member(number, first, count, member):
 
 
 @lean
-def notice_company(time, mind, world_of, follower, member_first, member_count, member, between, table, count):
+def notice_company(time, state, mind, world_of, follower, member_first, member_count, member, between, table, count):
     """Somebody has come between a follower and the car that it listens to, or has gone again."""
     for i in range(follower.size):
-        seen = int(mind[AHEAD, follower[i]])
+        v = follower[i]
+        seen = int(mind[AHEAD, v])
         if seen < 0 or is_member(seen, member_first[i], member_count[i], member):
             seen = -1
         if seen != between[i]:
             between[i] = seen
-            note(time, COMPANY, world_of[follower[i]], i, seen, table, count)
+            kind = COMPANY_LEFT if seen < 0 else COMPANY_CAME
+            note(time, kind, world_of[v], i, seen, state[X, v], state[Y, v], nan, table, count)

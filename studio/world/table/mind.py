@@ -1,4 +1,4 @@
-"""Drivers: what they are like, what they know and want at this tick, and the maneuvers that a trigger has set going.
+"""Drivers: what they are like, what they know and want at this tick, and what maneuvers of the script command.
 
 The settings of a kind of driver that it alone has stand with its seats, not here.
 """
@@ -48,7 +48,8 @@ ACTS_RED = MIND.row("acts_red_light", "1", "1 while he does before a red light",
 ACTS_WAY = MIND.row("acts_right_of_way", "1", "1 while he does before a car that goes first", role=Role.STATE)
 INTERVENING = MIND.row("intervening", "1", "1 while the driver overrules an application", label="Driver overrules the application")
 
-SCRIPT = Table("script", Role.STATE, per="vehicle")
-SCRIPT_BRAKE = SCRIPT.row("deceleration", "m/s²", "scripted braking")
-SCRIPT_UNTIL = SCRIPT.row("until", "s", "end of the maneuver")
-SCRIPT_SPEED = SCRIPT.row("to_speed", "m/s", "speed at which it ends earlier")
+SCRIPT = Table("script", Role.DERIVED, per="vehicle")
+DRIVES = SCRIPT.row("drives", "1", "1 while a maneuver of the script commands the pedals")
+SCRIPT_ACCELERATION = SCRIPT.row("acceleration", "m/s²", "that it asks for")
+STEERS = SCRIPT.row("steers", "1", "1 while a maneuver of the script commands the wheel")
+SCRIPT_STEERING = SCRIPT.row("steering", "rad", "road wheel angle that it asks for")

@@ -1,4 +1,4 @@
-"""What happens on the roads: lines that vehicles may take, changes, slippery pieces, objects, and collisions."""
+"""What happens on the roads: lines that vehicles may take, slippery pieces, objects, and collisions."""
 
 from studio.rows import Role, Table
 
@@ -10,12 +10,7 @@ LINE_STOPS = LINE.row("stops", "1", "number of its stop lines")
 LINE_OBJECT = LINE.row("first_object", "1", "first object that stands in its way")
 LINE_OBJECTS = LINE.row("objects", "1", "number of them")
 
-# Changes of the road: each begins and ends at a moment, which is a time or a place that a vehicle passes.
-MOMENT = Table("moment", Role.PARAMETER, per="beginning or end of a change")
-WHEN = MOMENT.row("time", "s", "infinite when a vehicle makes it")
-BY = MOMENT.row("vehicle", "1", "column of the vehicle, -1 when there is none")
-AT = MOMENT.row("station", "m", "on the path of this vehicle")
-BEFORE, ACTING, OVER = range(3)  # phases of a change
+BEFORE, ACTING, OVER = range(3)  # phases of an entry of the script
 
 # Pieces of slippery stretches.
 PIECE = Table("piece", Role.PARAMETER, per="piece of a slippery stretch")
@@ -26,8 +21,8 @@ PIECE_LEFT = PIECE.row("left", "m", "how far it reaches to the left")
 PIECE_RIGHT = PIECE.row("right", "m", "how far it reaches to the right")
 PIECE_FRICTION = PIECE.row("friction", "1", "relative to the tyre's test track")
 PIECE_WORLD = PIECE.row("world", "1", "number of the world")
-PIECE_CHANGE = PIECE.row("change", "1", "number of the change that it belongs to")
-PIECE_ACTS = PIECE.row("acts", "1", "1 while this change does", role=Role.STATE)
+PIECE_ENTRY = PIECE.row("entry", "1", "number of the entry of the script that it belongs to")
+PIECE_ACTS = PIECE.row("acts", "1", "1 while this entry does", role=Role.STATE)
 
 # Objects on the road: boxes at rest.
 OBSTACLE = Table("obstacle", Role.PARAMETER, per="object on the road")
@@ -37,7 +32,7 @@ O_HEADING = OBSTACLE.row("heading", "rad", "of its length")
 O_LENGTH = OBSTACLE.row("length", "m", "of the object")
 O_WIDTH = OBSTACLE.row("width", "m", "of the object")
 O_KIND = OBSTACLE.row("kind", "1", "0 a cone, 1 a barrier")
-O_CHANGE = OBSTACLE.row("change", "1", "number of the change that it belongs to")
+O_ENTRY = OBSTACLE.row("entry", "1", "number of the entry of the script that it belongs to")
 CONE, BARRIER = range(2)
 OBJECT = -2  # where the number of a vehicle may stand, object i of its world is OBJECT - i; -1 is nothing
 

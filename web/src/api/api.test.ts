@@ -106,14 +106,15 @@ describe("the feed of a live run", () => {
     feed.subscribe(listener);
     socket.say(state("running"));
     socket.say({ type: "samples", time: [0, 0.02], channels: { "leader.speed": [1, 2] } });
-    socket.say({ type: "event", time: 0.5, text: "brakes", vehicle: "leader" });
+    const brakes = { time: 0.5, text: "brakes", vehicle: "leader", kind: "script_begun", units: ["leader"], x: 1, y: 2, numbers: {} };
+    socket.say({ type: "event", ...brakes });
     expect(socket.url).toMatch(/^ws:.*\/api\/live\/5\/socket$/);
     expect(told(feed)).toMatchObject({
       status: "running",
       time: 1,
       real_time_factor: 0.9,
       samples: { time: [0, 0.02] },
-      events: [{ time: 0.5, text: "brakes", vehicle: "leader" }],
+      events: [brakes],
     });
     expect(listener).toHaveBeenCalledTimes(1);
   });

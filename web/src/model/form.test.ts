@@ -32,7 +32,7 @@ describe("the form", () => {
       "applications",
       "radio",
       "vehicles",
-      "triggers",
+      "script",
     ]);
   });
 
@@ -66,9 +66,9 @@ describe("the form", () => {
   });
 
   it("chooses the variant that a constant names, and shows no constant", () => {
-    expect(paths()).toContain("triggers.0.width");
-    expect(paths()).not.toContain("triggers.0.duration");
-    expect(paths()).not.toContain("triggers.0.maneuver");
+    expect(paths()).toContain("script.0.width");
+    expect(paths()).not.toContain("script.0.duration");
+    expect(paths()).not.toContain("script.0.kind");
   });
 
   it("names entries by their keys and properties by their titles", () => {
@@ -77,24 +77,40 @@ describe("the form", () => {
     expect(vehicles?.sections[0]?.sections[0]?.title).toBe("Start");
   });
 
-  it("says in the title which of several changes of the road it is", () => {
+  it("says in the title which of several kinds it is, and has nothing for an end that is not there", () => {
     const kinds = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
-    const alternative = ([change, properties]: [string, object]) => ({
+    const alternative = ([kind, properties]: [string, object]) => ({
       type: "object",
-      properties: { change: { const: change }, ...properties },
+      properties: { kind: { const: kind }, ...properties },
     });
+    const time = alternative(["time", { at: { type: "number", unit: "s" } }]);
     const entry = {
       type: "object",
-      properties: { do: { oneOf: Object.entries(kinds).map(alternative), title: "Change" } },
+      properties: {
+        do: { oneOf: Object.entries(kinds).map(alternative), title: "Do" },
+        until: { anyOf: [{ oneOf: [time] }, { type: "null" }], title: "Until" },
+      },
     };
-    const changing = {
+    const happening = {
       ...source(),
-      schema: { properties: { changes: { type: "object", additionalProperties: entry, title: "Changes" } } },
-      document: { changes: { slow: { do: { change: "limit", speed: 8.3 } }, ice: { do: { change: "friction", width: 2 } } } },
+      schema: { properties: { script: { type: "object", additionalProperties: entry, title: "Script" } } },
+      document: {
+        script: {
+          slow: { do: { kind: "limit", speed: 8.3 }, until: null },
+          ice: { do: { kind: "friction", width: 2 }, until: { kind: "time", at: 3 } },
+        },
+      },
     };
-    const [all] = sections(changing);
-    expect(all?.sections.map(({ sections: [inner] }) => inner?.title)).toEqual(["Change: limit", "Change: friction"]);
-    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual(["changes.slow.do.speed", "changes.ice.do.width"]);
+    const [all] = sections(happening);
+    expect(all?.sections.map((one) => one.sections.map(({ title }) => title))).toEqual([
+      ["Do: limit"],
+      ["Do: friction", "Until: time"],
+    ]);
+    expect(fieldsOf([all as never]).map(({ path }) => path)).toEqual([
+      "script.slow.do.speed",
+      "script.ice.do.width",
+      "script.ice.until.at",
+    ]);
   });
 
   it("marks what is changed and counts it", () => {
@@ -225,7 +241,7 @@ describe("units and values by path", () => {
   });
 
   it("reads through objects and lists", () => {
-    expect(valueAt(document, "triggers.0.width")).toBe(2);
+    expect(valueAt(document, "script.0.width")).toBe(2);
     expect(valueAt(document, "radio.nothing.deeper")).toBeUndefined();
   });
 });

@@ -65,8 +65,7 @@ const ORDER = [
   "radio",
   "vehicles",
   "traffic",
-  "triggers",
-  "changes",
+  "script",
   "weather",
   "clock",
   "goals",
@@ -114,7 +113,7 @@ function objectSection(source: Source, path: string, schema: Schema, value: Tree
 /** Which of several alternatives an entry is: its constant is not among the fields. */
 function variant(source: Source, schema: Schema, key: string, value: Tree): string {
   const child = childSchema(schema, key);
-  if (!child.oneOf) return "";
+  if (!child.oneOf && !child.anyOf?.some((option) => option.oneOf)) return "";
   const chosen = Object.values(resolve(child, source.schema, value[key]).properties ?? {});
   const constant = chosen.find((property) => property.const !== undefined)?.const;
   return typeof constant === "string" ? `: ${words(constant).toLowerCase()}` : "";
@@ -135,10 +134,10 @@ function add(section: Section, source: Source, path: string, child: Schema, valu
     section.fields.push(field(path, schema, value, source.changes, nullable(child, source.schema)));
 }
 
-/** Constants are told by where they stand, and an empty list of objects has nothing to edit. */
+/** Constants are told by where they stand; an object that is not there, or an empty list of objects, has nothing to edit. */
 function editable(schema: Schema, root: Schema): boolean {
   const items = typeof schema.items === "object" ? resolve(schema.items, root, undefined) : {};
-  return schema.const === undefined && items.type !== "object";
+  return schema.const === undefined && schema.type !== "object" && items.type !== "object";
 }
 
 /** Whether one of the alternatives is nothing. */

@@ -749,27 +749,81 @@ export interface components {
         };
         /**
          * Event
-         * @description Something that happened in a run.
+         * @description Something that happened in a run: of which kind, to which units, where, its numbers; and all of it in words.
          */
         Event: {
-            /** Time */
+            /**
+             * Time
+             * @description [s]
+             */
             time: number;
             /** Text */
             text: string;
-            /** Vehicle */
+            /**
+             * Vehicle
+             * @description the first of the units; empty when it is about none
+             */
             vehicle: string;
+            /**
+             * Kind
+             * @description empty in runs that were saved before events had kinds
+             */
+            kind: string;
+            /** Units */
+            units: string[];
+            /**
+             * X
+             * @description [m] to the east
+             */
+            x: number | null;
+            /**
+             * Y
+             * @description [m] to the north
+             */
+            y: number | null;
+            /** Numbers */
+            numbers: {
+                [key: string]: components["schemas"]["Number"];
+            };
         };
         /**
          * EventNews
          * @description Something happened.
          */
         EventNews: {
-            /** Time */
+            /**
+             * Time
+             * @description [s]
+             */
             time: number;
             /** Text */
             text: string;
-            /** Vehicle */
+            /**
+             * Vehicle
+             * @description the first of the units; empty when it is about none
+             */
             vehicle: string;
+            /**
+             * Kind
+             * @description empty in runs that were saved before events had kinds
+             */
+            kind: string;
+            /** Units */
+            units: string[];
+            /**
+             * X
+             * @description [m] to the east
+             */
+            x: number | null;
+            /**
+             * Y
+             * @description [m] to the north
+             */
+            y: number | null;
+            /** Numbers */
+            numbers: {
+                [key: string]: components["schemas"]["Number"];
+            };
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -1423,6 +1477,16 @@ export interface components {
          * @description One message of the socket of a live run.
          */
         News: components["schemas"]["StateNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
+        /**
+         * Number
+         * @description A number with its unit.
+         */
+        Number: {
+            /** Value */
+            value: number;
+            /** Unit */
+            unit: string;
+        };
         /**
          * OnStage
          * @description What the scene is to show: a scenario as it would start, or a live run.

@@ -53,11 +53,11 @@ export const schema: Schema = {
     },
     Brake: {
       type: "object",
-      properties: { maneuver: { const: "brake" }, duration: { type: "number", unit: "s" } },
+      properties: { kind: { const: "brake" }, duration: { type: "number", unit: "s" } },
     },
     Swerve: {
       type: "object",
-      properties: { maneuver: { const: "swerve" }, width: { type: "number", unit: "m" } },
+      properties: { kind: { const: "swerve" }, width: { type: "number", unit: "m" } },
     },
   },
   type: "object",
@@ -75,7 +75,7 @@ export const schema: Schema = {
       additionalProperties: { $ref: "#/$defs/Application" },
       title: "Applications",
     },
-    triggers: { type: "array", items: { oneOf: [{ $ref: "#/$defs/Brake" }, { $ref: "#/$defs/Swerve" }] } },
+    script: { type: "array", items: { oneOf: [{ $ref: "#/$defs/Brake" }, { $ref: "#/$defs/Swerve" }] } },
     goals: { type: "object", additionalProperties: { type: "object" }, title: "Goals" },
   },
 };
@@ -88,7 +88,7 @@ export const document: Tree = {
   applications: {
     platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6, k_p: 0.2 } },
   },
-  triggers: [{ maneuver: "swerve", width: 2 }],
+  script: [{ kind: "swerve", width: 2 }],
   goals: {},
 };
 

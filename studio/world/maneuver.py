@@ -1,0 +1,144 @@
+"""Maneuvers: what an action may look at and command, while it lasts, of the vehicle that it is about; and the loop that asks it.
+
+A scripted maneuver goes before application and driver. A vehicle has one at a time: one that begins ends the one before.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from studio.compiled import inlined, lean
+from studio.kind.loop import written
+from studio.kind.number import sizes, spelled, tuple_of
+from studio.kind.registry import Kind
+from studio.vehicle.state import A_X, ACTIVE, DELTA, V_X
+from studio.world.table.mind import (
+    AHEAD_SPEED,
+    D_PSI,
+    DRIVES,
+    GAP,
+    OFFSET,
+    PATH_KAPPA,
+    SCRIPT_ACCELERATION,
+    SCRIPT_STEERING,
+    STATION,
+    STEER_WISH,
+    STEERS,
+    WISH,
+)  # fmt: skip
+
+
+class Sees(NamedTuple):
+    """What a maneuver knows of its vehicle at a tick."""
+
+    elapsed: float  # [s] since it began
+    speed: float  # [m/s]
+    acceleration: float  # [m/s²] forward
+    steering: float  # [rad] road wheel angle
+    gap: float  # [m] to what is ahead; not a number when nothing is
+    ahead_speed: float  # [m/s] of what is ahead
+    station: float  # [m] along the own path
+    offset: float  # [m] from the own path, left positive
+    heading_error: float  # [rad] heading minus that of the path
+    path_curvature: float  # [1/m]
+    driver_acceleration: float  # [m/s²] that the driver would ask for
+    driver_steering: float  # [rad] road wheel angle that the driver would ask for
+
+
+class Maneuver(NamedTuple):
+    """What it commands: pedals if it `drives`, the wheel if it `steers`; or that it is over."""
+
+    acceleration: float  # [m/s²]
+    steering: float  # [rad] road wheel angle
+    drives: bool
+    steers: bool
+    is_over: bool
+
+
+@inlined
+def drive(acceleration):
+    """The pedals are the maneuver's [m/s²]; the wheel stays with application or driver."""
+    return Maneuver(acceleration, 0.0, True, False, False)
+
+
+@inlined
+def steer(angle):
+    """The wheel is the maneuver's, as a road wheel angle [rad]; the pedals stay with application or driver."""
+    return Maneuver(0.0, angle, False, True, False)
+
+
+@inlined
+def drive_and_steer(acceleration, angle):
+    """Both are the maneuver's [m/s²], [rad]."""
+    return Maneuver(acceleration, angle, True, True, False)
+
+
+@inlined
+def over():
+    """The maneuver has ended, and commands nothing any more."""
+    return Maneuver(0.0, 0.0, False, False, True)
+
+
+@lean
+def seen(v, time, began, state, mind):
+    """What the maneuver of a vehicle sees, that began at a time [s]."""
+    return Sees(
+        time - began,
+        state[V_X, v],
+        state[A_X, v],
+        state[DELTA, v],
+        mind[GAP, v],
+        mind[AHEAD_SPEED, v],
+        mind[STATION, v],
+        mind[OFFSET, v],
+        mind[D_PSI, v],
+        mind[PATH_KAPPA, v],
+        mind[WISH, v],
+        mind[STEER_WISH, v],
+    )
+
+
+@inlined
+def put(told, v, script):
+    """Writes what is commanded of a vehicle."""
+    script[DRIVES, v] = 1.0 if told.drives else 0.0
+    script[SCRIPT_ACCELERATION, v] = told.acceleration
+    script[STEERS, v] = 1.0 if told.steers else 0.0
+    script[SCRIPT_STEERING, v] = told.steering
+
+
+@lean
+def has_left(v, state):
+    """Whether a vehicle has arrived: its maneuver is over."""
+    return state[ACTIVE, v] == 0.0
+
+
+LOOP = '''"""Asks the action {name} for all vehicles that it is about."""
+
+from studio.compiled import compiled
+from studio.world.maneuver import has_left, over, put, seen
+from studio.world.table.street import ACTING
+from {module} import SettingsTuple, act
+
+
+@compiled
+def run(time, entry, vehicle, settings, phase, turned, state, mind, script, come):
+    any_over = False
+    for j in range(entry.size):
+        e, v = entry[j], vehicle[j]
+        if phase[e] != ACTING:
+            continue
+        told = over() if has_left(v, state) else act(SettingsTuple({settings}), seen(v, time, turned[0, e], state, mind))
+        put(told, v, script)
+        if told.is_over:
+            come[e] = 1
+            any_over = True
+    return any_over
+'''
+
+
+def loop(kind: Kind) -> Callable:
+    """The loop of a kind of maneuver: commands its vehicles, and marks in `come` the entries that are over."""
+    module = kind.module
+    tuple_of(module, module.Settings)
+    source = LOOP.format(name=kind.name, module=module.__name__, settings=spelled(sizes(module.Settings), "settings"))
+    return written(f"{kind.sort}_{kind.name}", source, kind).run

@@ -1,0 +1,295 @@
+"""The script while a world runs: what has begun, what is over, and what follows from it. One pass at the beginning of a tick, one where
+the actuators are commanded.
+
+State is the phase of every entry, and which of its lines every vehicle has chosen. Limits, places on the lines, stop lines
+and zones follow from these and are made anew when one turns: that happens a few times in a run, so it need not be compiled.
+Conditions and maneuvers are asked only while somebody waits for them.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from studio.compiled import lean
+from studio.kind import registry
+from studio.kind.number import Find, numbers, row_of, stations
+from studio.road.network import Network
+from studio.road.ways.detour import limited
+from studio.road.ways.path import PATH_SPEED
+from studio.scenario.schema import Scenario
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.state import ACTIVE
+from studio.world import condition, maneuver, obstacle
+from studio.world.condition import View
+from studio.world.effect import Limit
+from studio.world.line import Lines, conflicts
+from studio.world.setting import Setting
+from studio.world.site import Laid, joined_at
+from studio.world.table.mind import SCRIPT, STATION
+from studio.world.table.street import ACTING, OVER, PIECE_ACTS, PIECE_ENTRY
+from studio.world.world import Asked, Maneuvers, Script, World, Worlds
+
+
+def turn(world: World) -> None:
+    """The first pass: lets entries begin and end, and what follows from it."""
+    s, d, o, v = world.script, world.detours, world.obstacles, world.vehicles
+    if s.waiting.size:
+        ask(world)
+    if not d.held.size:
+        return
+    chosen = d.choice.copy()
+    if choose(s.phase, d.vehicle, d.work, d.base, d.span, v.state, v.parameter, v.mind, d.held, d.choice, chosen):
+        go_over(world, chosen)
+    obstacle.put_up(o.table, s.phase, d.held, o.standing)
+
+
+def ask(world: World) -> None:
+    """Asks the conditions that somebody waits for."""
+    s, v, r, time = world.script, world.vehicles, world.roads, world.clock.time
+    view = View(time, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned)
+    for each in (s.asked[i] for i in s.waiting):
+        each.run(view, each.entry, each.turn, each.settings, s.phase, s.come)
+    if proceed(time, s.come, s.vehicle, s.phase, s.turned):
+        s.commands[:] = 0.0
+        post(world)
+
+
+def act(world: World) -> None:
+    """The second pass: maneuvers command their vehicles, and end."""
+    s, v, time = world.script, world.vehicles, world.clock.time
+    any_over = False
+    for each in (s.maneuvers[i] for i in s.acting):
+        any_over |= each.run(time, each.entry, each.vehicle, each.settings, s.phase, s.turned, v.state, v.mind, s.commands, s.come)
+    if any_over:
+        proceed(time, s.come, s.vehicle, s.phase, s.turned)
+        post(world)
+
+
+@lean
+def proceed(time, come, vehicle, phase, turned):
+    """Entries whose turn has come begin or end; whether one did. A maneuver that begins ends the one of its vehicle before it."""
+    any_turned = False
+    for e in range(phase.size):
+        is_due, come[e] = come[e] != 0 and phase[e] != OVER, 0
+        if not is_due:
+            continue
+        any_turned = True
+        turned[phase[e], e] = time
+        phase[e] += 1
+        for other in range(phase.size):
+            if phase[e] == ACTING and other != e and phase[other] == ACTING and vehicle[other] == vehicle[e] >= 0:
+                turned[1, other] = time
+                phase[other] = OVER
+    return any_turned
+
+
+@lean
+def is_within(v, enter, leave, state, parameter, mind):
+    """Whether a part of a vehicle is between two stations of its line."""
+    bumper = mind[STATION, v] + parameter[FRONT, v]
+    return state[ACTIVE, v] > 0.0 and bumper > enter and bumper - parameter[LENGTH, v] < leave
+
+
+@lean
+def choose(phase, vehicle, work, base, span, state, parameter, mind, held, choice, chosen):
+    """Everybody who is not within a work takes the line that it asks for now; counts those who are held by one; whether one went over."""
+    held[:] = 0
+    any_new = False
+    for j in range(vehicle.size):
+        chosen[j] = choice[j]
+        for b in range(work.shape[0]):
+            c = work[b, j]
+            if c < 0:
+                break
+            if (choice[j] >> b & 1) == (phase[c] == ACTING):
+                continue
+            line = base[j] + choice[j]
+            if is_within(vehicle[j], span[2 * b, line], span[2 * b + 1, line], state, parameter, mind):
+                held[c] += 1
+            else:
+                chosen[j] ^= 1 << b
+                any_new = True
+    return any_new
+
+
+def go_over(world: World, chosen: np.ndarray) -> None:
+    """Vehicles take other lines: place on it, stop lines, objects in the way, and everybody's zones."""
+    d, o, v, r = world.detours, world.obstacles, world.vehicles, world.roads
+    for j in np.flatnonzero(chosen != d.choice):
+        column, old, new = d.vehicle[j], d.base[j] + d.choice[j], d.base[j] + chosen[j]
+        v.mind[STATION, column] = carried(v.mind[STATION, column], d.span[:, old], d.span[:, new])
+        carry_stations(world.script, column, d.span[:, old], d.span[:, new])
+        (
+            r.path_first[column], r.path_count[column], r.stop_first[column], r.stop_count[column],
+            o.sweep_first[column], o.sweep_count[column],
+        ) = d.lines[:, new]  # fmt: skip
+    d.choice[:] = chosen
+    meet_anew(world)
+
+
+def meet_anew(world: World) -> None:
+    """Everybody's conflicts, on the lines that are taken now."""
+    r = world.roads
+    r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, world.detours.known)
+
+
+def follow(world: World) -> None:
+    """Makes anew what follows from phases and choices, after both have been set from outside."""
+    if world.script.phase.size:
+        post(world)
+    if world.detours.vehicle.size:
+        meet_anew(world)
+
+
+def carry_stations(script: Script, column: int, old: np.ndarray, new: np.ndarray) -> None:
+    """What waits for a vehicle at a station of its path waits there on its new one."""
+    for each in script.asked:
+        for station, vehicle in each.stations:
+            for i in np.flatnonzero(each.settings[vehicle] == column):
+                each.settings[station, i] = carried(each.settings[station, i], old, new)
+
+
+def carried(station: float, old: np.ndarray, new: np.ndarray) -> float:
+    """A station [m] of one line on another that differs within works; old and new are where they enter and leave these."""
+    known = ~np.isnan(old)
+    order = np.argsort(old[known])
+    here, there = old[known][order], new[known][order]
+    if station <= here[0]:
+        return station
+    return float(np.interp(station, here, there) + max(station - here[-1], 0.0))
+
+
+def post(world: World) -> None:
+    """What the phases mean: limits, slippery pieces, which conditions are waited for, which maneuvers last."""
+    s, pieces = world.script, world.roads.pieces
+    post_limits(s, world.roads.points)
+    pieces[PIECE_ACTS] = s.phase[pieces[PIECE_ENTRY].astype(np.int64)] == ACTING
+    s.waiting = np.flatnonzero([(s.phase[each.entry] == each.turn).any() for each in s.asked])
+    s.acting = np.flatnonzero([(s.phase[each.entry] == ACTING).any() for each in s.maneuvers])
+
+
+def post_limits(script: Script, points: np.ndarray) -> None:
+    """The speeds of all paths under the limits that act."""
+    columns, speed = script.free
+    points[PATH_SPEED, columns] = speed
+    for number, columns, speed in script.limits:
+        if script.phase[number] == ACTING:
+            points[PATH_SPEED, columns] = np.minimum(points[PATH_SPEED, columns], speed)
+
+
+# -- at the start --------------------------------------------------------------------------------------
+
+
+def script_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines) -> Script:
+    """The scripts of all worlds before anything begins."""
+    placed = [(w, site) for w, each in enumerate(settings) for site in each.sites]
+    limits = [each for number, (w, site) in enumerate(placed) for laid in site.laid for each in limits_of(number, laid, w, lines)]
+    limited_at = np.unique(np.concatenate([np.zeros(0, np.int64), *(columns for _, columns, _ in limits)]))
+    finds = finds_of(settings, worlds)
+    maneuvers, vehicle = maneuvers_of(settings, finds)
+    asked = asked_of(settings, finds)
+    return Script(
+        world=np.array([w for w, _ in placed], dtype=np.int64),
+        vehicle=vehicle,
+        phase=np.zeros(len(placed), dtype=np.int64),
+        turned=np.full((2, len(placed)), np.nan),
+        come=np.zeros(len(placed), dtype=np.int64),
+        commands=np.zeros((len(SCRIPT), worlds.of.size)),
+        asked=asked,
+        maneuvers=maneuvers,
+        limits=limits,
+        free=(limited_at, lines.points[PATH_SPEED, limited_at]),
+        waiting=np.flatnonzero([(each.turn == 0).any() for each in asked]),
+        acting=np.zeros(0, dtype=np.int64),
+    )
+
+
+def finds_of(settings: Sequence[Setting], worlds: Worlds) -> list[Find]:
+    """For each world: names as columns of vehicles, numbers of entries and of routes."""
+    found, entries = [], 0
+    for each, first in zip(settings, worlds.first.tolist(), strict=True):
+        columns = {name: first + i for i, name in enumerate(each.names)}
+        numbers = {
+            "vehicle": columns,
+            "unit": columns,
+            "entry": {name: entries + i for i, name in enumerate(each.scenario.script)},
+            "route": {name: i for i, name in enumerate(each.scenario.routes)},
+        }
+        found.append(lambda what, name, numbers=numbers: float(numbers[what][name]))
+        entries += len(each.scenario.script)
+    return found
+
+
+def asked_of(settings: Sequence[Setting], finds: list[Find]) -> list[Asked]:
+    """All conditions, kind by kind."""
+    together: dict[str, list[tuple[int, int, list[float]]]] = {}
+    number = 0
+    for each, find in zip(settings, finds, strict=True):
+        for entry in each.scenario.script.values():
+            for which, part in enumerate((entry.when, entry.until)):
+                if part is not None:
+                    row = numbers_of(part, each.scenario, each.network, find)
+                    together.setdefault(part.kind, []).append((number, which, row))
+            number += 1
+    return [asked(name, rows) for name, rows in together.items()]
+
+
+def asked(name: str, rows: list[tuple[int, int, list[float]]]) -> Asked:
+    """Everybody who waits for one kind of condition."""
+    kind = registry.find("condition", name)
+    made = kind.module.Settings
+    return Asked(
+        kind=kind,
+        entry=np.array([entry for entry, _, _ in rows]),
+        turn=np.array([which for _, which, _ in rows]),
+        settings=np.array([row for _, _, row in rows]).T.copy(),
+        stations=[(row_of(made, station), row_of(made, vehicle)) for station, vehicle in stations(made)],
+        run=condition.loop(kind),
+    )
+
+
+def numbers_of(part, scenario: Scenario, network: Network, find: Find) -> list[float]:
+    """A condition's settings as numbers; stations count on the path that the vehicle drives, which may begin later than its route."""
+    made = numbers(part, find)
+    for station, vehicle in stations(type(part)):
+        made[row_of(type(part), station)] -= joined_at(getattr(part, vehicle), scenario, network)
+    return made
+
+
+def maneuvers_of(settings: Sequence[Setting], finds: list[Find]) -> tuple[list[Maneuvers], np.ndarray]:
+    """All maneuvers, kind by kind, and the vehicle of every entry, -1 for none."""
+    together: dict[str, list[tuple[int, int, list[float]]]] = {}
+    vehicles: list[int] = []
+    for each, find in zip(settings, finds, strict=True):
+        for entry in each.scenario.script.values():
+            module = registry.find("action", entry.do.kind).module
+            column = int(find("vehicle", entry.do.vehicle)) if hasattr(module, "act") else -1
+            if column >= 0:
+                together.setdefault(entry.do.kind, []).append((len(vehicles), column, numbers(entry.do, find)))
+            vehicles.append(column)
+    return [maneuvers(name, rows) for name, rows in together.items()], np.array(vehicles, dtype=np.int64)
+
+
+def maneuvers(name: str, rows: list[tuple[int, int, list[float]]]) -> Maneuvers:
+    """All maneuvers of one kind."""
+    kind = registry.find("action", name)
+    return Maneuvers(
+        kind=kind,
+        entry=np.array([entry for entry, _, _ in rows]),
+        vehicle=np.array([column for _, column, _ in rows]),
+        settings=np.array([row for _, _, row in rows]).T.copy(),
+        run=maneuver.loop(kind),
+    )
+
+
+def limits_of(number: int, laid: Laid, world: int, lines: Lines) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
+    """What a limit means for every line of its world that it concerns: its entry, columns of points, speed."""
+    do = laid.effect
+    if not isinstance(do, Limit):
+        return
+    for each in lines.laid:
+        if each.world == world:
+            speed = limited(each.path, laid.line, do.stretch.start, do.stretch.end, do.speed)
+            concerned = np.flatnonzero(np.isfinite(speed))
+            if concerned.size:
+                yield number, each.first + concerned, speed[concerned]

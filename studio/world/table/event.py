@@ -1,0 +1,42 @@
+"""Events: everything that can happen in a run and is told. Each kind is declared once, in one line.
+
+    HIT = event("collision", "collision of {0} and {1} at {impact_speed:.1f} m/s", impact_speed="m/s")
+
+The sentence names the units that it is about by their places, numbers and words by their names; numbers have units. `HIT` is a plain
+integer, which compiled code writes into the table of notices (world/passes/notice.py).
+"""
+
+from typing import NamedTuple
+
+
+class EventKind(NamedTuple):
+    """A kind of event: its name, its sentence, the units of its numbers, and the names of its words."""
+
+    name: str
+    sentence: str
+    numbers: dict[str, str]
+    words: tuple[str, ...]
+
+
+EVENTS: list[EventKind] = []
+
+
+def event(name: str, sentence: str, *words: str, **numbers: str) -> int:
+    """Declares a kind of event and returns its number. Raises ValueError."""
+    if name in {each.name for each in EVENTS}:
+        raise ValueError(f"there is an event {name!r} already")
+    EVENTS.append(EventKind(name, sentence, numbers, words))
+    return len(EVENTS) - 1
+
+
+SCRIPT_BEGUN = event("script_begun", "{entry} begins: {action}", "entry", "action")
+SCRIPT_ENDED = event("script_ended", "{entry} ends", "entry", "action")
+HIT = event("collision", "collision of {0} and {1} at {impact_speed:.1f} m/s", impact_speed="m/s")
+ROLLED_OVER = event("rolled_over", "rolled over; what it does after this is not claimed")
+ARRIVED = event("arrived", "arrived at the end of its route")
+COMPANY_CAME = event("company_came", "{1} is between it and {2}")
+COMPANY_LEFT = event("company_left", "nobody is between it and {1} any more")
+WAITS = event("waits_at_red", "waits at a red light")
+RED_PASSED = event("red_light_passed", "passes a red light at {speed:.1f} m/s", speed="m/s")
+TAKES_OVER = event("driver_takes_over", "driver takes over: {reason}", "reason")
+FAILED = event("failed", "failed: {reason}", "reason")
