@@ -1,14 +1,22 @@
-"""Drawn inputs: settings within their bounds, and records of drives that nobody has driven."""
+"""Drawn inputs: settings within their bounds, numbers as their units have them, and records of drives that nobody has driven."""
 
+import math
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from studio.execution.record import Chain, Record
+from studio.kind.number import numbers, shapes, tuple_of
+from studio.kind.quantity import Quantity, quantities
 from studio.world.channel import CHANNELS
 
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
+USUAL = {  # range of a quantity by its unit, wider than any that is met
+    "m": (-10.0, 300.0), "m/s": (-10.0, 60.0), "m/s²": (-10.0, 6.0), "rad": (-0.6, 0.6), "rad/s": (-1.0, 1.0), "1/m": (-0.1, 0.1),
+    "s": (0.0, 100.0), "rad s²/m": (0.0, 0.01),
+}  # fmt: skip
 
 
 def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
@@ -19,6 +27,32 @@ def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
         return model.model_validate(given)
     except ValidationError:
         return model()
+
+
+def settings_tuple(module: ModuleType, settings: BaseModel) -> Any:
+    """Settings as compiled code gets them."""
+    rows = iter(numbers(settings))
+    sizes = [each.size for each in shapes(type(settings))]
+    return tuple_of(module, type(settings))(*[next(rows) if size == 1 else tuple(next(rows) for _ in range(size)) for size in sizes])
+
+
+def quantity_tuple(of: type, draw: np.random.Generator) -> Any:
+    """A NamedTuple of quantities with drawn values; what is infinite at first is so now and then."""
+    return of(*[quantity(each, draw) for each in quantities(of)])
+
+
+def quantity(each: Quantity, draw: np.random.Generator) -> Any:
+    """A drawn value of one."""
+    if each.is_flag:
+        return bool(draw.integers(2))
+    if each.size > 1:
+        return tuple(by_unit(each.unit, draw) for _ in range(each.size))
+    return each.default if math.isinf(each.default) and draw.random() < 0.5 else by_unit(each.unit, draw)
+
+
+def by_unit(unit: str, draw: np.random.Generator) -> float:
+    """A number as a unit usually has it; zero now and then."""
+    return float(draw.uniform(*USUAL.get(unit, (-1.0, 1.0)))) if draw.random() < 0.95 else 0.0
 
 
 def value(node: dict[str, Any], draw: np.random.Generator) -> Any:
