@@ -110,9 +110,9 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
 def notice(world: World, at: Watch) -> None:
     """The pass: all that has happened in the tick that is over."""
     v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
-    if s.phase.size:
-        notice_script(s.phase, s.turned, s.vehicle, v.state, at.script_world, at.script_told, at.table, at.count)
-    notice_hits(e.found, e.hits, w.first, v.state, at.hits_told, at.table, at.count)
+    notice_events(
+        s.phase, s.turned, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, v.state, at.table, at.count
+    )
     notice_vehicles(time, v.state, w.of, w.number, at.named, at.vehicles_told, at.table, at.count)
     notice_company(time, v.state, v.mind, w.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
     notice_lights(
@@ -156,6 +156,13 @@ def is_news(true, told, i):
         return False
     told[i] = 1
     return True
+
+
+@lean
+def notice_events(phase, turned, vehicle, script_world, script_told, found, hits, first, hits_told, state, table, count):
+    """What the script and collisions have brought."""
+    notice_script(phase, turned, vehicle, state, script_world, script_told, table, count)
+    notice_hits(found, hits, first, state, hits_told, table, count)
 
 
 @lean
