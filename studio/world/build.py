@@ -114,6 +114,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
         drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
+        any_returns=any(car.returns for car in cars),
         app_command=np.full((len(ACTUATORS), n), np.nan),
     )
 
@@ -151,11 +152,13 @@ def minded(intervention: Intervention) -> list[float]:
 def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, met: Conflicts) -> Roads:
     """Points, the line that every vehicle is on, stop lines, conflicts, signals and surface."""
     _, stop_station, stop_link = stops
+    raised = [ground.is_raised(car.path) for each in settings for car in each.cars]
     return Roads(
         points=lines.points,
         path_first=table[LINE_FIRST, lines.base],
         path_count=table[LINE_COUNT, lines.base],
-        raised=np.array([int(ground.is_raised(car.path)) for each in settings for car in each.cars]),
+        raised=np.array(raised, dtype=np.int64),
+        any_raised=any(raised),
         stop_first=table[LINE_STOP, lines.base],
         stop_count=table[LINE_STOPS, lines.base],
         stop_station=stop_station,

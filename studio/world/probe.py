@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.application import port
 from studio.compiled import lean
 from studio.kind.quantity import Quantity, width
 from studio.world.board.host import Hosted
@@ -67,7 +66,6 @@ def of_sensor(each: Mounted, units: Units) -> Iterator[tuple[int, Probe]]:
 
 def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
     """What an application logs and shows, with the number of the world."""
-    shows = any(one.what == port.NOTICE for one in port.done(each.application.module))
     for column, unit in enumerate(each.unit.tolist()):
         at, world = f"{units.name_of(unit)}.{each.application.name}", int(units.world[unit])
         for part, unit_of, i in parts(each.log):
@@ -77,7 +75,7 @@ def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
                     f"{at}.{part}", unit_of, f"{part.replace('_', ' ').capitalize()} of {each.application.name}", each, "said", i, column
                 ),
             )
-        if shows:
+        if each.shows:
             yield world, Probe(f"{at}.notice", "1", f"Notice of {each.application.name}", each, "shown", -1, column)
 
 
@@ -90,35 +88,66 @@ def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:
             place += 1
 
 
+class Share(NamedTuple):
+    """What is read from one array in one call: from some columns the same rows, which go to places that follow each other."""
+
+    owner: Any
+    field: str
+    first: int  # row
+    count: int  # of rows
+    slot: int
+    columns: np.ndarray
+    where: np.ndarray
+
+
 @dataclass
 class Reader:
-    """Reads all probes at once: those of one array in one call."""
+    """Reads all probes at once."""
 
     probes: list[Probe]
-    shares: list[tuple[Any, str, np.ndarray, np.ndarray, np.ndarray, np.ndarray]] = field(init=False)
+    shares: list[Share] = field(init=False)
 
     def __post_init__(self) -> None:
-        places: dict[tuple[int, str], list[int]] = {}
-        for i, each in enumerate(self.probes):
-            places.setdefault((id(each.owner), each.field), []).append(i)
-        self.shares = [share([self.probes[i] for i in some], some) for some in places.values()]
+        places: dict[tuple, list[tuple[int, int]]] = {}
+        owners = {}
+        for start, count in runs(self.probes):
+            each = self.probes[start]
+            owners[id(each.owner)] = each.owner
+            places.setdefault((id(each.owner), each.field, each.row, count, each.slot), []).append((each.column, start))
+        self.shares = [
+            Share(owners[owner], name, max(row, 0), count, slot, *np.array(some, dtype=np.int64).T.copy())
+            for (owner, name, row, count, slot), some in places.items()
+        ]
 
     def read(self, values: np.ndarray) -> None:
         """All values now, float64[probe]; not a number where there is no target."""
-        for owner, name, rows, columns, slots, where in self.shares:
-            array = getattr(owner, name)
-            pick(array if array.ndim == 2 else array[None].astype(float), rows, columns, slots, where, values)
+        for each in self.shares:
+            array = getattr(each.owner, each.field)
+            pick(
+                array if array.ndim == 2 else array[None].astype(float), each.first, each.count, each.slot, each.columns, each.where, values
+            )
 
 
-def share(some: list[Probe], where: list[int]) -> tuple[Any, str, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """What is read from one array: whose, which rows and columns, which targets, where to."""
-    rows, columns, slots = (np.array([getattr(each, name) for each in some], dtype=np.int64) for name in ("row", "column", "slot"))
-    return some[0].owner, some[0].field, np.maximum(rows, 0), columns, slots, np.array(where, dtype=np.int64)
+def runs(probes: list[Probe]) -> Iterator[tuple[int, int]]:
+    """Where probes of one column begin that stand in rows which follow each other, and how many."""
+    start = 0
+    for i in range(1, len(probes) + 1):
+        if i == len(probes) or not follows(probes[i - 1], probes[i]):
+            yield start, i - start
+            start = i
+
+
+def follows(one: Probe, other: Probe) -> bool:
+    """Whether a probe stands in the row behind another's."""
+    same = one.owner is other.owner and (one.field, one.column, one.slot) == (other.field, other.column, other.slot)
+    return same and other.row == one.row + 1
 
 
 @lean
-def pick(array, rows, columns, slots, where, values):
-    """Some numbers of an array whose first row says how many targets there are."""
-    for i in range(rows.size):
-        there = slots[i] < 0 or array[0, columns[i]] > slots[i]
-        values[where[i]] = array[rows[i], columns[i]] if there else nan
+def pick(array, first, count, slot, columns, where, values):
+    """Some rows of an array whose first row says how many targets there are."""
+    for i in range(columns.size):
+        c, at = columns[i], where[i]
+        there = slot < 0 or array[0, c] > slot
+        for r in range(count):
+            values[at + r] = array[first + r, c] if there else nan

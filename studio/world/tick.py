@@ -14,7 +14,6 @@ from studio.world.board.host import Fault
 from studio.world.board.post import Post, freshest
 from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
-from studio.world.view import View
 from studio.world.world import World
 
 Refuse = Callable[[Fault], None]
@@ -59,9 +58,11 @@ def environment(world: World) -> None:
     """The script, lights, and the ground under the wheels."""
     v, r, time = world.vehicles, world.roads, world.clock.time
     script.turn(world)
-    ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
+    if r.any_raised:
+        ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
     ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
-    traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
+    if r.shown.size:
+        traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
 
 
 def gather(world: World) -> None:
@@ -99,18 +100,8 @@ def sense(world: World) -> None:
         clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
         r.shadow, u.satellite, u.now,
     )  # fmt: skip
-    seen = view(world) if u.mounted else None
     for each in u.mounted:
-        each.run(seen, each.unit, each.stream, each.settings, each.memory, each.out)
-
-
-def view(world: World) -> View:
-    """The world as sensors see it."""
-    v, u, w, o, r, g, clock = world.vehicles, world.units, world.worlds, world.obstacles, world.roads, world.neighbours, world.clock
-    return View(
-        clock.k, clock.time, clock.tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed,
-        g.grid, g.places, g.found, o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
-    )  # fmt: skip
+        each.run(clock.k, clock.time, *world.view, each.unit, each.stream, each.settings, each.memory, each.out)
 
 
 def communicate(world: World) -> None:
@@ -174,6 +165,8 @@ def collide(world: World) -> None:
 def recirculate(world: World) -> None:
     """Traffic that has arrived comes in again."""
     v, r, w, g = world.vehicles, world.roads, world.worlds, world.neighbours
+    if not v.any_returns:
+        return
     traffic.recirculate(
         v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, g.grid, g.places, g.found, g.entered, v.state, v.wheels,
         v.ground, v.parameter, v.gears, v.mind,

@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -44,6 +45,7 @@ class Vehicles(Fleet):
     drivers: np.ndarray
     mind: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
+    any_returns: bool  # at the start
     app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
 
 
@@ -67,6 +69,7 @@ class Roads:
     path_first: Moving
     path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
+    any_raised: bool
     stop_first: Moving
     stop_count: Moving
     stop_station: np.ndarray
@@ -238,6 +241,15 @@ class World:
     origin: str = ""  # digest of what it was built from
     unfit: int = 0  # wishes of drivers at this tick that are no numbers
     arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
+
+    @cached_property
+    def view(self) -> tuple:
+        """What sensors see besides the time, as `View` names it, once the world is in one piece: arrays stay where they are."""
+        v, u, w, o, r, g, tick = self.vehicles, self.units, self.worlds, self.obstacles, self.roads, self.neighbours, self.clock.tick
+        return (
+            tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
+            o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+        )  # fmt: skip
 
     @property
     def size(self) -> int:

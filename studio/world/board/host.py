@@ -11,6 +11,7 @@ fault, and the run of that unit's world fails with it.
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -75,16 +76,25 @@ class Hosted:
     checked: list[str] = field(default_factory=list)  # names of the fields, as faults count them
 
     @property
+    def shows(self) -> bool:
+        """Whether it shows notices to drivers."""
+        return any(one.what == port.NOTICE for one in port.done(self.application.module))
+
+    @property
     def log(self) -> list[Any]:
         """The quantities that it logs."""
         return [each for one in port.done(self.application.module) if one.what == port.LOG for each in quantities(one.type)]
 
+    @cached_property
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """What the loop reads and writes, once the world is in one piece: from then on arrays stay where they are."""
+        own = (self.unit, self.column, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
+        return (*own, *(array for each in self.wiring for array in each.arrays))
+
     def decide(self, time: float, tick: float, fixed: np.ndarray, now: np.ndarray, commands: np.ndarray) -> Iterator["Fault"]:
         """All its units decide; their commands go to their vehicles' columns. Returns what went wrong."""
-        arrays = [array for each in self.wiring for array in each.arrays]
-        state = (self.unit, self.column, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
         try:
-            faults = self.run(time, tick, fixed, now, commands, *state, *arrays)
+            faults = self.run(time, tick, fixed, now, commands, *self.arrays)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())

@@ -14,21 +14,24 @@ from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
 from studio.kind.registry import Kind, stream
 from studio.rows import Moving
+from studio.world.view import View
 
 TEMPLATE = '''"""Asks all sensors of the kind {name}."""
 
 from studio.compiled import lean
 from studio.world.table.unit import PRESENT
-from studio.world.view import about
+from studio.world.view import View, about
 from {module} import {imports}
 
 
 @lean
-def run(view, unit, stream, settings, memory, out):
-    for i in range(unit.size):
-        out[:, i] = 0.0
-        if view.unit[PRESENT, unit[i]] > 0.0:
-            me = about(view, unit[i], i, stream[i])
+def run(k, time, {seen}, mounted_on, stream, settings, memory, out):
+    view = View(k, time, {seen})
+    for i in range(mounted_on.size):
+        if out[0, i] > 0.0:
+            out[:, i] = 0.0
+        if view.unit[PRESENT, mounted_on[i]] > 0.0:
+            me = about(view, mounted_on[i], i, stream[i])
             {found} = measure(view, me, SettingsTuple({settings}), {memory}, out)
             out[0, i] = min(max(found, 0), {capacity})
 {store}'''
@@ -94,6 +97,7 @@ def loop(kind: Kind) -> Callable:
     remembers = [each.size for each in quantities(module.Memory)] if hasattr(module, "Memory") else []
     source = TEMPLATE.format(
         name=kind.name,
+        seen=", ".join(View._fields[2:]),
         module=module.__name__,
         imports="Memory, SettingsTuple, measure" if remembers else "SettingsTuple, measure",
         settings=spelled([each.size for each in shapes(module.Settings)], "settings", "i"),
