@@ -77,6 +77,7 @@ def named(name: str) -> list:
             raise UnknownError(
                 f"There is no file {name}.", [Problem("KIND", "does not exist", name, "a Python file, or the name of a kind")]
             )
+        registry.load_folder(Path(name).resolve().parent)  # it may need others of its folder
         return [registry.load_file(Path(name))]
     found = [kind for kind in registry.every() if name in (kind.name, f"{kind.sort}.{kind.name}")]
     if not found:

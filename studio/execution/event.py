@@ -17,7 +17,16 @@ from studio.scenario.schema import REASONS
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.setting import Setting
-from studio.world.table.event import COMPANY_CAME, COMPANY_LEFT, EVENTS, SCRIPT_BEGUN, SCRIPT_ENDED, TAKES_OVER
+from studio.world.table.event import (
+    COMPANY_CAME,
+    COMPANY_LEFT,
+    EVENTS,
+    MESSAGE_LOST,
+    NOTICE_SHOWN,
+    SCRIPT_BEGUN,
+    SCRIPT_ENDED,
+    TAKES_OVER,
+)  # fmt: skip
 from studio.world.world import World
 
 NOBODY = -1
@@ -79,7 +88,10 @@ class Teller:
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
             TAKES_OVER: self.takes_over,
+            MESSAGE_LOST: self.lost,
+            NOTICE_SHOWN: self.shown,
         }
+        self.showing = [hosted.application.module.NOTICES for hosted in world.hosted if hosted.shows]
 
     def tell(self, watch: Watch) -> Iterator[tuple[int, Happening]]:
         """Empties the table."""
@@ -104,6 +116,15 @@ class Teller:
         follower = self.followers[subject]
         between = () if other == NOBODY else (self.world.names[world][other],)
         return happening(kind, when, (follower.name, *between, follower.ahead), place=place)
+
+    def lost(self, kind, when, world, subject, other, place, value) -> Happening:
+        """A unit hears another again after messages were lost."""
+        names = self.world.units.names[world]
+        return happening(kind, when, (names[subject], names[other]), place=place, missed=value)
+
+    def shown(self, kind, when, world, subject, other, place, value) -> Happening:
+        """An application has begun to show a sentence to its driver."""
+        return happening(kind, when, (self.world.units.names[world][subject],), place=place, sentence=self.showing[other][int(value) - 1])
 
     def takes_over(self, kind, when, world, subject, _other, place, value) -> Happening:
         """A driver has begun to overrule the application of his vehicle."""

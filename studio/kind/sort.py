@@ -194,6 +194,7 @@ SORTS = {
             Need("Settings", "what is set for all units of a scenario", settings, "class Settings(Part): ..."),
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
             Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
+            Need("largest", "the largest message [bytes]", function("settings"), "def largest(settings)"),
             Need("transmit", "one message on its way to one receiver", function("settings", "way", "draw", compiled=True),
                  "def transmit(settings, way, draw)"),
         )),

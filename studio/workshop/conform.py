@@ -5,6 +5,7 @@ conform(kind)   →  [Check]      one after another, each with what is wrong and
 
 import json
 import math
+import re
 from collections.abc import Iterator
 from importlib import import_module
 from typing import Any
@@ -29,7 +30,7 @@ def conform(kind: Kind) -> list[Check]:
 def common(kind: Kind) -> Iterator[Check]:
     """What every kind keeps."""
     wrong = "\n".join(str(each) for each in problems(kind.module, SORTS[kind.sort]))
-    yield Check(f"keeps the contract of a {kind.sort}: {', '.join(each.name for each in SORTS[kind.sort].needs)}", wrong)
+    yield Check(f"has the parts of its contract: {', '.join(each.name for each in SORTS[kind.sort].needs)}", wrong)
     yield tried("its functions and classes say what they are", lambda: undocumented(kind))
     for name in SET:
         if model := getattr(kind.module, name, None):
@@ -38,8 +39,8 @@ def common(kind: Kind) -> Iterator[Check]:
 
 def undocumented(kind: Kind) -> str | None:
     """What has no docstring of its own."""
-    own = [(name, each) for name, each in vars(kind.module).items() if getattr(each, "__module__", "") == kind.module.__name__]
-    without = [name for name, each in own if not name.startswith("_") and callable(each) and not said(each)]
+    own = re.findall(r"^(?:def|class) ([A-Za-z]\w*)", next(iter(kind.texts.values()), ""), re.MULTILINE)
+    without = [name for name in own if not said(getattr(kind.module, name))]
     return f"{', '.join(without)}: write a docstring, with units" if without else None
 
 
@@ -75,17 +76,19 @@ def undescribed(model: type[BaseModel]) -> str | None:
 
 
 def unbounded(model: type[BaseModel]) -> str | None:
-    """Numbers without a lower and an upper bound, and first values that are refused when they are given."""
+    """Numbers without bounds, and first values that are refused when they are given. What must be given needs one bound only."""
     for name, node in properties(model).items():
-        if is_number(node) and not ({"minimum", "exclusiveMinimum"} & set(node) and {"maximum", "exclusiveMaximum"} & set(node)):
+        found = [pair for pair in ({"minimum", "exclusiveMinimum"}, {"maximum", "exclusiveMaximum"}) if pair & set(node)]
+        if is_number(node) and len(found) < (2 if "default" in node else 1):
             return f"{name}: give a lower and an upper bound, ge=..., le=..."
-    model.model_validate(first_values(model))
+    model.model_validate(usual(model))
     return None
 
 
-def first_values(model: type[BaseModel]) -> dict[str, Any]:
-    """The values that count when nothing is set."""
-    return {name: field.get_default(call_default_factory=True) for name, field in model.model_fields.items() if not field.is_required()}
+def usual(model: type[BaseModel]) -> dict[str, Any]:
+    """The values that count when nothing is set; drawn ones for what must be given."""
+    first = {name: field.get_default(call_default_factory=True) for name, field in model.model_fields.items() if not field.is_required()}
+    return draw.settings(model, np.random.default_rng(1)).model_dump() | {name: each for name, each in first.items() if each is not None}
 
 
 def lenient(model: type[BaseModel]) -> str | None:
@@ -93,7 +96,7 @@ def lenient(model: type[BaseModel]) -> str | None:
     numbers = [name for name, node in properties(model).items() if node.get("type") == "number"]
     for name, given in [("no_such_setting", 1), *((name, math.nan) for name in numbers)]:
         try:
-            model.model_validate(first_values(model) | {name: given})
+            model.model_validate(usual(model) | {name: given})
         except ValidationError:
             continue
         return f"{name} = {given!r} was taken: derive it from Part (studio.kind.settings)"

@@ -42,6 +42,8 @@ def texts(sort: str, name: str, folder: Path) -> dict[Path, str]:
 def places(sort: str, name: str, folder: Path) -> dict[Path, Path]:
     """Which file is made of which template."""
     named = {f"{name}.py": "py", f"test_{name}.py": "test.py", f"{name}.yaml": "yaml"}
+    if sort == "message":
+        named[f"{name}_talk.py"] = "talk.py"  # an application: nobody else would tell or hear it
     return {folder / file: TEMPLATES / f"{sort}.{ending}.txt" for file, ending in named.items()}
 
 

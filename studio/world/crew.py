@@ -18,8 +18,20 @@ def problems(scenario: Scenario, where: str) -> list[Problem]:
     """Everything about the applications of a scenario; those that do not exist have been told."""
     known = registry.known("application")
     groups = {name: (group, known[group.application]) for name, group in scenario.applications.items() if group.application in known}
-    found = [each for name, (group, kind) in groups.items() for each in unfit(name, group, kind, scenario, where)]
+    found = list(large(groups, scenario, where))
+    found += [each for name, (group, kind) in groups.items() for each in unfit(name, group, kind, scenario, where)]
     return found + list(quarrels(groups, where))
+
+
+def large(groups: dict[str, tuple[Application, Kind]], scenario: Scenario, where: str) -> Iterator[Problem]:
+    """Messages that the radio does not take."""
+    largest = registry.find("radio", scenario.radio.kind).module.largest(scenario.radio)
+    for name, (_, kind) in groups.items():
+        for one in port.done(kind.module):
+            found = registry.known("message").get(one.kind) if one.what == OUTBOX else None
+            if found and largest < found.module.SIZE:
+                what = f"{kind.name!r} sends {one.kind!r}, which is larger than the radio {scenario.radio.kind!r} takes"
+                yield Problem(f"{where}: applications.{name}.application", what, f"{found.module.SIZE} bytes", f"≤ {largest} bytes")
 
 
 def unfit(name: str, group: Application, kind: Kind, scenario: Scenario, where: str) -> Iterator[Problem]:

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.application import port
 from studio.compiled import lean
 from studio.kind.quantity import Quantity, width
 from studio.world.board.host import Hosted
@@ -67,7 +66,6 @@ def of_sensor(each: Mounted, units: Units) -> Iterator[tuple[int, Probe]]:
 
 def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
     """What an application logs and shows, with the number of the world."""
-    shows = any(one.what == port.NOTICE for one in port.done(each.application.module))
     for column, unit in enumerate(each.unit.tolist()):
         at, world = f"{units.name_of(unit)}.{each.application.name}", int(units.world[unit])
         for part, unit_of, i in parts(each.log):
@@ -77,7 +75,7 @@ def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
                     f"{at}.{part}", unit_of, f"{part.replace('_', ' ').capitalize()} of {each.application.name}", each, "said", i, column
                 ),
             )
-        if shows:
+        if each.shows:
             yield world, Probe(f"{at}.notice", "1", f"Notice of {each.application.name}", each, "shown", -1, column)
 
 

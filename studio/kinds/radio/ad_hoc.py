@@ -1,7 +1,8 @@
 """Ad hoc radio: every message reaches every unit in range, after a delay, or is lost.
 
 Parameters as Massow & Radusch 2018, Table 3: mean delay, variation, loss rate, loss growing with distance, range. How buildings weaken a
-signal stands in studio/model/radio.py.
+signal stands in studio/model/radio.py. Bit rate and largest message are those of ETSI ITS-G5 (EN 302 663: 6 Mbit/s; TS 102 636-4-1:
+1398 bytes).
 """
 
 from pydantic import Field
@@ -18,7 +19,9 @@ TITLE = "Ad hoc radio with constant delay and loss"
 class Settings(Part):
     """The ad hoc radio that all units share."""
 
-    delay: float = number(0.02, unit="s", title="Delay", description="mean, sender's to receiver's application", ge=0, le=1)
+    delay: float = number(
+        0.02, unit="s", title="Delay", description="mean, sender's to receiver's application, besides the time on the air", ge=0, le=1
+    )
     delay_variation: float = number(0.005, unit="s", title="Variation of the delay", description="half width", ge=0, le=1)
     loss: float = number(0.01, unit="1", title="Loss rate", ge=0, le=1)
     loss_per_metre: float = number(0.0, unit="1/m", title="Loss per distance", ge=0, le=0.1)
@@ -36,11 +39,20 @@ class Settings(Part):
         ge=1.5,
         le=6,
     )
+    bit_rate: float = number(
+        6e6, unit="bit/s", title="Bit rate", description="a message is on the air for as long as its size needs", ge=1e5
+    )
+    largest: int = number(1400, unit="byte", title="Largest message", description="that the radio takes", ge=50, le=2304)
 
 
 def longest(settings):
     """The longest delay [s]."""
-    return settings.delay + settings.delay_variation
+    return settings.delay + settings.delay_variation + 8.0 * settings.largest / settings.bit_rate
+
+
+def largest(settings):
+    """The largest message [bytes]."""
+    return settings.largest
 
 
 def reach(settings):
@@ -54,4 +66,4 @@ def transmit(settings, way, draw):
     weakened = radio.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
     distance = radio.felt_distance(way.distance, weakened, settings.path_loss_exponent)
     lost = radio.is_lost(distance, settings.range, settings.loss, settings.loss_per_metre, draw.first)
-    return Transmission(lost, radio.delay(settings.delay, settings.delay_variation, draw.second))
+    return Transmission(lost, radio.delay(settings.delay, settings.delay_variation, draw.second) + 8.0 * way.size / settings.bit_rate)

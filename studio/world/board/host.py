@@ -76,6 +76,11 @@ class Hosted:
     checked: list[str] = field(default_factory=list)  # names of the fields, as faults count them
 
     @property
+    def shows(self) -> bool:
+        """Whether it shows notices to drivers."""
+        return any(one.what == port.NOTICE for one in port.done(self.application.module))
+
+    @property
     def log(self) -> list[Any]:
         """The quantities that it logs."""
         return [each for one in port.done(self.application.module) if one.what == port.LOG for each in quantities(one.type)]

@@ -14,11 +14,14 @@ from studio.road.network.signals import RED
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X, X, Y
+from studio.world.board.host import Hosted
 from studio.world.table.event import (
     ARRIVED,
     COMPANY_CAME,
     COMPANY_LEFT,
     HIT,
+    MESSAGE_LOST,
+    NOTICE_SHOWN,
     RED_PASSED,
     ROLLED_OVER,
     SCRIPT_BEGUN,
@@ -28,6 +31,7 @@ from studio.world.table.event import (
 )
 from studio.world.table.mind import ACTS_COLLISION, AHEAD, RED_STATION, STATION
 from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
+from studio.world.table.unit import H_CAME, H_MISSED, TRUE_X, TRUE_Y
 from studio.world.world import World
 
 NOTICE = Table("notice", Role.RECORD, per="notice")
@@ -65,6 +69,7 @@ class Watch:
     path: np.ndarray  # per vehicle, the first point of its path at the tick before
     acting: np.ndarray  # int64[reason, vehicle], 1 while its driver overrules its application
     between: np.ndarray  # per follower, the number of the car between it and the one that it listens to
+    shown: list[tuple[Hosted, np.ndarray]]  # applications that show notices, with what each unit showed at the tick before
     table: np.ndarray
     count: np.ndarray  # int64[1]
 
@@ -78,7 +83,9 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
     """Looks out for everything; followers are columns, each with the numbers of the vehicles of its chain."""
     w, e, s, n = world.worlds, world.events, world.script, world.size
     sizes = np.array([len(members) for _, members in followers], dtype=np.int64)
-    most = 2 * s.phase.size + e.hits.shape[1] + TOLD_OF_A_VEHICLE * n + sizes.size
+    links, shown = sum(post.link_receiver.size for post in world.units.posts), [each for each in world.hosted if each.shows]
+    on_board = links + sum(each.unit.size for each in shown)
+    most = 2 * s.phase.size + e.hits.shape[1] + TOLD_OF_A_VEHICLE * n + sizes.size + on_board
     return Watch(
         named=named,
         script_world=s.world,
@@ -94,6 +101,7 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         path=np.full(n, -1),
         acting=np.zeros((REASONS, n), dtype=np.int64),
         between=np.full(sizes.size, -1),
+        shown=[(each, np.zeros(each.unit.size, dtype=np.int64)) for each in shown],
         table=np.zeros((len(NOTICE), 2 * most)),
         count=np.zeros(1, dtype=np.int64),
     )
@@ -102,9 +110,9 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
 def notice(world: World, at: Watch) -> None:
     """The pass: all that has happened in the tick that is over."""
     v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
-    if s.phase.size:
-        notice_script(s.phase, s.turned, s.vehicle, v.state, at.script_world, at.script_told, at.table, at.count)
-    notice_hits(e.found, e.hits, w.first, v.state, at.hits_told, at.table, at.count)
+    notice_events(
+        s.phase, s.turned, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, v.state, at.table, at.count
+    )
     notice_vehicles(time, v.state, w.of, w.number, at.named, at.vehicles_told, at.table, at.count)
     notice_company(time, v.state, v.mind, w.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
     notice_lights(
@@ -112,6 +120,12 @@ def notice(world: World, at: Watch) -> None:
         r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
     )  # fmt: skip
     notice_drivers(time, v.state, v.mind, w.of, w.number, at.acting, at.table, at.count)
+    u, now = world.units, time - world.clock.tick
+    for post in u.posts:
+        notice_messages(now, world.clock.tick, post.inbox, post.link_receiver, post.sender, post.link_sender, u.world, u.first, u.now,
+                        at.table, at.count)  # fmt: skip
+    for i, (hosted, told) in enumerate(at.shown):
+        notice_shown(now, i, hosted.shown, told, hosted.unit, u.world, u.first, u.now, at.table, at.count)
 
 
 @lean
@@ -142,6 +156,13 @@ def is_news(true, told, i):
         return False
     told[i] = 1
     return True
+
+
+@lean
+def notice_events(phase, turned, vehicle, script_world, script_told, found, hits, first, hits_told, state, table, count):
+    """What the script and collisions have brought."""
+    notice_script(phase, turned, vehicle, state, script_world, script_told, table, count)
+    notice_hits(found, hits, first, state, hits_told, table, count)
 
 
 @lean
@@ -225,6 +246,28 @@ def notice_drivers(time, state, mind, world_of, number, acting, table, count):
             if acts and acting[i, v] == 0:
                 note_vehicle(time, TAKES_OVER, v, -1, i, state, world_of, number, table, count)
             acting[i, v] = 1 if acts else 0
+
+
+@lean
+def notice_messages(time, tick, inbox, link_receiver, sender, link_sender, unit_world, unit_first, now, table, count):
+    """Messages that came at this tick after others had been lost, as their numbers tell."""
+    for link in range(link_receiver.size):
+        if inbox[H_MISSED, link] > 0.0 and abs(inbox[H_CAME, link] - time) < 0.5 * tick:
+            u, s = link_receiver[link], sender[link_sender[link]]
+            w = unit_world[u]
+            receiver, other, missed = u - unit_first[w], s - unit_first[w], inbox[H_MISSED, link]
+            note(time, MESSAGE_LOST, w, receiver, other, now[TRUE_X, u], now[TRUE_Y, u], missed, table, count)
+
+
+@lean
+def notice_shown(time, which, shown, told, unit, unit_world, unit_first, now, table, count):
+    """Notices that applications have begun to show to their drivers."""
+    for j in range(unit.size):
+        if shown[j] != told[j] and shown[j] > 0:
+            u = unit[j]
+            w = unit_world[u]
+            note(time, NOTICE_SHOWN, w, u - unit_first[w], which, now[TRUE_X, u], now[TRUE_Y, u], shown[j], table, count)
+        told[j] = shown[j]
 
 
 @lean

@@ -1,0 +1,37 @@
+"""A stage: a small world on the motorway that is drawn for it, where what cannot be tried alone is tried."""
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from studio import job
+from studio.execution.simulation import Simulation, simulation
+from studio.road.drawn.motorway import motorway
+
+CARS = {"own": (1, 300.0), "ahead": (1, 335.0), "beside": (0, 312.0), "other": (2, 322.0), "behind": (1, 265.0), "far": (1, 420.0)}
+SCENARIO = {
+    "version": 3,
+    "title": "Stage",
+    "map": {"file": "motorway.xodr"},
+    "clock": {"duration": 60},
+    "routes": {"along": {"roads": ["motorway"], "speeds": [{"at": 0, "speed": 25}]}},
+}
+
+
+def stage(**parts: Any) -> Simulation:
+    """A run at its start: `own` and five cars around it. Parts of the scenario are put over it, and into its vehicles by name."""
+    vehicles = {name: vehicle(lane, along) for name, (lane, along) in CARS.items()}
+    for name, part in parts.pop("vehicles", {}).items():
+        vehicles[name] |= part
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "motorway.xodr").write_text(motorway(), encoding="utf-8")
+        path = Path(folder) / "stage.yaml"
+        path.write_text(yaml.safe_dump(SCENARIO | {"vehicles": vehicles} | parts, allow_unicode=True), encoding="utf-8")
+        return simulation(job.prepare(job.load(path)))
+
+
+def vehicle(lane: int, along: float) -> dict[str, Any]:
+    """A car on a lane of the motorway, at a station [m], without sensors."""
+    return {"route": "along", "position": {"road": "motorway", "lane": lane, "offset": along}, "speed": 25.0, "sensors": {}}

@@ -1,0 +1,43 @@
+"""Messages: what every unit sends by itself is of finite numbers, compiled and as Python the same."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from studio.application.contract import Own
+from studio.application.port import OWN
+from studio.kind.quantity import width
+from studio.kind.registry import Kind
+from studio.workshop import draw, twice
+from studio.workshop.check import Check, tried
+
+DRAWS = 300
+
+
+def checks(kind: Kind) -> Iterator[Check]:
+    """All of them, on drawn cars."""
+    module, seed = kind.module, np.random.default_rng(1)
+    yield tried("SIZE has a byte for every number at least", lambda: small(kind))
+    if hasattr(module, "beacon"):
+        draws = [(own(seed), draw.settings_tuple(module, draw.settings(module.Settings, seed))) for _ in range(DRAWS)]
+        yield tried("Settings have a period, how often every unit sends it", lambda: timeless(kind))
+        yield tried("beacon() gives the same compiled and as Python", lambda: twice.agree(module.beacon, draws))
+        yield tried("beacon() gives finite numbers", lambda: twice.finite(module.beacon, draws))
+        yield tried("beacon() gives the same to the same", lambda: twice.steady(module.beacon, draws))
+
+
+def small(kind: Kind) -> str | None:
+    """A size that cannot be."""
+    least = width(kind.module.Payload)
+    return f"SIZE is {kind.module.SIZE} bytes for {least} numbers: count the payload and its headers" if least > kind.module.SIZE else None
+
+
+def timeless(kind: Kind) -> str | None:
+    """Without a period nobody knows when."""
+    found = kind.module.Settings.model_fields.get("period")
+    return None if found and found.annotation is float else 'add it: period: float = number(0.1, unit="s", title="Period", ge=0.01, le=2)'
+
+
+def own(seed: np.random.Generator) -> Own:
+    """A car as its bus tells of it."""
+    return Own(*[draw.by_unit(each.unit, seed) for each in OWN])
