@@ -195,7 +195,8 @@ class Recorder:
     def traced(self, world: int, count: int) -> dict[str, Traced]:
         """What the probes of one world have read, by name; its first samples."""
         share = self.probe_share[world]
-        return self.named(share, self.joined([chunk.probes[:, share] for chunk in self.chunks], np.zeros((0, share.stop - share.start)), count))
+        none = np.zeros((0, share.stop - share.start))
+        return self.named(share, self.joined([chunk.probes[:, share] for chunk in self.chunks], none, count))
 
     def traced_samples(self, world: int, numbers: list[int]) -> dict[str, Traced]:
         """The same of some samples, by their numbers."""

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from studio import job
+from studio.kind.sort import SORTS
 from studio.store.runs import open_runs
 from tests.patience import until
 
@@ -60,7 +61,7 @@ def test_kinds(client):
     """All of them, with what may be set and what they give; a broken file is told with its traceback."""
     found = client.get("/api/kinds").json()
     kinds = {(each["sort"], each["name"]): each for each in found["kinds"]}
-    assert {"sensor", "radio", "message", "driver", "condition", "action", "metric", "channel", "application"} == {sort for sort, _ in kinds}
+    assert {sort for sort, _ in kinds} == set(SORTS)
     cacc, own = kinds["application", "cacc"], kinds["sensor", "flawless"]
     assert cacc["source"] == "built in" and cacc["settings"]["properties"]["headway"]["unit"] == "s"
     assert own["source"].endswith("flawless.py") and "A radar without noise" in own["description"]
