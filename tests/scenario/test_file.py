@@ -121,8 +121,9 @@ def test_a_start_by_road_and_lane(document, folder):
 
 
 def test_two_applications_on_one_car(document, folder):
+    """Of two that command the same actuator one must come first."""
     document["applications"]["second"] = {"application": "acc", "units": ["follower_1"]}
-    with pytest.raises(ScenarioError, match="with the same priority"):
+    with pytest.raises(ScenarioError, match="commands acceleration of 'follower_1', as 'platoon' does, with the same priority"):
         prepared(document, folder)
 
 
