@@ -20,7 +20,7 @@ def checks(kind: Kind) -> Iterator[Check]:
     module, seed = kind.module, np.random.default_rng(1)
     chosen = [draw.settings(module.Settings, seed) for _ in range(DRAWS)]
     draws = [(draw.settings_tuple(module, each), way(seed), Draw(*seed.uniform(1e-6, 1.0 - 1e-6, 2).tolist())) for each in chosen]
-    yield tried("longest() and reach() are finite, and not negative", lambda: bounds(kind, chosen))
+    yield tried("longest(), reach() and largest() are finite, and not negative", lambda: bounds(kind, chosen))
     yield tried("transmit() gives the same compiled and as Python", lambda: twice.agree(module.transmit, draws))
     yield tried("transmit() gives finite numbers", lambda: twice.finite(module.transmit, draws))
     yield tried("transmit() gives the same to the same", lambda: twice.steady(module.transmit, draws))
@@ -36,7 +36,7 @@ def way(seed: np.random.Generator) -> Way:
 def bounds(kind: Kind, chosen: list[Any]) -> str | None:
     """What the rings of messages are made for."""
     for each in chosen:
-        found = {"longest": float(kind.module.longest(each)), "reach": float(kind.module.reach(each))}
+        found = {name: float(getattr(kind.module, name)(each)) for name in ("longest", "reach", "largest")}
         for name, value in found.items():
             if not (math.isfinite(value) and value >= 0.0):
                 return f"{name}() gave {value!r} for {each}: give a bound that the settings imply"
