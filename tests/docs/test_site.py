@@ -16,7 +16,7 @@ from docs import book
 from docs.formula import block, makeExtension
 from docs.reference import field
 from studio.kind import registry
-from studio.kind.quantity import quantities
+from studio.kind.quantity import quantities as numbers
 from studio.kind.sort import SORTS
 from studio.scenario.datasheet import quantities
 from studio.scenario.schema import Scenario
@@ -108,10 +108,9 @@ def test_every_kind_and_every_part_of_a_contract_is_in_the_reference(site, sort)
 def fields_of(kind) -> list[tuple[str, str]]:
     """What may be set of a kind, and the numbers that it gives: names and meanings."""
     models = [vars(kind.module)[name].model_fields for name in ("Settings", "Parameters") if name in vars(kind.module)]
-    given = [quantities(vars(kind.module)[name]) for name in ("Reading", "Payload") if name in vars(kind.module)]
-    return [(name, each.title) for fields in models for name, each in fields.items()] + [
-        (e.name, e.meaning) for some in given for e in some
-    ]
+    given = [numbers(vars(kind.module)[name]) for name in ("Reading", "Payload") if name in vars(kind.module)]
+    told = [(each.name, each.meaning) for some in given for each in some]
+    return told + [(name, each.title) for fields in models for name, each in fields.items()]
 
 
 def test_every_command_and_route_is_in_the_reference(site):
