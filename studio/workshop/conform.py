@@ -76,17 +76,19 @@ def undescribed(model: type[BaseModel]) -> str | None:
 
 
 def unbounded(model: type[BaseModel]) -> str | None:
-    """Numbers without a lower and an upper bound, and first values that are refused when they are given."""
+    """Numbers without bounds, and first values that are refused when they are given. What must be given needs one bound only."""
     for name, node in properties(model).items():
-        if is_number(node) and not ({"minimum", "exclusiveMinimum"} & set(node) and {"maximum", "exclusiveMaximum"} & set(node)):
+        found = [pair for pair in ({"minimum", "exclusiveMinimum"}, {"maximum", "exclusiveMaximum"}) if pair & set(node)]
+        if is_number(node) and len(found) < (2 if "default" in node else 1):
             return f"{name}: give a lower and an upper bound, ge=..., le=..."
-    model.model_validate(first_values(model))
+    model.model_validate(usual(model))
     return None
 
 
-def first_values(model: type[BaseModel]) -> dict[str, Any]:
-    """The values that count when nothing is set."""
-    return {name: field.get_default(call_default_factory=True) for name, field in model.model_fields.items() if not field.is_required()}
+def usual(model: type[BaseModel]) -> dict[str, Any]:
+    """The values that count when nothing is set; drawn ones for what must be given."""
+    first = {name: field.get_default(call_default_factory=True) for name, field in model.model_fields.items() if not field.is_required()}
+    return draw.settings(model, np.random.default_rng(1)).model_dump() | {name: each for name, each in first.items() if each is not None}
 
 
 def lenient(model: type[BaseModel]) -> str | None:
@@ -94,7 +96,7 @@ def lenient(model: type[BaseModel]) -> str | None:
     numbers = [name for name, node in properties(model).items() if node.get("type") == "number"]
     for name, given in [("no_such_setting", 1), *((name, math.nan) for name in numbers)]:
         try:
-            model.model_validate(first_values(model) | {name: given})
+            model.model_validate(usual(model) | {name: given})
         except ValidationError:
             continue
         return f"{name} = {given!r} was taken: derive it from Part (studio.kind.settings)"

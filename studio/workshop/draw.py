@@ -1,6 +1,7 @@
 """Drawn inputs: settings within their bounds, numbers as their units have them, and records of drives that nobody has driven."""
 
 import math
+from contextlib import suppress
 from types import ModuleType
 from typing import Any
 
@@ -10,9 +11,13 @@ from pydantic import BaseModel, ValidationError
 from studio.execution.record import Chain, Record
 from studio.kind.number import numbers, shapes, tuple_of
 from studio.kind.quantity import Quantity, quantities
+from studio.kind.settings import named
 from studio.world.channel import CHANNELS
 
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
+UNBOUND = 300.0  # how far one is drawn that has no first value either
+TRIES = 50
+STAGE = {"vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway"}
 USUAL = {  # range of a quantity by its unit, wider than any that is met
     "m": (-10.0, 300.0), "m/s": (-10.0, 60.0), "m/s²": (-10.0, 6.0), "rad": (-0.6, 0.6), "rad/s": (-1.0, 1.0), "1/m": (-0.1, 0.1),
     "s": (0.0, 100.0), "rad s²/m": (0.0, 0.01),
@@ -20,18 +25,22 @@ USUAL = {  # range of a quantity by its unit, wider than any that is met
 
 
 def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
-    """Drawn settings; the first values where the drawn ones do not fit together."""
+    """Drawn settings; raises ValidationError when no drawn ones fit together."""
+    for _ in range(TRIES):
+        with suppress(ValidationError):
+            return model.model_validate(given(model, draw))
+    return model.model_validate(given(model, draw))
+
+
+def given(model: type[BaseModel], draw: np.random.Generator) -> dict[str, Any]:
+    """A drawn value for every field, each for itself; names are those of the stage."""
     schema = model.model_json_schema()["properties"]
-    given = {name: value(node, draw) for name, node in schema.items() if "default" in node}
-    try:
-        return model.model_validate(given)
-    except ValidationError:
-        return model()
+    return {name: STAGE.get(named(field)) or value(schema[name], draw, name) for name, field in model.model_fields.items()}
 
 
 def settings_tuple(module: ModuleType, settings: BaseModel) -> Any:
     """Settings as compiled code gets them."""
-    rows = iter(numbers(settings))
+    rows = iter(numbers(settings, lambda what, name: 0.0))
     sizes = [each.size for each in shapes(type(settings))]
     return tuple_of(module, type(settings))(*[next(rows) if size == 1 else tuple(next(rows) for _ in range(size)) for size in sizes])
 
@@ -55,7 +64,7 @@ def by_unit(unit: str, draw: np.random.Generator) -> float:
     return float(draw.uniform(*USUAL.get(unit, (-1.0, 1.0)))) if draw.random() < 0.95 else 0.0
 
 
-def value(node: dict[str, Any], draw: np.random.Generator) -> Any:
+def value(node: dict[str, Any], draw: np.random.Generator, name: str) -> Any:
     """A value for a field of a schema: a number between its bounds, yes or no, one of several; else what it is at first."""
     if "enum" in node:
         return node["enum"][draw.integers(len(node["enum"]))]
@@ -64,12 +73,14 @@ def value(node: dict[str, Any], draw: np.random.Generator) -> Any:
     if node.get("type") == "integer":
         least, most = bounds(node)
         return int(draw.integers(int(np.ceil(least)), int(most) + 1))
-    return float(draw.uniform(*bounds(node))) if node.get("type") == "number" else node["default"]
+    if node.get("type") == "number":
+        return float(draw.uniform(*bounds(node)))
+    return node["default"] if "default" in node else STAGE.get(name, name)
 
 
 def bounds(node: dict[str, Any]) -> tuple[float, float]:
     """Between which values a number is drawn."""
-    far = WIDE * max(abs(node.get("default") or 0.0), 1.0)
+    far = WIDE * max(abs(node["default"] or 0.0), 1.0) if "default" in node else UNBOUND / 2.0
     least = node.get("minimum", node.get("exclusiveMinimum", -far))
     return least, node.get("maximum", node.get("exclusiveMaximum", least + 2.0 * far))
 

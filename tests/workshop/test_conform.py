@@ -4,6 +4,8 @@ import pytest
 
 from studio.kind.registry import load_file
 from studio.workshop.conform import conform, of_settings
+from studio.workshop.suite.action import RANGES
+from studio.world.maneuver import Sees
 
 METRIC = '''"""Does something."""
 KIND = "metric"
@@ -92,3 +94,7 @@ def test_settings(field, base, words):
     exec(f"class Settings({base}):\n    reach: float = {field}", names)
     said = "\n".join(check.wrong for check in of_settings("Settings", names["Settings"]))
     assert words in said and bool(said.strip()) == bool(words), said
+
+
+def test_actions_are_tried_with_all_that_they_see():
+    assert tuple(RANGES) == Sees._fields

@@ -7,10 +7,10 @@ import sys
 import pytest
 
 from studio.errors import KindError
+from studio.kind.sort import SORTS
 from studio.workshop.draft import MAP, TEMPLATES, draft
 from tests.patience import PATIENCE
 
-WRITTEN = sorted({path.name.partition(".")[0] for path in TEMPLATES.iterdir()})
 LONGEST = 40  # lines of a template that are read at once
 
 
@@ -22,7 +22,7 @@ def done(*command, cwd):
 
 
 def test_every_sort_has_its_templates():
-    wanted = {f"{sort}.{ending}.txt" for sort in WRITTEN for ending in ("py", "test.py", "yaml")} | {"message.talk.py.txt"}
+    wanted = {f"{sort}.{ending}.txt" for sort in SORTS for ending in ("py", "test.py", "yaml")} | {"message.talk.py.txt"}
     assert {path.name for path in TEMPLATES.iterdir()} == wanted
 
 
@@ -31,7 +31,7 @@ def test_templates_are_short():
         assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST, path.name
 
 
-@pytest.mark.parametrize("sort", WRITTEN)
+@pytest.mark.parametrize("sort", SORTS)
 def test_it_works_as_it_was_written(sort, tmp_path):
     name = f"my_{sort}"
     written = draft(sort, name, tmp_path)
