@@ -19,8 +19,8 @@ def test_a_default_can_be_changed(sample):
 
 
 def test_items_of_lists(sample):
-    changed = job.load(sample, {"applications.platoon.vehicles.3": "follower_3", "applications.platoon.vehicles.2": "follower_4"})
-    assert changed.scenario.applications["platoon"].vehicles[2:] == ["follower_4", "follower_3"]
+    changed = job.load(sample, {"applications.platoon.units.3": "follower_3", "applications.platoon.units.2": "follower_4"})
+    assert changed.scenario.applications["platoon"].units[2:] == ["follower_4", "follower_3"]
 
 
 @pytest.mark.parametrize(
@@ -30,7 +30,7 @@ def test_items_of_lists(sample):
         ("application.platoon.parameters.headway", "applications"),
         ("clock.duration.seconds", ""),
         ("script.hard_brake.do.decelaration", "script.hard_brake.do.deceleration"),
-        ("applications.platoon.vehicles.9", ""),
+        ("applications.platoon.units.9", ""),
     ],
 )
 def test_a_wrong_path_names_the_nearest(sample, path, remedy):
@@ -62,13 +62,15 @@ def test_what_is_no_assignment(text):
 
 def test_fields_that_depend_on_each_other_change_together(sample):
     assert (
-        job.load(sample, {"clock.step": 0.003, "clock.tick": 0.03, "recording.period": 0.03, "radio.period": 0.09}).scenario.clock.tick
+        job.load(
+            sample, {"clock.step": 0.003, "clock.tick": 0.03, "recording.period": 0.03, "messages.awareness.period": 0.09}
+        ).scenario.clock.tick
         == 0.03
     )
     changed = job.load(sample, {"vehicles.leader.position.along": None, "vehicles.leader.position.road": "340498991"})
     assert changed.scenario.vehicles["leader"].position.road == "340498991"
-    fewer = job.load(sample, {"applications.platoon.vehicles": ["follower_1"], "applications.platoon.listens_to": ["leader"]})
-    assert fewer.scenario.applications["platoon"].vehicles == ["follower_1"]
+    fewer = job.load(sample, {"applications.platoon.units": ["follower_1"], "applications.platoon.listens_to": ["leader"]})
+    assert fewer.scenario.applications["platoon"].units == ["follower_1"]
 
 
 @pytest.mark.parametrize("value", ["2020-13-45", "!!int abc", "!!bool x", "!!timestamp foo", "[" * 5000])

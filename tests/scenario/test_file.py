@@ -41,7 +41,7 @@ def test_the_sample_is_valid_and_complete(document):
         ("applications.platoon.application", "cac", ["applications.platoon.application", "did you mean 'cacc'"]),
         ("applications.platoon.parameters", {"headway": 9}, ["applications.platoon.parameters.headway", "9", "≤ 5"]),
         ("applications.platoon.parameters", {"hedway": 1}, ["parameters.hedway", "did you mean 'headway'"]),
-        ("applications.platoon.listens_to", ["leader"], ["4 vehicles but 1"]),
+        ("applications.platoon.listens_to", ["leader"], ["4 units but 1"]),
         ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
         ("version", 1, ["version", "1"]),
         ("vehicles.leader.sped", 2, ["vehicles.leader.sped", "did you mean 'speed'"]),
@@ -121,8 +121,9 @@ def test_a_start_by_road_and_lane(document, folder):
 
 
 def test_two_applications_on_one_car(document, folder):
-    document["applications"]["second"] = {"application": "acc", "vehicles": ["follower_1"]}
-    with pytest.raises(ScenarioError, match="has one application"):
+    """Of two that command the same actuator one must come first."""
+    document["applications"]["second"] = {"application": "acc", "units": ["follower_1"]}
+    with pytest.raises(ScenarioError, match="commands acceleration of 'follower_1', as 'platoon' does, with the same priority"):
         prepared(document, folder)
 
 
@@ -137,7 +138,7 @@ def test_a_period_that_is_no_whole_number_of_ticks(document, folder):
     [
         ("clock", {"duration": 0.05}, ["clock.duration", "whole number of ticks"]),
         ("goals", {"min_tcc": {"least": 1}}, ["goals.min_tcc", "did you mean 'min_ttc'"]),
-        ("applications", {"a": {"application": "acc", "vehicles": ["leader"], "listens_to": ["leader"]}}, ["itself"]),
+        ("applications", {"a": {"application": "acc", "units": ["leader"], "listens_to": ["leader"]}}, ["itself"]),
     ],
 )
 def test_what_only_makes_sense_as_a_whole(document, folder, path, value, words):

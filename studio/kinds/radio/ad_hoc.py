@@ -40,7 +40,7 @@ class Settings(Part):
         le=6,
     )
     bit_rate: float = number(
-        6e6, unit="bit/s", title="Bit rate", description="a message is on the air for as long as its size needs", ge=1e5
+        6e6, unit="bit/s", title="Bit rate", description="a message is on the air for as long as its size needs", ge=1e5, le=1e10
     )
     largest: int = number(1400, unit="byte", title="Largest message", description="that the radio takes", ge=50, le=2304)
 

@@ -11,8 +11,8 @@ from studio.workshop import draw, twice
 from studio.workshop.check import Check, tried
 from studio.workshop.stage import stage
 from studio.world.board.sensing import Mounted
-from studio.world.tick import gather, view
-from studio.world.view import about
+from studio.world.tick import gather
+from studio.world.view import View, about
 
 SENSORS = 6  # on the car, with drawn settings each, the first with those that count when nothing is set
 LOOKS, APART = 8, 25  # how often is looked, and how many ticks lie between
@@ -50,7 +50,7 @@ def asked(current: Simulation, each: Mounted, i: int, measure) -> tuple[int, np.
     """What one sensor answers now: how many targets, and its column."""
     module = each.kind.module
     out = np.zeros_like(each.out)
-    seen = view(current.world)
+    seen = View(current.world.clock.k, current.world.clock.time, *current.world.view)
     me = about(seen, each.unit[i], i, each.stream[i])
     chosen = current.cases[0].setting.scenario.vehicles["own"].sensors[each.names[i]].model_dump(exclude={"kind"})
     settings = draw.settings_tuple(module, module.Settings.model_validate(chosen))
