@@ -95,7 +95,7 @@ describe("the schema form", () => {
 
   it("exchanges an application", () => {
     show();
-    type(byTestId("param-applications.platoon.application") as unknown as HTMLSelectElement, "acc");
+    type(byTestId("application-platoon") as unknown as HTMLSelectElement, "acc");
     expect(onExchange.mock.lastCall?.[1]).toBe("acc");
   });
 
