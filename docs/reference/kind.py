@@ -8,7 +8,7 @@ from docs.reference.field import fields
 from docs.reference.table import code, filled, table
 from studio.application import contract
 from studio.kind import registry
-from studio.kind.quantity import quantities
+from studio.kind.quantity import Quantity, quantities
 from studio.kind.registry import Kind
 from studio.kind.sort import SORTS, Sort
 
@@ -24,6 +24,16 @@ of its sort. The file's name is the kind's name.
 PARTS = ("part", "what it is", "how it is written")
 SET = ("Settings", "Parameters")  # what is set, as a scenario has it
 GIVEN = ("Reading", "Payload", "Memory")  # numbers with units
+GIVES = {  # modules that say what functions of a kind are given and give back
+    "sensor": ("studio.world.view",),
+    "radio": ("studio.world.view",),
+    "message": ("studio.application.contract",),
+    "driver": ("studio.kind.driver",),
+    "condition": ("studio.world.condition",),
+    "action": ("studio.world.maneuver", "studio.world.effect"),
+    "metric": ("studio.execution.record",),
+    "channel": ("studio.execution.record",),
+}
 
 
 def pages() -> dict[str, str]:
@@ -61,7 +71,10 @@ def page(sort: Sort) -> str:
 
 
 def contract_of(sort: Sort) -> Iterator[str]:
-    """The contract of applications has a file of its own."""
+    """Where what a kind is given is told; the contract of applications has a file of its own, which is shown."""
+    if sort.name in GIVES:
+        named = ", ".join(f"[`{name}`](../modules/{name.split('.')[1]}.md#{name})" for name in GIVES[sort.name])
+        yield f"What it is given, and what it gives back, stands in {named}.\n"
     if sort.name == "application":
         text = Path(str(contract.__file__)).read_text(encoding="utf-8").strip()
         yield f"`studio/application/contract.py`, as it stands:\n\n```python\n{text}\n```\n"
@@ -93,5 +106,10 @@ def numbers(part: Any) -> str:
         found = quantities(part)
     except TypeError:
         return ""
-    rows = [[code(each.name), each.unit, "yes or no" if each.is_flag else each.size if each.size > 1 else ""] for each in found]
-    return table(("field", "unit", "numbers"), rows) if rows else ""
+    rows = [[code(each.name), each.unit, sort_of(each), each.meaning] for each in found]
+    return table(("field", "unit", "kind", "meaning"), rows) if rows else ""
+
+
+def sort_of(each: Quantity) -> str:
+    """What a field holds."""
+    return "yes or no" if each.is_flag else f"{each.size} numbers" if each.size > 1 else "number"

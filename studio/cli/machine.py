@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 import typer
 
-from studio.cli.option import AsJson
+from studio.cli.option import AsJson, Kinds, load_kinds
 from studio.cli.output import print_json, print_table
 from studio.cli.progress import compile_first, progress
 from studio.errors import Problem, UnknownError
@@ -13,10 +13,21 @@ commands = typer.Typer()
 
 
 @commands.command("compile")
-def compile_() -> None:
-    """Compiles everything that has not been compiled on this machine; other commands do so when they need it."""
+def compile_(kinds: Kinds = None) -> None:
+    """Compiles everything that has not been compiled on this machine; other commands do so when they need it.
+
+    Kinds of your own are compiled by trying them, as `studio conform` does; a scenario compiles what connects them to it.
+    """
+    load_kinds(kinds)
     count = compile_first()
     print(f"{count} functions compiled." if count else "Everything is compiled.")
+    if kinds:
+        from studio.kind import registry
+        from studio.workshop.conform import conform
+
+        for each in [kind for kind in registry.every() if not kind.is_built_in]:
+            failed = sum(bool(check.wrong) for check in conform(each))
+            print(f"{each.sort} {each.name}: {f'{failed} checks failed, see studio conform' if failed else 'tried'}")
 
 
 @commands.command()

@@ -172,7 +172,9 @@ class Simulation:
     def record_of(self, samples: list[int]) -> Record:
         """A record of some samples of the first world only, by their numbers."""
         time, values = self.recorder.samples(samples)
-        return Record(time=time, values=values[:, self.recorder.vehicle_share[0]], vehicles=self.recorded(), happenings=())
+        shown = values[:, self.recorder.vehicle_share[0]]
+        probes = self.recorder.traced_samples(0, samples)
+        return Record(time=time, values=shown, vehicles=self.recorded(), happenings=(), probes=probes)
 
     def link_ages(self, number: int, count: int) -> dict[str, float]:
         """Mean age [s] of the newest message on each link of one world, named sender→receiver."""

@@ -13,12 +13,14 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
+from studio.kind.quantity import quantities
 from studio.kind.registry import Kind
 from studio.kind.sort import SORTS, problems
 from studio.workshop import draw
 from studio.workshop.check import Check, tried
 
 SET = ("Settings", "Parameters")  # what may be set of a kind
+GIVEN = ("Reading", "Payload")  # what it gives to others
 
 
 def conform(kind: Kind) -> list[Check]:
@@ -32,9 +34,18 @@ def common(kind: Kind) -> Iterator[Check]:
     wrong = "\n".join(str(each) for each in problems(kind.module, SORTS[kind.sort]))
     yield Check(f"has the parts of its contract: {', '.join(each.name for each in SORTS[kind.sort].needs)}", wrong)
     yield tried("its functions and classes say what they are", lambda: undocumented(kind))
+    for name in GIVEN:
+        if made := getattr(kind.module, name, None):
+            yield tried(f"the numbers of a {name} say what they are", lambda made=made: unsaid(made))
     for name in SET:
         if model := getattr(kind.module, name, None):
             yield from of_settings(name, model)
+
+
+def unsaid(made: type) -> str | None:
+    """Numbers without a meaning."""
+    found = [each.name for each in quantities(made) if not each.meaning]
+    return f'{", ".join(found)}: write Annotated[float, "m", "what it is"] = 0.0' if found else None
 
 
 def undocumented(kind: Kind) -> str | None:

@@ -86,7 +86,7 @@ def bounds(node: dict[str, Any]) -> tuple[float, float]:
 
 
 def record(period: float = 0.02, **channels: Any) -> Record:
-    """A record of cars a, b, c ... for a test: channels by name, [vehicle][sample], the others zero. Nobody is ahead unless a gap is given.
+    """A record of cars a, b, c ... for a test: channels by name, float64[vehicle, sample], the others zero; no gap means nobody ahead.
 
     >>> record(speed=[[20.0, 20.0], [19.0, 18.0]]).channel("speed").shape
     (2, 2)

@@ -16,6 +16,7 @@ from docs import book
 from docs.formula import block, makeExtension
 from docs.reference import field
 from studio.kind import registry
+from studio.kind.quantity import quantities as numbers
 from studio.kind.sort import SORTS
 from studio.scenario.datasheet import quantities
 from studio.scenario.schema import Scenario
@@ -100,15 +101,16 @@ def test_every_kind_and_every_part_of_a_contract_is_in_the_reference(site, sort)
         assert f"<code>{need.name}</code>" in text and need.meaning.replace("`", "") in words, need.name
     for kind in registry.known(sort.name).values():
         assert f'id="{field.anchor(kind.name)}"' in text and kind.title in words, kind.name
-        for each in fields_of(kind):
-            assert f"<code>{each}</code>" in text, (kind.name, each)
+        for each, meaning in fields_of(kind):
+            assert f"<code>{each}</code>" in text and meaning and meaning in words, (kind.name, each)
 
 
-def fields_of(kind) -> list[str]:
-    """What may be set of a kind, and the numbers that it gives."""
+def fields_of(kind) -> list[tuple[str, str]]:
+    """What may be set of a kind, and the numbers that it gives: names and meanings."""
     models = [vars(kind.module)[name].model_fields for name in ("Settings", "Parameters") if name in vars(kind.module)]
-    given = [vars(kind.module)[name]._fields for name in ("Reading", "Payload") if name in vars(kind.module)]
-    return [name for names in (*models, *given) for name in names]
+    given = [numbers(vars(kind.module)[name]) for name in ("Reading", "Payload") if name in vars(kind.module)]
+    told = [(each.name, each.meaning) for some in given for each in some]
+    return told + [(name, each.title) for fields in models for name, each in fields.items()]
 
 
 def test_every_command_and_route_is_in_the_reference(site):

@@ -23,11 +23,11 @@ class Settings(Part):
 class Payload(NamedTuple):
     """The sender."""
 
-    x: Annotated[float, "m"] = 0.0  # by its satellite receiver, with its errors
-    y: Annotated[float, "m"] = 0.0
-    speed: Annotated[float, "m/s"] = 0.0
-    acceleration: Annotated[float, "m/s²"] = 0.0
-    intention: Annotated[float, "m/s²"] = 0.0  # that it has requested of its actuators
+    x: Annotated[float, "m", "east position by its satellite receiver, with its errors"] = 0.0
+    y: Annotated[float, "m", "north position, likewise"] = 0.0
+    speed: Annotated[float, "m/s", "along the car"] = 0.0
+    acceleration: Annotated[float, "m/s²", "forward"] = 0.0
+    intention: Annotated[float, "m/s²", "that it has requested of its actuators"] = 0.0
 
 
 @compiled

@@ -35,9 +35,9 @@ class Settings(Part):
 class Reading(NamedTuple):
     """The target."""
 
-    range: Annotated[float, "m"] = 0.0  # front bumper to the target's rear
-    rate: Annotated[float, "m/s"] = 0.0  # change of the range, negative when coming nearer
-    azimuth: Annotated[float, "rad"] = 0.0  # left positive
+    range: Annotated[float, "m", "front bumper to the target's rear"] = 0.0
+    rate: Annotated[float, "m/s", "change of the range, negative when coming nearer"] = 0.0
+    azimuth: Annotated[float, "rad", "left positive"] = 0.0
 
 
 @inlined
