@@ -52,6 +52,11 @@ class Loaded:
         return self.path.stem
 
     @property
+    def given(self) -> dict[str, Any]:
+        """What stands in the file, in the present version of the format: without defaults."""
+        return migrated(self.source)[0].value
+
+    @property
     def document(self) -> dict[str, Any]:
         """The full document as plain data."""
         return self.scenario.model_dump(mode="json")

@@ -1,4 +1,4 @@
-"""Applications that raise, or hang, half a second into the run."""
+"""Kinds of one's own: applications that raise or hang half a second into the run, a file that does not load, and a sound sensor."""
 
 BROKEN = '''
 """Raises after half a second."""
@@ -36,3 +36,47 @@ HANGING = BROKEN.replace("Raises", "Hangs").replace(
         while True:
             pass""",
 )
+
+TORN = """'''A driver that nobody has finished.'''
+KIND = "driver"
+from studio.nowhere import nothing
+"""
+
+FLAWLESS = '''
+"""A radar without noise: the gap to the car ahead as it is."""
+from typing import Annotated, NamedTuple
+
+from studio.compiled import compiled
+from studio.kind.settings import Part, number
+from studio.kinds.sensor.front_radar import nearest_car
+from studio.model.sensor import own_curvature
+from studio.world.view import report
+
+KIND = "sensor"
+TITLE = "Radar without noise"
+
+
+class Settings(Part):
+    """How far it sees."""
+
+    range: float = number(80.0, unit="m", title="Reach", ge=0, le=300)
+    opening_angle: float = number(0.5, unit="rad", title="Opening angle", gt=0, le=3.2)
+    patience: float = number(2.0, unit="s", title="Patience", ge=0, le=10)
+
+
+class Reading(NamedTuple):
+    """The target."""
+
+    clearance: Annotated[float, "m"] = 0.0
+    closing: Annotated[float, "m/s"] = 0.0
+
+
+@compiled
+def measure(view, me, settings, memory, out):
+    """One look."""
+    other, forward, left = nearest_car(view, me, settings, own_curvature(me.speed, me.yaw_rate))
+    if other == -1:
+        return 0
+    report(out, me, 0, Reading(forward, 0.0))
+    return 1
+'''

@@ -23,7 +23,7 @@ def test_commands(text, root, tmp_path_factory):
     for name in ("scenarios", "studio"):
         (folder / name).symlink_to(root / name)
     lines = [line for block in blocks(text, "sh") for line in block.splitlines() if line.startswith("uv run studio ")]
-    commands = [shlex.split(line)[3:] for line in lines if "--applications" not in line]
+    commands = [shlex.split(line)[3:] for line in lines if "--kinds" not in line]
     assert [each[0] for each in commands] == [
         "check",
         "run",

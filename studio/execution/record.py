@@ -195,7 +195,16 @@ class Recorder:
     def traced(self, world: int, count: int) -> dict[str, Traced]:
         """What the probes of one world have read, by name; its first samples."""
         share = self.probe_share[world]
-        values = self.joined([chunk.probes[:, share] for chunk in self.chunks], np.zeros((0, share.stop - share.start)), count)
+        none = np.zeros((0, share.stop - share.start))
+        return self.named(share, self.joined([chunk.probes[:, share] for chunk in self.chunks], none, count))
+
+    def traced_samples(self, world: int, numbers: list[int]) -> dict[str, Traced]:
+        """The same of some samples, by their numbers."""
+        share = self.probe_share[world]
+        return self.named(share, np.array([self.chunks[i // CHUNK].probes[i % CHUNK, share] for i in numbers]))
+
+    def named(self, share: slice, values: np.ndarray) -> dict[str, Traced]:
+        """What some probes have read, float64[sample, probe], by their names."""
         return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.reader.probes[share])}
 
     def mean_ages(self, count: int) -> np.ndarray:

@@ -85,7 +85,7 @@ class Simulation:
             return
         self.recorder.take(self.world, self.world.clock.k)
         part(self.world)
-        self.check_drivers()
+        self.check_wishes()
         self.check()
         notice.notice(self.world, self.watch)
         if self.world.clock.k >= self.ticks and not self.is_over:
@@ -132,13 +132,13 @@ class Simulation:
         self.cases[number].happen(happening(FAILED, self.time, reason=reason.splitlines()[0]))
         self.world.leave(number)
 
-    def check_drivers(self) -> None:
-        """Ends the worlds in which a driver wants what is no number, and names vehicle, driver and time."""
-        for column, kind in self.world.unfit_wishes() if self.world.unfit else []:
+    def check_wishes(self) -> None:
+        """Ends the worlds in which a driver or a maneuver wants what is no number, and names it, vehicle and time."""
+        for column, who in self.world.unfit_wishes() if self.world.unfit else []:
             number = int(self.world.worlds.of[column])
             if not self.cases[number].is_over:
                 name, time = self.world.names[number][int(self.world.worlds.number[column])], self.time - self.world.clock.tick
-                self.fail(number, f"the driver {kind!r} of {name} wants an acceleration or steering that is not finite at {time:.3f} s")
+                self.fail(number, f"the {who} of {name} wants an acceleration or steering that is not finite at {time:.3f} s")
 
     def check(self) -> None:
         """Ends the worlds with a state that is not finite any more, and names vehicle, time and the first quantity that broke."""
@@ -172,7 +172,9 @@ class Simulation:
     def record_of(self, samples: list[int]) -> Record:
         """A record of some samples of the first world only, by their numbers."""
         time, values = self.recorder.samples(samples)
-        return Record(time=time, values=values[:, self.recorder.vehicle_share[0]], vehicles=self.recorded(), happenings=())
+        shown = values[:, self.recorder.vehicle_share[0]]
+        probes = self.recorder.traced_samples(0, samples)
+        return Record(time=time, values=shown, vehicles=self.recorded(), happenings=(), probes=probes)
 
     def link_ages(self, number: int, count: int) -> dict[str, float]:
         """Mean age [s] of the newest message on each link of one world, named sender→receiver."""

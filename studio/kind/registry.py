@@ -22,6 +22,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from pydantic import BaseModel
+
 from studio.errors import KindError, Problem, UnknownError, nearest
 from studio.kind import folder
 from studio.kind.sort import SORTS, Sort, problems, where_of
@@ -54,6 +56,11 @@ class Kind:
     def explanation(self) -> str:
         """What it does and where its figures come from, as its file says."""
         return cleandoc(self.module.__doc__ or "")
+
+    @property
+    def settings(self) -> type[BaseModel] | None:
+        """What is set of it in a scenario; None when there is nothing to set."""
+        return getattr(self.module, "Parameters" if self.sort == "application" else "Settings", None)
 
     @property
     def is_built_in(self) -> bool:

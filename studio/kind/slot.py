@@ -9,7 +9,7 @@ The schema of a document is made when it is first needed, and again when a kind 
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from pydantic import BaseModel, Field, GetCoreSchemaHandler, create_model
+from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, create_model
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from studio.errors import UnknownError
@@ -41,6 +41,10 @@ class Slot:
         choices = {name: handler.generate_schema(chosen(kind)) for name, kind in registry.known(self.sort).items()}
         union = core_schema.tagged_union_schema(choices, discriminator="kind", ref=None)
         return core_schema.no_info_before_validator_function(self.named, union)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """What the page makes a form of says what is chosen here."""
+        return handler(schema) | {"sort": self.sort}
 
     def named(self, given: Any) -> Any:
         """With the usual kind where none is named; raises PydanticCustomError for a kind that there is not."""

@@ -347,6 +347,12 @@ def node_at(schema: dict, path: Sequence[str | int]) -> dict:
     return nodes[0] if nodes else {}
 
 
+def sort_at(schema: dict, path: Sequence[str]) -> str:
+    """Of which sort the kind is that is chosen at a path of a JSON schema; "" where none is."""
+    step = child(node_at(schema, path[:-1]), path[-1])
+    return next((each["sort"] for each in (step, *step.get("anyOf", [])) if "sort" in each), "")
+
+
 def alternatives(schema: dict, node: dict) -> list[dict]:
     """A node with its reference followed; of a union every member, each with what the union says about all."""
     members = node.get("anyOf") or node.get("oneOf") or [node]

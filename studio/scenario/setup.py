@@ -1,7 +1,7 @@
 """From a document to a complete scenario: applications found, their parameters checked and filled in, changes applied.
 
 complete(document)  →  Scenario        every default filled in, every name known
-change(document, {path: value})        an exchange of an application keeps the parameters that both have, one of a kind its settings
+change(document, {path: value})        an exchange of a kind keeps the settings that both have
 """
 
 from typing import Any
@@ -11,8 +11,8 @@ from pydantic import ValidationError
 from studio.errors import Problem, ScenarioError, UnknownError
 from studio.kind import registry
 from studio.scenario import edit, file, finding
-from studio.scenario.schema import Application, Scenario, child, node_at, pointed
-from studio.scenario.text.patch import Operation, operation, patched
+from studio.scenario.schema import Application, Scenario, sort_at
+from studio.scenario.text.patch import operation, patched
 
 
 def complete(document: dict[str, Any], where: str) -> Scenario:
@@ -43,54 +43,48 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
 
     Raises ScenarioError for a path that does not exist.
     """
-    exchanges = {path: value for path, value in changes.items() if is_exchange(document, path)}
-    for path, name in exchanges.items():
-        document = patched(document, exchange(document, path.split(".")[1], name))
-    for path, kept in kinds(document, changes).items():
-        exchanges |= {f"{path}.kind": kept}
-        document = patched(document, edit.assignment(document, complete(document, where).model_dump(mode="json"), path, kept))
-    full = complete(document, where).model_dump(mode="json")
-    for path, value in changes.items():
-        if path not in exchanges:
-            document = patched(document, edit.assignment(document, full, path, value))
+    full, rest = laid_out(document, where), dict(changes)
+    for path in changes:
+        if sort := exchanged_sort(full, path):
+            document = exchanged(document, full, sort, path, rest)
+    full = full if len(rest) == len(changes) else laid_out(document, where)
+    for path, value in rest.items():
+        document = patched(document, edit.assignment(document, full, path, value))
     return document
 
 
-def is_exchange(document: dict[str, Any], path: str) -> bool:
-    """Whether a path names which application a group runs."""
-    parts = path.split(".")
-    return len(parts) == 3 and parts[0] == "applications" and parts[2] == "application" and edit.has(document, path)
+def laid_out(document: dict[str, Any], where: str) -> dict[str, Any]:
+    """The document with all defaults."""
+    return complete(document, where).model_dump(mode="json")
 
 
-def kinds(document: dict[str, Any], changes: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Places where the changes put another kind, each with what is kept there: the settings that both kinds have.
+def exchanged_sort(full: dict[str, Any], path: str) -> str:
+    """Of which sort the kind is whose name stands at a path; "" where none does."""
+    *place, last = path.split(".")
+    if not edit.has(full, path):
+        return ""
+    if last == "application" and len(place) == 2 and place[0] == "applications":
+        return "application"
+    return sort_at(Scenario.model_json_schema(), place) if last == "kind" and place else ""
 
-    Where the changes give the whole place too, what is in it counts.
+
+def exchanged(document: dict[str, Any], full: dict[str, Any], sort: str, path: str, rest: dict[str, Any]) -> dict[str, Any]:
+    """The document with another kind in a place; what both kinds have and the document gives is kept, the rest is dropped.
+
+    What is set of the new kind at the same time is set with it, because it may need it: name and settings are taken out of `rest`.
     """
-    schema, found = Scenario.model_json_schema(), {}
-    for path, name in changes.items():
-        place, _, last = path.rpartition(".")
-        fields = fields_of(schema, place.split("."), name) if last == "kind" and isinstance(name, str) else []
-        if fields and not any(path.startswith(f"{each}.") for each in changes):
-            given = edit.get(document, place) if edit.has(document, place) else {}
-            found[place] = {"kind": name} | {key: value for key, value in given.items() if key in fields and key != "kind"}
-    return found
+    place, name = path.rpartition(".")[0], rest.pop(path)
+    at = f"{place}.parameters" if sort == "application" else place
+    fields = settings_of(sort, name)
+    given = edit.get(document, at) if edit.has(document, at) else None
+    kept = {key: value for key, value in (given or {}).items() if key in fields}
+    settings = kept | {key: rest.pop(f"{at}.{key}") for key in fields if f"{at}.{key}" in rest}
+    if sort == "application":
+        return patched(document, [operation("replace", path.split("."), value=name), operation("add", at.split("."), value=settings)])
+    return patched(document, edit.assignment(document, full, place, {"kind": name} | settings))
 
 
-def fields_of(schema: dict[str, Any], place: list[str], kind: str) -> list[str]:
-    """The fields of a kind that may stand at a place; none where no kind is chosen, or not this one."""
-    choice = child(node_at(schema, place[:-1]), place[-1]).get("discriminator", {})
-    if choice.get("propertyName") != "kind" or kind not in choice["mapping"]:
-        return []
-    return list(pointed(schema, choice["mapping"][kind])["properties"])
-
-
-def exchange(document: dict[str, Any], group: str, name: Any) -> list[Operation]:
-    """The patch that puts another application into a group; parameters that it does not have are dropped."""
-    patch = [operation("replace", ["applications", group, "application"], value=name)]
-    if isinstance(name, str) and name in registry.known("application"):
-        fields = registry.find("application", name).module.Parameters.model_fields
-        given = document["applications"][group].get("parameters") or {}
-        kept = {key: value for key, value in given.items() if key in fields}
-        patch.append(operation("add", ["applications", group, "parameters"], value=kept))
-    return patch
+def settings_of(sort: str, name: Any) -> list[str]:
+    """The names of what may be set of a kind; none of one that there is not."""
+    kind = registry.known(sort).get(name) if isinstance(name, str) else None
+    return list(kind.settings.model_fields) if kind and kind.settings else []

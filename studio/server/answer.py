@@ -5,7 +5,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from studio.execution.happening import Happening
-from studio.kind.registry import Kind
+from studio.kind import registry
+from studio.kind.given import given
 from studio.scenario.text.patch import Operation, is_text
 
 Pace = float | Literal["fast"]
@@ -68,7 +69,7 @@ class ScenarioRow(BaseModel):
 
 
 class ScenarioDetail(BaseModel):
-    """A scenario with its full document and the schema of its file."""
+    """A scenario with its full document, what of it stands in the file, and the schema of its file."""
 
     model_config = ConfigDict(serialize_by_alias=True)
 
@@ -77,7 +78,8 @@ class ScenarioDetail(BaseModel):
     description: str
     attribution: str
     scenario_hash: str
-    document: dict[str, Any]
+    document: dict[str, Any] = Field(description="with all defaults")
+    given: dict[str, Any] = Field(description="as it stands in the file, in the present version of the format: without defaults")
     form: dict[str, Any] = Field(alias="schema")
 
 
@@ -105,19 +107,60 @@ class Patched(BaseModel):
     document: dict[str, Any]
 
 
-class Application(BaseModel):
-    """A registered application and the schema of its parameters."""
+class Given(BaseModel):
+    """A number that a kind gives; `size` of them under one name."""
 
     name: str
+    unit: str
+    size: int
+
+
+class Kind(BaseModel):
+    """A kind that can be named in a scenario, and what may be set of it."""
+
+    sort: str
+    name: str
     title: str
-    description: str
-    parameters: dict[str, Any]
+    source: str = Field(description="where it comes from: built in, a package, or its file")
+    description: str = Field(description="what its file says about it")
+    settings: dict[str, Any] | None = Field(
+        description="JSON schema of its settings, or of an application's parameters; null when it has none"
+    )
+    gives: list[Given]
 
 
-def application(kind: Kind) -> Application:
+class BrokenKind(BaseModel):
+    """A file that gave no kind, and why."""
+
+    name: str
+    file: str
+    what: str = Field(description="in one line")
+    traceback: str
+
+
+class Kinds(BaseModel):
+    """All kinds, sort by sort, and the files that are broken."""
+
+    kinds: list[Kind]
+    broken: list[BrokenKind]
+
+
+def kind(known: registry.Kind) -> Kind:
     """What the page needs to know about one."""
-    schema = kind.module.Parameters.model_json_schema()
-    return Application(name=kind.name, title=kind.title, description=kind.explanation, parameters=schema)
+    return Kind(
+        sort=known.sort,
+        name=known.name,
+        title=known.title,
+        source=known.source,
+        description=known.explanation,
+        settings=known.settings.model_json_schema() if known.settings else None,
+        gives=[Given(name=each.name, unit=each.unit, size=each.size) for each in given(known)],
+    )
+
+
+def broken_kind(broken: registry.Broken) -> BrokenKind:
+    """Why a file gave none."""
+    return BrokenKind(name=broken.name, file=broken.file, what=broken.what, traceback=str(broken.error))
 
 
 class Quantity(BaseModel):

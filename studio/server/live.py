@@ -22,7 +22,7 @@ from studio.job import Loaded
 from studio.process import Busy, Child, Gone
 from studio.server import answer, worker
 from studio.server.frame import Frame
-from studio.server.news import EndNews, EventNews, Kind, SamplesNews, StateNews
+from studio.server.news import ChannelsNews, EndNews, EventNews, Kind, SamplesNews, StateNews
 from studio.server.worker import Order
 from studio.store.runs import reopen_runs
 
@@ -54,6 +54,7 @@ class LiveRun:
     pace: float = 1.0
     real_time_factor: float = 0.0
     end: EndNews | None = None
+    channels: ChannelsNews = field(default_factory=lambda: ChannelsNews(channels=[]))
     times: list[float] = field(default_factory=list)
     samples: dict[str, list[float | None]] = field(default_factory=dict)
     events: list[EventNews] = field(default_factory=list)
@@ -90,6 +91,12 @@ class LiveRun:
             self.on_frame(self, frame)
         except Exception:
             LOG.exception("a frame of run %d could not be drawn", self.run)
+
+    def on_channels_news(self, channels: list[tuple[str, str, str]]) -> None:
+        """What the live charts may show."""
+        with self.lock:
+            self.channels = ChannelsNews(channels=[answer.Channel(name=name, unit=unit, label=label) for name, unit, label in channels])
+            self.tell(self.channels)
 
     def on_samples_news(self, times: np.ndarray, values: dict[str, np.ndarray]) -> None:
         """New points of the live charts."""
@@ -176,6 +183,7 @@ class LiveRun:
     def join(self, listener: "Listener") -> None:
         """A new listener first gets everything so far."""
         with self.lock:
+            listener.put(self.channels)
             listener.put(SamplesNews(time=self.times, channels=self.samples))
             for event in self.events:
                 listener.put(event)

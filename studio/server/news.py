@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, RootModel
 
-from studio.server.answer import Event, Live, Over, Refusal
+from studio.server.answer import Channel, Event, Live, Over, Refusal
 
 TOLD = ConfigDict(json_schema_serialization_defaults_required=True)  # the kind is always sent
 
@@ -16,6 +16,15 @@ class StateNews(Live):
 
     type: Literal["state"] = "state"
     real_time_factor: float = Field(description="simulated over real seconds, lately")
+
+
+class ChannelsNews(BaseModel):
+    """What the live charts may show: some channels of every vehicle, and what sensors and applications give."""
+
+    model_config = TOLD
+
+    type: Literal["channels"] = "channels"
+    channels: list[Channel]
 
 
 class SamplesNews(BaseModel):
@@ -55,7 +64,7 @@ class RefusedNews(Refusal):
     type: Literal["refused"] = "refused"
 
 
-Kind = StateNews | SamplesNews | EventNews | EndNews | RefusedNews
+Kind = StateNews | ChannelsNews | SamplesNews | EventNews | EndNews | RefusedNews
 
 
 class News(RootModel[Annotated[Kind, Field(discriminator="type")]]):

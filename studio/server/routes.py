@@ -74,6 +74,7 @@ def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
         attribution=prepared.network.attribution,
         scenario_hash=job.scenario_hash(loaded, prepared),
         document=loaded.document,
+        given=loaded.given,
         schema=Scenario.model_json_schema(),
     )
 
@@ -117,10 +118,10 @@ def etag(found: Source) -> str:
     return f'"{digest(found.text)}"'
 
 
-@router.get("/applications")
-def applications() -> list[answer.Application]:
-    """The registered applications with the schemas of their parameters."""
-    return [answer.application(each) for each in registry.known("application").values()]
+@router.get("/kinds")
+def kinds() -> answer.Kinds:
+    """All kinds with the schemas of their settings, sort by sort, and the files that are broken."""
+    return answer.Kinds(kinds=list(map(answer.kind, registry.every())), broken=list(map(answer.broken_kind, registry.broken())))
 
 
 @router.get("/glossary")

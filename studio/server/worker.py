@@ -3,7 +3,7 @@
 Orders come in and news go out over one pipe, as tuples that begin with a word:
 
     in    start, pause, resume, step, pace, stop
-    out   ready, begun | refused, frame, samples, event, state, end
+    out   ready, begun | refused, channels, frame, samples, event, state, end
 
 The process is started before it is needed, so that everything is imported and compiled when somebody clicks on run.
 It runs one run and ends; whatever goes wrong in it ends that run and nothing else.
@@ -27,6 +27,7 @@ from studio.kind.registry import load_folder
 from studio.server import answer
 from studio.server.frame import blend, frame, poses
 from studio.store.runs import open_runs
+from studio.world.channel import catalogue
 
 FRAME_PERIOD = 0.02  # [s] of real time between two frames for the eye
 NEWS_PERIOD = 0.1  # [s] of real time between two reports of state and samples
@@ -76,6 +77,7 @@ class Live:
         """Until the run is over."""
         self.before = self.after = poses(self.simulation.world.vehicles)
         self.pace.restart(self.simulation.time)
+        self.pipe.send(("channels", self.channels()))
         self.news(force=True)
         while not self.simulation.is_over:
             self.orders()
@@ -171,6 +173,12 @@ class Live:
             self.pipe.send(("event", answer.event(each).model_dump()))
         self.told = len(happenings)
 
+    def channels(self) -> list[tuple[str, str, str]]:
+        """Name, unit and label of what the live charts may show: some channels, and what sensors and applications give."""
+        some = [(f"{vehicle}.{name}", catalogue()[name]) for vehicle in self.simulation.recorded() for name in LIVE_CHANNELS]
+        probes = self.simulation.recorder.reader.probes[self.simulation.recorder.probe_share[0]]
+        return [(name, each.unit, each.label) for name, each in (*some, *((probe.name, probe) for probe in probes))]
+
     def send_samples(self) -> None:
         """Samples of the live channels that have not been sent, at the charts' period; single steps and the end too."""
         recorder = self.simulation.recorder
@@ -181,8 +189,7 @@ class Live:
         self.sampled = last + 1
         if fresh:
             record = self.simulation.record_of(fresh)
-            values = {f"{v}.{q}": record.trace(f"{v}.{q}") for v in record.vehicles for q in LIVE_CHANNELS}
-            self.pipe.send(("samples", record.time, values))
+            self.pipe.send(("samples", record.time, {name: record.trace(name) for name, _, _ in self.channels()}))
 
 
 def main(pipe: Connection, first: Path | None, kinds: Path | None) -> None:

@@ -4,6 +4,7 @@ A scripted maneuver goes before application and driver. A vehicle has one at a t
 """
 
 from collections.abc import Callable
+from math import isfinite
 from typing import NamedTuple
 
 from studio.compiled import inlined, lean
@@ -106,6 +107,12 @@ def put(told, v, script):
     script[SCRIPT_STEERING, v] = told.steering
 
 
+@inlined
+def is_fit(told):
+    """Whether what is commanded are numbers."""
+    return isfinite(told.acceleration) and isfinite(told.steering)
+
+
 @lean
 def has_left(v, state):
     """Whether a vehicle has arrived: its maneuver is over."""
@@ -115,19 +122,22 @@ def has_left(v, state):
 LOOP = '''"""Asks the action {name} for all vehicles that it is about."""
 
 from studio.compiled import compiled
-from studio.world.maneuver import has_left, over, put, seen
+from studio.world.maneuver import has_left, is_fit, over, put, seen
 from studio.world.table.street import ACTING
 from {module} import SettingsTuple, act
 
 
 @compiled
-def run(time, entry, vehicle, settings, phase, turned, state, mind, script, come):
+def run(time, entry, vehicle, settings, phase, turned, state, mind, script, come, unfit):
     any_over = False
     for j in range(entry.size):
         e, v = entry[j], vehicle[j]
         if phase[e] != ACTING:
             continue
         told = over() if has_left(v, state) else act(SettingsTuple({settings}), seen(v, time, turned[0, e], state, mind))
+        if not is_fit(told):
+            unfit[e] = 1
+            told = over()
         put(told, v, script)
         if told.is_over:
             come[e] = 1
@@ -137,7 +147,7 @@ def run(time, entry, vehicle, settings, phase, turned, state, mind, script, come
 
 
 def loop(kind: Kind) -> Callable:
-    """The loop of a kind of maneuver: commands its vehicles, and marks in `come` the entries that are over."""
+    """The loop of a kind of maneuver: commands its vehicles, and marks the entries that are over, and those that command no numbers."""
     module = kind.module
     tuple_of(module, module.Settings)
     source = LOOP.format(name=kind.name, module=module.__name__, settings=spelled(sizes(module.Settings), "settings"))

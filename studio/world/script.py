@@ -59,8 +59,9 @@ def act(world: World) -> None:
     s, v, time = world.script, world.vehicles, world.clock.time
     any_over = False
     for each in (s.maneuvers[i] for i in s.acting):
-        any_over |= each.run(time, each.entry, each.vehicle, each.settings, s.phase, s.turned, v.state, v.mind, s.commands, s.come)
+        any_over |= each.run(time, each.entry, each.vehicle, each.settings, s.phase, s.turned, v.state, v.mind, s.commands, s.come, s.unfit)
     if any_over:
+        world.unfit += int(s.unfit.sum())
         proceed(time, s.come, s.vehicle, s.phase, s.turned)
         post(world)
 
@@ -194,6 +195,7 @@ def script_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines) -> Scri
         phase=np.zeros(len(placed), dtype=np.int64),
         turned=np.full((2, len(placed)), np.nan),
         come=np.zeros(len(placed), dtype=np.int64),
+        unfit=np.zeros(len(placed), dtype=np.int64),
         commands=np.zeros((len(SCRIPT), worlds.of.size)),
         asked=asked,
         maneuvers=maneuvers,

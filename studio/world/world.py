@@ -136,6 +136,7 @@ class Script:
     phase: Moving  # int64[entry]: BEFORE, ACTING, OVER
     turned: Moving  # [s] float64[2, entry]: when it began and ended, not a number before
     come: np.ndarray  # scratch, int64[entry]: 1 when its turn has come
+    unfit: np.ndarray  # scratch, int64[entry]: 1 when its maneuver commands what is no number
     commands: Moving  # [row, vehicle] of maneuvers
     asked: list[Asked]
     maneuvers: list[Maneuvers]
@@ -239,7 +240,7 @@ class World:
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
     origin: str = ""  # digest of what it was built from
-    unfit: int = 0  # wishes of drivers at this tick that are no numbers
+    unfit: int = 0  # wishes of drivers and maneuvers at this tick that are no numbers
     arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 
     @cached_property
@@ -317,10 +318,14 @@ class World:
         return sorted(found, key=lambda each: each[0].place)
 
     def unfit_wishes(self) -> Iterator[tuple[int, str]]:
-        """Columns of the vehicles whose drivers want what is no number, with the kind of the driver."""
+        """Columns of the vehicles whose drivers or maneuvers want what is no number, with the kind of these."""
         wishes = self.vehicles.mind[[WISH, STEER_WISH]]
         for seats in self.seats:
-            yield from ((int(column), seats.kind.name) for column in seats.columns if not np.isfinite(wishes[:, column]).all())
+            driver = f"driver {seats.kind.name!r}"
+            yield from ((int(column), driver) for column in seats.columns if not np.isfinite(wishes[:, column]).all())
+        for each in self.script.maneuvers:
+            unfit = each.vehicle[self.script.unfit[each.entry] != 0]
+            yield from ((int(column), f"action {each.kind.name!r}") for column in unfit)
 
     def leave(self, number: int) -> None:
         """The vehicles of a world take no part any more, nor do its applications."""

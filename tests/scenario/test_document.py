@@ -138,10 +138,10 @@ def test_what_many_share_is_changed_in_one_place(sample):
     text = text_of(sample)
     path = "/vehicles/follower_2/driver/speed_factor"
     after = changed(text, {"op": "replace", "path": path, "value": 1.2})
-    assert difference(text, after) == ["-    driver: *attentive", "+    driver: {speed_factor: 1.2}"]
+    assert difference(text, after) == ["-    driver: *brisk", "+    driver: {kind: attentive, speed_factor: 1.2}"]
     after = source.read(changed(text, {"op": "remove", "path": "/vehicles/follower_1"}), "my.yaml").value
     assert {name: car.get("driver") for name, car in after["vehicles"].items()} == {
-        "leader": None, **{f"follower_{i}": {"speed_factor": 1.1} for i in (2, 3, 4)},
+        "leader": None, **{f"follower_{i}": {"kind": "attentive", "speed_factor": 1.1} for i in (2, 3, 4)},
     }  # fmt: skip
 
 

@@ -46,6 +46,70 @@ def test_an_exchange_keeps_what_both_have(sample):
     assert parameters["standstill"] == 2.0 and "k_p" not in parameters
 
 
+CALM = '''
+"""Drives as slowly as it is told to."""
+from studio.compiled import compiled
+from studio.kind.driver import Driver, Wish
+from studio.kind.settings import number
+
+KIND = "driver"
+TITLE = "Calm driver"
+
+class Settings(Driver):
+    """How calm."""
+    patience: float = number(5.0, unit="s", title="Patience", ge=0)
+    time_headway: float = number(3.0, unit="s", title="Wanted headway", ge=0.3, le=5)
+
+@compiled
+def decide(settings, sees):
+    return Wish(0.0, 0.0)
+'''
+
+
+@pytest.fixture
+def calm(tmp_path, own_kinds):
+    """A driver of one's own, called calm."""
+    (tmp_path / "calm.py").write_text(CALM)
+    own_kinds(tmp_path)
+
+
+def test_a_driver_is_exchanged(calm, sample):
+    """What the file gives and both have is kept; the rest is the new one's own, or what is set with it."""
+    plain = job.load(sample, {"vehicles.follower_1.driver.kind": "calm"}).scenario.vehicles["follower_1"].driver
+    assert (plain.kind, plain.speed_factor, plain.time_headway, plain.patience) == ("calm", 1.1, 3.0, 5.0)
+    assert not hasattr(plain, "steering_gain")
+    changes = {"vehicles.follower_1.driver.patience": 9, "vehicles.follower_1.driver.kind": "calm"}
+    assert job.load(sample, changes).scenario.vehicles["follower_1"].driver.patience == 9
+    # The file says nothing about the leader's driver, nor about the traffic's.
+    for path in ("vehicles.leader.driver", "traffic.driver"):
+        assert edit.get(job.load(sample, {f"{path}.kind": "calm"}).document, path)["kind"] == "calm"
+
+
+def test_an_exchange_needs_what_has_to_be_given(sample):
+    """An entry of the script is about something else then: what it needs is given with it, or asked for."""
+    path = "script.hard_brake.when"
+    passed = {f"{path}.kind": "passed", f"{path}.vehicle": "leader", f"{path}.along": 400}
+    when = job.load(sample, passed).scenario.script["hard_brake"].when
+    assert (when.kind, when.vehicle, when.along) == ("passed", "leader", 400)
+    with pytest.raises(ScenarioError, match=r"script.hard_brake.when.along: is missing"):
+        job.load(sample, {f"{path}.kind": "passed", f"{path}.vehicle": "leader"})
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"vehicles.leader.driver.kind": "atentive"}, "did you mean 'attentive'?"),
+        ({"vehicles.leader.sensors.front.kind": 3}, "vehicles.leader.sensors.front"),
+        ({"vehicles.leader.sensors.rear.kind": "front_radar"}, "vehicles.leader.sensors.rear"),
+        ({"radio.kind": "ad_hoc", "radio.los": 0.1}, "did you mean 'radio.loss'?"),
+    ],
+)
+def test_an_exchange_that_cannot_be(sample, changes, told):
+    with pytest.raises(ScenarioError) as caught:
+        job.load(sample, changes)
+    assert told in str(caught.value)
+
+
 @pytest.mark.parametrize(
     ("text", "path", "value"),
     [("a.b=1.5", "a.b", 1.5), ("a=true", "a", True), ("a=[x, y]", "a", ["x", "y"]), ("a=", "a", None), ("a=b=c", "a", "b=c")],

@@ -1,5 +1,7 @@
 """Old files: read as the present version, told what is another way now, and nothing is lost."""
 
+from pathlib import Path
+
 import pytest
 
 from studio import job
@@ -139,7 +141,7 @@ def test_an_old_scenario_runs_as_its_new_form(sample, tmp_path):
     """Read, migrated and rewritten it is the same scenario with the same hash."""
     (tmp_path / "maps").symlink_to(sample.parent / "maps")
     path = tmp_path / "old.yaml"
-    old = sample.read_text().replace("version: 2\n", "")
+    old = (Path(__file__).parent / "version_2.yaml").read_text().replace("version: 2\n", "")
     path.write_text(old + "\nroad: {friction: 0.5, patches: {ice: {route: east_to_west, start: 10, end: 20, friction: 0.1}}}\n")
     loaded = job.load(path)
     assert loaded.scenario.version == VERSION and len(loaded.migrated) >= 5

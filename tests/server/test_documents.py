@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import pytest
 
@@ -35,7 +36,7 @@ def test_a_patch_and_its_inverse(client, path):
     before = path.read_bytes()
     tag = client.get(f"/api/scenarios/{ID}/text").headers["ETag"]
     done = patch(client, [*LONGER, {"op": "remove", "path": "/vehicles/follower_4"},
-                          {"op": "remove", "path": "/applications/platoon/vehicles/3"},
+                          {"op": "remove", "path": "/applications/platoon/units/3"},
                           {"op": "remove", "path": "/applications/platoon/listens_to/3"}], if_match=tag)  # fmt: skip
     assert done.status_code == 200, done.text
     told = done.json()
@@ -116,9 +117,9 @@ def test_files_that_may_be_read_only(client, path, sample, tmp_path):
     assert outside.read_bytes() == sample.read_bytes()
 
 
-def test_an_old_file_is_not_changed_until_it_is_migrated(client, path, sample):
+def test_an_old_file_is_not_changed_until_it_is_migrated(client, path):
     """Else the undo of an edit could not give its bytes back."""
-    old = sample.read_text().replace("version: 2", "version: 1") + "\nroad: {friction: 0.5}\n"
+    old = (Path(__file__).parents[1] / "scenario" / "version_2.yaml").read_text()
     path.write_text(old)
     assert client.get(f"/api/scenarios/{ID}/text").text == old
     answer = patch(client, [{"op": "replace", "path": "/seed", "value": 5}])

@@ -93,7 +93,10 @@ def test_samples_and_events(client):
         until(socket, lambda m: m["type"] == "end")
     with news(client, run) as late:
         seen = until(late, lambda m: m["type"] == "end")
-    samples = seen[0]
+    channels, samples = seen[:2]
+    assert {"name": "follower_1.front.range", "unit": "m", "label": "Range of front"} in channels["channels"]
+    assert samples["channels"].keys() == {each["name"] for each in channels["channels"]}
+    assert len(samples["channels"]["follower_1.front.range"]) == len(samples["time"])
     assert samples["type"] == "samples" and samples["time"][0] == 0 and samples["time"][-1] == pytest.approx(22)
     assert len(samples["channels"]["follower_1.gap"]) == len(samples["time"]) > 200
     assert any(
@@ -183,7 +186,7 @@ def test_steps_end_with_the_run(client):
 
 
 def test_an_application_that_hangs_can_be_stopped(client, server):
-    hangs = server[1].parent / "applications" / "hanging.sign"
+    hangs = server[1].parent / "kinds" / "hanging.sign"
     run = start(client, set={"applications.platoon.application": "hanging"})
     with news(client, run) as socket:
         wait_until(hangs.exists, "the application that hangs")

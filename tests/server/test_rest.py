@@ -5,6 +5,7 @@ import json
 import pytest
 
 from studio import job
+from studio.kind.sort import SORTS
 from studio.store.runs import open_runs
 from tests.patience import until
 
@@ -44,7 +45,7 @@ def test_scenarios(client):
 def test_a_scenario_with_its_form(client):
     found = client.get(f"/api/scenarios/{SCENARIO}").json()
     assert found["document"]["applications"]["platoon"]["parameters"]["k_p"] == 0.2
-    assert found["schema"]["$defs"]["Radio"]["properties"]["loss"]["maximum"] == 1
+    assert found["schema"]["$defs"]["ad_hoc_radio"]["properties"]["loss"]["maximum"] == 1
     assert found["attribution"] == "© OpenStreetMap contributors"
     assert client.get("/api/scenarios/motorway_platoon").json()["attribution"] == "Motorway, Cooperative ADAS Studio"
 
@@ -56,10 +57,42 @@ def test_check(client):
     assert not bad["ok"] and "radio.loss" in bad["problems"][0]["where"] and "1" in bad["problems"][0]["allowed"]
 
 
-def test_applications(client):
-    found = {each["name"]: each for each in client.get("/api/applications").json()}
-    assert {"acc", "cacc", "broken"} <= set(found)
-    assert found["cacc"]["parameters"]["properties"]["headway"]["unit"] == "s"
+def test_kinds(client):
+    """All of them, with what may be set and what they give; a broken file is told with its traceback."""
+    found = client.get("/api/kinds").json()
+    kinds = {(each["sort"], each["name"]): each for each in found["kinds"]}
+    assert {sort for sort, _ in kinds} == set(SORTS)
+    cacc, own = kinds["application", "cacc"], kinds["sensor", "flawless"]
+    assert cacc["source"] == "built in" and cacc["settings"]["properties"]["headway"]["unit"] == "s"
+    assert own["source"].endswith("flawless.py") and "A radar without noise" in own["description"]
+    assert own["gives"] == [{"name": "clearance", "unit": "m", "size": 1}, {"name": "closing", "unit": "m/s", "size": 1}]
+    assert kinds["metric", "min_ttc"]["settings"] is None
+    (broken,) = found["broken"]
+    assert broken["name"] == "torn" and broken["file"].endswith("torn.py")
+    assert "ModuleNotFoundError" in broken["what"] and "torn.py" in broken["traceback"] and "line 3" in broken["traceback"]
+
+
+def test_a_broken_file_is_told_where_the_server_was_started(server):
+    told = (server[1].parent / "server.log").read_text()
+    assert "torn.py" in told and "studio.nowhere" in told
+
+
+def test_a_slot_is_exchanged(client):
+    """The check shows what will run; the run has what the new sensor gives, with its unit."""
+    front = "vehicles.follower_1.sensors.front"
+    given = client.get(f"/api/scenarios/{SCENARIO}").json()["given"]
+    assert "sensors" not in given["vehicles"]["follower_1"]
+    changes = {f"{front}.kind": "flawless", f"{front}.patience": 3.0, "clock.duration": 1, "applications": {}}
+    checked = client.post(f"/api/scenarios/{SCENARIO}/check", json={"set": changes}).json()
+    sensor = {"kind": "flawless", "range": 80.0, "opening_angle": 0.5, "patience": 3.0}
+    assert checked["problems"] == [] and checked["document"]["vehicles"]["follower_1"]["sensors"]["front"] == sensor
+    run = client.post("/api/runs", json={"scenario": SCENARIO, "set": changes}).json()["run"]
+    detail = finished(client, run)
+    channels = {each["name"]: each for each in client.get(f"/api/runs/{run}").json()["channels"]}
+    assert detail["status"] == "done" and channels["follower_1.front.clearance"]["unit"] == "m"
+    assert channels["follower_1.front.clearance"]["label"] == "Clearance of front"
+    trace = client.get(f"/api/runs/{run}/trace", params={"channels": "follower_1.front.clearance,follower_1.gap"}).json()["channels"]
+    assert trace["follower_1.front.clearance"]["values"][-1] == pytest.approx(trace["follower_1.gap"]["values"][-1], abs=0.5)
 
 
 def test_the_command_lines_bits(pair, sample):
@@ -155,7 +188,7 @@ def test_a_check_knows_the_names(client):
 
 
 def test_nothing_was_written_by_refusals(client, pair):
-    assert len(client.get("/api/runs").json()) == 2
+    assert len(client.get("/api/runs").json()) == 3
 
 
 def test_a_foreign_origin_is_forbidden_everywhere(client):
@@ -176,7 +209,7 @@ def test_the_description_names_what_the_socket_tells(client):
     assert switching["content"]["application/json"]["schema"] == {"$ref": "#/components/schemas/News"}
     objects = api["components"]["schemas"]
     kinds = objects["News"]["discriminator"]["mapping"]
-    assert set(kinds) == {"state", "samples", "event", "end", "refused"}
+    assert set(kinds) == {"state", "channels", "samples", "event", "end", "refused"}
     for kind, reference in kinds.items():
         described = objects[reference.removeprefix("#/components/schemas/")]
         assert described["properties"]["type"]["const"] == kind and "type" in described["required"]
@@ -192,8 +225,10 @@ def test_the_glossary_explains_every_channel_and_metric(client, pair):
     found = client.get("/api/glossary").json()
     channels, metrics = ({each["name"]: each for each in found[kind]} for kind in ("channels", "metrics"))
     run = client.get(f"/api/runs/{pair[0]['run']}").json()
-    for each in run["channels"]:
-        known = channels[each["name"].rpartition(".")[2]]
+    of_vehicles = [each for each in run["channels"] if each["name"].count(".") == 1]  # what sensors give is told by their kinds
+    assert len(of_vehicles) > 100
+    for each in of_vehicles:
+        known = channels[each["name"].partition(".")[2]]
         assert (known["unit"], known["label"]) == (each["unit"], each["label"])
     assert metrics.keys() == run["metrics"].keys()
     for name, measured in run["metrics"].items():

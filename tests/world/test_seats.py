@@ -115,7 +115,7 @@ def test_a_kind_does_not_know_its_batch(folder):
 @pytest.mark.parametrize(
     ("driver", "path", "what"),
     [
-        ({"kind": "cruser"}, "vehicles.car.driver", "did you mean 'cruiser'"),
+        ({"kind": "cruser"}, "vehicles.car.driver.kind", "did you mean 'cruiser'"),
         ({"kind": "cruiser", "cruise": 99}, "vehicles.car.driver.cruise", "less than or equal to 40"),
         ({"kind": "cruiser", "criuse": 9}, "vehicles.car.driver.criuse", "did you mean 'cruise'"),
         ({"cruise": 12}, "vehicles.car.driver.cruise", "not a field"),

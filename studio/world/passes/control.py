@@ -133,20 +133,12 @@ def take_over(v, column, limit, state, parameter, app_command, commands):
 
 
 @inlined
-def scripted(acceleration):
-    """What a maneuver asks for [m/s²], within the bounds of the interface; what is not finite stays so, and ends the run as failed."""
-    if not acceleration >= STRONGEST_BRAKE:
-        return acceleration if isnan(acceleration) else STRONGEST_BRAKE
-    return min(acceleration, STRONGEST_DRIVE)
-
-
-@inlined
 def steer(v, column, parameter, script, mind, app_command, commands):
     """Steering: a torque at the wheel, or an angle; the maneuver's, else the application's, else the driver's."""
     limit = parameter[STEER_MAX, v]
     if script[STEERS, v] != 0.0:
         angle = script[SCRIPT_STEERING, v]
-        commands[U_STEER, column] = angle if isnan(angle) else min(max(angle, -limit), limit)
+        commands[U_STEER, column] = min(max(angle, -limit), limit)
         commands[U_STEER_TORQUE, column] = nan
         return
     angle = mind[STEER_WISH, v] if isnan(app_command[APP_STEERING, v]) else app_command[APP_STEERING, v]
@@ -169,7 +161,8 @@ def command(k, time, state, ground, parameter, script, drivers, mind, app_comman
         if not is_active:
             pedals(v, column, STRONGEST_BRAKE, state, ground, parameter, commands)
         elif is_scripted:
-            pedals(v, column, scripted(script[SCRIPT_ACCELERATION, v]), state, ground, parameter, commands)
+            u = min(max(script[SCRIPT_ACCELERATION, v], STRONGEST_BRAKE), STRONGEST_DRIVE)
+            pedals(v, column, u, state, ground, parameter, commands)
         else:
             pedals(v, column, request(v, limit, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
             take_over(v, column, limit, state, parameter, app_command, commands)

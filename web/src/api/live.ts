@@ -1,7 +1,7 @@
 /** The socket of a live run, kept open as long as somebody looks at it. */
 
 import { useEffect, useState, useSyncExternalStore } from "react";
-import { isLive, type RunEvent, type Server } from "../model/run";
+import { type Channel, isLive, type RunEvent, type Server } from "../model/run";
 import { append, noSamples, type Samples } from "../model/samples";
 
 export interface LiveState extends Omit<Server["StateNews"], "type" | "scenario"> {
@@ -9,6 +9,8 @@ export interface LiveState extends Omit<Server["StateNews"], "type" | "scenario"
   /** False while the socket is being opened again. */
   connected: boolean;
   events: RunEvent[];
+  /** What the samples are of. */
+  channels: Channel[];
   /** Grows in place; `version` tells when. */
   samples: Samples;
   version: number;
@@ -28,6 +30,7 @@ const fresh = (run: number): LiveState => ({
   error: null,
   connected: true,
   events: [],
+  channels: [],
   samples: noSamples(),
   version: 0,
 });
@@ -39,6 +42,8 @@ export function reduce(state: LiveState, message: Server["News"]): LiveState {
       const { type: _type, scenario: _scenario, ...values } = message;
       return { ...state, ...values };
     }
+    case "channels":
+      return { ...state, channels: message.channels };
     case "samples":
       append(state.samples, message);
       return { ...state, version: state.version + 1 };

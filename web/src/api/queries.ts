@@ -1,10 +1,9 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
-import type { Application } from "../model/form";
 import { type Changes, type Filled, isLive, type Run, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
-import type { Check, Comparison, Pace, Scenario } from "./types";
+import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
   queryKey: ["scenarios"],
@@ -18,9 +17,11 @@ export const scenario = (id: string) =>
       answer(client.GET("/api/scenarios/{scenario}", { params: { path: { scenario: id } } })) as Promise<Scenario>,
   });
 
-export const applications = queryOptions({
-  queryKey: ["applications"],
-  queryFn: () => answer(client.GET("/api/applications")) as Promise<Application[]>,
+/** What may be named in a scenario; it stays for as long as the server runs. */
+export const kinds = queryOptions({
+  queryKey: ["kinds"],
+  queryFn: () => answer(client.GET("/api/kinds")) as Promise<Kinds>,
+  staleTime: Number.POSITIVE_INFINITY,
 });
 
 /** What channels and metrics are called, and what they mean; it stays for as long as the server runs. */

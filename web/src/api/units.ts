@@ -4,19 +4,19 @@ import { useQueries, useQuery } from "@tanstack/react-query";
 import { useMemo } from "react";
 import { unitsOf } from "../model/form";
 import type { Run } from "../model/run";
-import { applications, scenario } from "./queries";
+import { kinds, scenario } from "./queries";
 
 /** The unit of every path that these runs may have set. */
 export function useUnits(runs: readonly Run[]): Record<string, string> {
   const ids = useMemo(() => [...new Set(runs.map((run) => run.scenario))], [runs]);
-  const { data: known } = useQuery(applications);
+  const { data: known } = useQuery(kinds);
   const found = useQueries({
     queries: ids.map((id) => ({ ...scenario(id), staleTime: 60_000 })),
     combine: (results) => results.flatMap(({ data }) => (data ? [data] : [])),
   });
   return useMemo(() => {
-    const all = found.map(({ document, schema }) =>
-      unitsOf({ document, schema, applications: known ?? [], changes: {} }),
+    const all = found.map(({ document, given, schema }) =>
+      unitsOf({ document, given, schema, kinds: known?.kinds ?? [], changes: {} }),
     );
     return Object.assign({}, ...all) as Record<string, string>;
   }, [found, known]);

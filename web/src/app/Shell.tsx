@@ -3,6 +3,7 @@
 import {
   ActionIcon,
   Alert,
+  Badge,
   Kbd,
   Modal,
   Progress,
@@ -14,9 +15,9 @@ import {
 import { Notifications } from "@mantine/notifications";
 import { useQuery } from "@tanstack/react-query";
 import { Link, Outlet, useLocation, useMatch, useNavigate } from "@tanstack/react-router";
-import { useEffect, useState } from "react";
+import { type ReactNode, useEffect, useState } from "react";
 import { Unreachable } from "../api/client";
-import { heartbeat } from "../api/queries";
+import { heartbeat, kinds } from "../api/queries";
 import { StudioPage } from "../features/studio/StudioPage";
 import { Icon, type IconName } from "../ui/Icon";
 import { useShortcuts } from "../ui/shortcut";
@@ -33,6 +34,7 @@ export function Shell() {
     "g r": () => navigate({ to: "/runs", search: {} }),
     "g c": () => navigate({ to: "/compare", search: {} }),
     "g m": () => navigate({ to: "/maps" }),
+    "g k": () => navigate({ to: "/kinds" }),
   });
   return (
     <div className={classes.shell}>
@@ -105,7 +107,8 @@ function Head({ onHelp }: { onHelp: () => void }) {
 
 function Navigation() {
   const { pathname } = useLocation();
-  const place = (to: "/" | "/runs" | "/compare" | "/maps", testId: string, label: string) => {
+  const broken = useQuery(kinds).data?.broken.length ?? 0;
+  const place = (to: "/" | "/runs" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
     const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
     return (
       <Link
@@ -126,12 +129,20 @@ function Navigation() {
       {place("/runs", "nav-runs", "Runs")}
       {place("/compare", "nav-compare", "Compare")}
       {place("/maps", "nav-maps", "Maps")}
+      {place("/kinds", "nav-kinds", <>Kinds {broken > 0 ? <BrokenBadge count={broken} /> : null}</>)}
       <a href="/docs/" className={classes.nav} data-testid="nav-docs">
         Docs
       </a>
     </nav>
   );
 }
+
+/** Says at every place of the page that files of kinds are broken. */
+const BrokenBadge = ({ count }: { count: number }) => (
+  <Badge size="xs" color="red" variant="light" tt="none" ml={6}>
+    {count} broken
+  </Badge>
+);
 
 const SCHEMES: Record<string, { icon: IconName; label: string }> = {
   auto: { icon: "system", label: "Theme: as the system" },
@@ -205,11 +216,12 @@ function Compiling() {
 const KEYS: [string[], string][] = [
   [["space"], "Run, pause or resume"],
   [["."], "Step one tick (20 ms)"],
-  [["/"], "Search parameters, or filter the runs"],
+  [["/"], "Search parameters or kinds, or filter the runs"],
   [["g", "s"], "Go to the studio"],
   [["g", "r"], "Go to the runs"],
   [["g", "c"], "Go to the comparison"],
   [["g", "m"], "Go to the maps"],
+  [["g", "k"], "Go to the kinds"],
   [["↑", "↓", "j", "k"], "Move between rows of the runs"],
   [["x"], "Select a row to compare"],
   [["enter"], "Open the run of a row"],

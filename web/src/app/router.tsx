@@ -86,9 +86,11 @@ const compareRoute = createRoute({
   },
 });
 
-// The maps are loaded when somebody goes there: the studio starts sooner without them.
+// Maps and kinds are loaded when somebody goes there: the studio starts sooner without them.
 const MapsPage = lazy(async () => ({ default: (await import("../features/maps/MapsPage")).MapsPage }));
 const MapPage = lazy(async () => ({ default: (await import("../features/maps/MapPage")).MapPage }));
+
+const KindsPage = lazy(async () => ({ default: (await import("../features/kinds/KindsPage")).KindsPage }));
 
 const mapsRoute = createRoute({
   getParentRoute: () => root,
@@ -127,8 +129,18 @@ const mapRoute = createRoute({
   },
 });
 
+const kindsRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/kinds",
+  component: () => (
+    <Suspense fallback={<Loading what="the kinds" />}>
+      <KindsPage />
+    </Suspense>
+  ),
+});
+
 export const router = createRouter({
-  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute, mapsRoute, mapRoute]),
+  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute, mapsRoute, mapRoute, kindsRoute]),
 });
 
 declare module "@tanstack/react-router" {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { applications, document, source } from "../test/scenario";
+import { document, source } from "../test/scenario";
 import {
   changedIn,
   exchanged,
@@ -78,7 +78,7 @@ describe("the form", () => {
   });
 
   it("says in the title which of several kinds it is, and has nothing for an end that is not there", () => {
-    const kinds = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
+    const actions = { limit: { speed: { type: "number", unit: "m/s" } }, friction: { width: { type: "number" } } };
     const alternative = ([kind, properties]: [string, object]) => ({
       type: "object",
       properties: { kind: { const: kind }, ...properties },
@@ -87,12 +87,14 @@ describe("the form", () => {
     const entry = {
       type: "object",
       properties: {
-        do: { oneOf: Object.entries(kinds).map(alternative), title: "Do" },
-        until: { anyOf: [{ oneOf: [time] }, { type: "null" }], title: "Until" },
+        do: { oneOf: Object.entries(actions).map(alternative), sort: "action", title: "Do" },
+        until: { anyOf: [{ oneOf: [time], sort: "condition" }, { type: "null" }], title: "Until" },
       },
     };
+    const kind = (sort: string, name: string) => ({ sort, name, title: name, description: "", source: "", settings: null, gives: [] });
     const happening = {
       ...source(),
+      kinds: [kind("action", "limit"), kind("action", "friction"), kind("condition", "time"), kind("condition", "gap")],
       schema: { properties: { script: { type: "object", additionalProperties: entry, title: "Script" } } },
       document: {
         script: {
@@ -138,37 +140,54 @@ describe("two forms", () => {
   });
 });
 
-describe("exchanging an application", () => {
-  const [exchange] = exchangesOf(sections(source()));
-  const acc = applications[1];
-  if (!exchange || !acc) throw new Error("the fixture has an application to exchange");
+describe("exchanging a kind", () => {
+  const [exchange, sensor] = exchangesOf(sections(source()));
+  if (!exchange || !sensor) throw new Error("the fixture has an application and a sensor to exchange");
   const before = {
     "applications.platoon.parameters.headway": 0.9,
     "applications.platoon.parameters.k_p": 0.5,
+    "vehicles.leader.sensors.front.range": 80,
+    "vehicles.leader.sensors.front.rate_noise": 0.2,
     "radio.delay": 0.1,
   };
-  const after = exchanged(before, exchange, acc);
+  const after = exchanged(before, exchange, "acc");
+  const [front, lidar] = ["vehicles.leader.sensors.front", exchanged({}, sensor, "lidar")];
 
-  it("finds the select of its group", () => {
-    expect(exchange).toMatchObject({
-      path: "applications.platoon.application",
-      group: "platoon",
-      initial: "cacc",
-    });
+  it("finds the places, and what may stand there", () => {
+    expect(exchange).toMatchObject({ path: "applications.platoon.application", sort: "application", initial: "cacc" });
+    expect(sensor).toMatchObject({ path: `${front}.kind`, base: front, value: "radar", description: "by radio waves" });
+    expect(sensor.choices.map(({ title }) => title)).toEqual(["Beams", "Radar"]);
   });
 
-  it("keeps parameters that the new one has too and drops the others", () => {
+  it("keeps settings that the new one has too and drops the others", () => {
     expect(after).toEqual({
       "applications.platoon.parameters.headway": 0.9,
+      "vehicles.leader.sensors.front.range": 80,
+      "vehicles.leader.sensors.front.rate_noise": 0.2,
       "radio.delay": 0.1,
       "applications.platoon.application": "acc",
     });
+    expect(exchanged(before, sensor, "lidar")).toEqual({
+      "applications.platoon.parameters.headway": 0.9,
+      "applications.platoon.parameters.k_p": 0.5,
+      [`${front}.range`]: 80,
+      "radio.delay": 0.1,
+      [`${front}.kind`]: "lidar",
+    });
   });
 
-  it("shows the new one's parameters, with its defaults where the document has none", () => {
+  it("shows the new one's settings, as the file gives them, or else its own defaults", () => {
     expect(paths(after)).toContain("applications.platoon.parameters.gap_gain");
     expect(paths(after)).not.toContain("applications.platoon.parameters.k_p");
     expect(field("applications.platoon.parameters.gap_gain", after).value).toBe(0.1);
+    expect(field("applications.platoon.parameters.headway", exchanged({}, exchange, "acc")).value).toBe(0.6);
+    expect(field("applications.platoon.parameters.standstill", after).value).toBe(3);
+    expect(field(`${front}.range`, lidar)).toMatchObject({ value: 60, unit: "m", minimum: 0, changed: false });
+    expect(paths(lidar)).not.toContain(`${front}.rate_noise`);
+  });
+
+  it("shows a setting that has to be given as an empty one", () => {
+    expect(field(`${front}.beams`, lidar)).toMatchObject({ value: null, kind: "integer" });
   });
 
   it("lays out objects that a program has set", () => {
@@ -179,11 +198,8 @@ describe("exchanging an application", () => {
   });
 
   it("is no change when it goes back", () => {
-    const cacc = applications[0];
-    expect(cacc && exchanged(after, exchange, cacc)).toEqual({
-      "applications.platoon.parameters.headway": 0.9,
-      "radio.delay": 0.1,
-    });
+    expect(exchanged(lidar, sensor, "radar")).toEqual({});
+    expect(changedIn(sections(source(lidar))[2] as never)).toBe(1);
   });
 });
 
@@ -193,6 +209,8 @@ describe("search and problems", () => {
       "radio.delay",
     ]);
     expect(matching(sections(source()), "nothing like this")).toEqual([]);
+    const waves = matching(sections(source()), "radio waves");
+    expect(exchangesOf(waves).map(({ path }) => path)).toEqual(["vehicles.leader.sensors.front.kind"]);
   });
 
   it("puts a problem at its field, and one of nowhere at the top", () => {
@@ -233,10 +251,11 @@ describe("suggestions", () => {
 });
 
 describe("units and values by path", () => {
-  it("finds the unit of an exchanged application's parameter by its name", () => {
+  it("finds the unit of an exchanged kind's setting by its name", () => {
     const units = unitsOf(source());
     expect(unitAt(units, "radio.delay")).toBe("s");
     expect(unitAt(units, "applications.platoon.parameters.gap_gain")).toBe("1/s");
+    expect(unitAt(units, "vehicles.leader.sensors.front.range")).toBe("m");
     expect(unitAt(units, "radio.unknown")).toBe("");
   });
 

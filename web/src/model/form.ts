@@ -31,13 +31,25 @@ export interface Field {
   changed: boolean;
 }
 
+/** A kind that may stand in a place. */
+export interface Choice {
+  name: string;
+  title: string;
+  /** What may be set of it. */
+  settings: string[];
+}
+
+/** A place where a kind is chosen: an application of a group, the driver of a vehicle, a sensor. */
 export interface Exchange {
-  /** Path of the application's name, e.g. `applications.platoon.application`. */
+  /** Path of the kind's name, e.g. `applications.platoon.application` or `vehicles.leader.driver.kind`. */
   path: string;
-  group: string;
+  /** Under which path its settings stand. */
+  base: string;
+  sort: string;
   initial: string;
   value: string;
   description: string;
+  choices: Choice[];
 }
 
 export interface Section {
@@ -49,13 +61,16 @@ export interface Section {
   sections: Section[];
 }
 
-export type Application = Filled<Server["Application"], { parameters: Schema }>;
+export type KnownKind = Filled<Server["Kind"], { settings: Schema | null }>;
 
 /** What every part of the form is computed from. */
 export interface Source {
+  /** With all defaults. */
   document: Tree;
+  /** As it stands in the file: without defaults. */
+  given: Tree;
   schema: Schema;
-  applications: readonly Application[];
+  kinds: readonly KnownKind[];
   changes: Changes;
 }
 
@@ -80,8 +95,7 @@ const ELSEWHERE = new Set(["title", "description", "seed", "version", "format"])
 /** The whole form, one section per top-level key. */
 export function sections(source: Source): Section[] {
   const { document, schema } = source;
-  const root = resolve(schema, schema, document);
-  const all = objectSection(source, "", root, document);
+  const all = objectSection(source, "", schema, document);
   const general: Section[] = all.fields.length
     ? [{ path: "", title: "General", description: "", fields: all.fields, sections: [] }]
     : [];
@@ -90,33 +104,28 @@ export function sections(source: Source): Section[] {
   return [...filled.sort((a, b) => place(a.path) - place(b.path)), ...general];
 }
 
-function objectSection(source: Source, path: string, schema: Schema, value: Tree): Section {
-  const exchange = exchangeOf(source, path, value);
+function objectSection(source: Source, path: string, child: Schema, value: Tree): Section {
+  const exchange = exchangeOf(source, path, resolve(child, source.schema, value), value);
+  const shown = exchange ? inPlace(source, path, exchange, value) : value;
+  const schema = resolve(child, source.schema, shown);
   const section = emptySection(path, schema);
   if (exchange) section.exchange = exchange;
-  for (const key of keysOf(schema, value)) {
+  for (const key of keysOf(schema, shown)) {
     const below = path ? `${path}.${key}` : key;
     if (below === exchange?.path || (path === "" && ELSEWHERE.has(key))) continue;
-    if (exchange && key === "parameters") {
-      section.fields.push(...applicationFields(source, below, exchange, value[key] as Tree));
-    } else {
-      add(section, source, below, childSchema(schema, key), value[key] ?? null);
-    }
+    if (below === exchange?.base) section.fields.push(...applicationFields(source, exchange, shown[key] as Tree));
+    else add(section, source, below, childSchema(schema, key), shown[key] ?? null);
     // A title given to a property names the section; that of a class of entries does not tell them apart.
     const inner = section.sections.at(-1);
     const title = schema.properties?.[key]?.title;
-    if (inner?.path === below && title) inner.title = words(title) + variant(source, schema, key, value);
+    if (inner?.path === below && title) inner.title = words(title) + variant(inner);
   }
   return section;
 }
 
 /** Which of several alternatives an entry is: its constant is not among the fields. */
-function variant(source: Source, schema: Schema, key: string, value: Tree): string {
-  const child = childSchema(schema, key);
-  if (!child.oneOf && !child.anyOf?.some((option) => option.oneOf)) return "";
-  const chosen = Object.values(resolve(child, source.schema, value[key]).properties ?? {});
-  const constant = chosen.find((property) => property.const !== undefined)?.const;
-  return typeof constant === "string" ? `: ${words(constant).toLowerCase()}` : "";
+function variant({ exchange }: Section): string {
+  return exchange && exchange.choices.length > 1 ? `: ${words(exchange.value).toLowerCase()}` : "";
 }
 
 function emptySection(path: string, schema: Schema): Section {
@@ -127,7 +136,7 @@ function emptySection(path: string, schema: Schema): Section {
 /** Put one child where it belongs: an object becomes a section, a value a field. */
 function add(section: Section, source: Source, path: string, child: Schema, value: Json): void {
   const schema = resolve(child, source.schema, value);
-  if (isTree(value)) section.sections.push(objectSection(source, path, schema, value));
+  if (isTree(value)) section.sections.push(objectSection(source, path, child, value));
   else if (Array.isArray(value) && value.some(isTree))
     section.sections.push(listSection(source, path, schema, value));
   else if (editable(schema, source.schema))
@@ -155,7 +164,7 @@ function listSection(source: Source, path: string, schema: Schema, values: Json[
   values.forEach((value, index) => {
     if (!isTree(value)) return;
     const below = `${path}.${index}`;
-    const item = objectSection(source, below, resolve(items, source.schema, value), value);
+    const item = objectSection(source, below, items, value);
     const name = value.name ?? value.id;
     if (typeof name === "string") item.title = words(name);
     section.sections.push(item);
@@ -232,42 +241,70 @@ function kindOf(schema: Schema, value: Json): Kind {
 /** Equality of JSON values. */
 export const same = (a: Json, b: Json): boolean => a === b || JSON.stringify(a) === JSON.stringify(b);
 
-// ---------------------------------------------------------------------------------- applications
+// ----------------------------------------------------------------------------------------- kinds
 
-/** The key under which an entry names its registered application, if it is such an entry. */
-function exchangeOf({ applications, changes }: Source, path: string, value: Tree): Exchange | undefined {
-  if (!path.startsWith("applications.") || !("parameters" in value)) return undefined;
-  const names = new Set(applications.map(({ name }) => name));
-  const key = ["application", "name", "kind", "type"].find((k) => names.has(value[k] as string));
-  if (!key) return undefined;
+/** The place where a kind is chosen, if this is one: the schema says so of a slot, and groups run applications. */
+function exchangeOf(source: Source, path: string, schema: Schema, value: Tree): Exchange | undefined {
+  const isGroup = /^applications\.[^.]+$/.test(path);
+  const sort = isGroup ? "application" : schema.sort;
+  if (!sort) return undefined;
+  const key = isGroup ? "application" : "kind";
   const place = `${path}.${key}`;
   const initial = value[key] as string;
-  const current = (changes[place] as string | undefined) ?? initial;
-  const description = firstParagraph(applications.find(({ name }) => name === current)?.description ?? "");
-  return { path: place, group: path.slice("applications.".length), initial, value: current, description };
+  const current = (source.changes[place] as string | undefined) ?? initial;
+  const known = source.kinds.filter((kind) => kind.sort === sort);
+  return {
+    path: place,
+    base: isGroup ? `${path}.parameters` : path,
+    sort,
+    initial,
+    value: current,
+    description: firstParagraph(known.find(({ name }) => name === current)?.description ?? ""),
+    choices: known.map(({ name, title, settings }) => ({ name, title, settings: Object.keys(settings?.properties ?? {}) })),
+  };
 }
 
 const firstParagraph = (text: string): string => text.split(/\n\s*\n/)[0]?.trim() ?? "";
 
+/** The kind that is chosen in a place. */
+const chosen = ({ kinds }: Source, { sort, value }: Exchange): Schema =>
+  kinds.find((kind) => kind.sort === sort && kind.name === value)?.settings ?? {};
+
+/** The object with the kind that is chosen: of another one what the file gives is kept, as far as both have it. */
+function inPlace(source: Source, path: string, exchange: Exchange, before: Tree): Tree {
+  const { initial, value, base } = exchange;
+  if (value === initial) return before;
+  const given = valueAt(source.given, base);
+  const settings = settingsOf(chosen(source, exchange), isTree(given) ? given : {});
+  return base === path ? { kind: value, ...settings } : { ...before, [leaf(base)]: settings };
+}
+
+/** What a kind is set to: as the file gives it, else its defaults. */
+const settingsOf = ({ properties = {} }: Schema, given: Tree): Tree =>
+  Object.fromEntries(Object.entries(properties).map(([key, property]) => [key, given[key] ?? property.default ?? null]));
+
 /** The parameters of the application in place, by that application's own schema. */
-function applicationFields(source: Source, path: string, exchange: Exchange, parameters: Tree): Field[] {
-  const application = source.applications.find(({ name }) => name === exchange.value);
-  const schema = application?.parameters ?? {};
+const applicationFields = (source: Source, exchange: Exchange, parameters: Tree): Field[] =>
+  schemaFields(chosen(source, exchange), `${exchange.base}.`, parameters, source.changes);
+
+/** What may be set of a kind, with its defaults. */
+export const settingsAtRest = ({ settings }: KnownKind): Field[] => schemaFields(settings ?? {}, "", {}, {});
+
+/** A field for every property of a kind's own schema. */
+function schemaFields(schema: Schema, place: string, values: Tree, changes: Changes): Field[] {
   return Object.entries(schema.properties ?? {}).map(([key, property]) => {
-    const initial = parameters[key] ?? property.default ?? null;
-    const plain = resolve(property, schema, initial);
-    return field(`${path}.${key}`, plain, initial, source.changes, nullable(property, schema));
+    const initial = values[key] ?? property.default ?? null;
+    return field(`${place}${key}`, resolve(property, schema, initial), initial, changes, nullable(property, schema));
   });
 }
 
-/** Exchange an application: changes of parameters that the new one does not have are dropped, as the server does. */
-export function exchanged(changes: Changes, exchange: Exchange, next: Application): Changes {
-  const base = `applications.${exchange.group}.parameters.`;
-  const kept = Object.entries(changes).filter(
-    ([path]) => !path.startsWith(base) || leaf(path) in (next.parameters.properties ?? {}),
-  );
-  const result = Object.fromEntries(kept.filter(([path]) => path !== exchange.path));
-  return next.name === exchange.initial ? result : { ...result, [exchange.path]: next.name };
+/** Exchange a kind: changes of settings that the new one does not have are dropped, as the server does. */
+export function exchanged(changes: Changes, { path: place, base, initial, choices }: Exchange, name: string): Changes {
+  const settings = choices.find((choice) => choice.name === name)?.settings ?? [];
+  const first = (path: string) => path.slice(base.length + 1).split(".", 1)[0] as string;
+  const stays = (path: string) => !path.startsWith(`${base}.`) || settings.includes(first(path));
+  const kept = Object.entries(changes).filter(([path]) => path !== place && stays(path));
+  return Object.fromEntries(name === initial ? kept : [...kept, [place, name]]);
 }
 
 // --------------------------------------------------------------------------------------- changes
@@ -300,7 +337,7 @@ export const suggesting = (all: readonly Section[], path: string, suggestions: s
     sections: suggesting(section.sections, path, suggestions),
   }));
 
-/** All application selects of the form. */
+/** All places of the form where a kind is chosen. */
 export function exchangesOf(all: readonly Section[]): Exchange[] {
   return all.flatMap((section) => [
     ...(section.exchange ? [section.exchange] : []),
@@ -329,15 +366,17 @@ export function matching(all: readonly Section[], query: string): Section[] {
   const needles = query.toLowerCase().split(/\s+/).filter(Boolean);
   if (needles.length === 0) return [...all];
   const hit = (text: string) => needles.every((needle) => text.toLowerCase().includes(needle));
-  const kept = (section: Section): Section => ({
-    ...section,
-    fields: section.fields.filter(({ path, label, description }) => hit(`${path} ${label} ${description}`)),
-    sections: section.sections.map(kept).filter(notEmpty),
-  });
+  const kept = ({ exchange, ...section }: Section): Section => {
+    const fields = section.fields.filter(({ path, label, description }) => hit(`${path} ${label} ${description}`));
+    const found = exchange && (fields.length > 0 || hit(`${exchange.path} ${exchange.description}`));
+    const inner = section.sections.map(kept).filter(notEmpty);
+    return { ...section, ...(found ? { exchange } : {}), fields, sections: inner };
+  };
   return all.map(kept).filter(notEmpty);
 }
 
-const notEmpty = ({ fields, sections: inner }: Section): boolean => fields.length > 0 || inner.length > 0;
+const notEmpty = ({ exchange, fields, sections: inner }: Section): boolean =>
+  exchange !== undefined || fields.length > 0 || inner.length > 0;
 
 /** The paths that a place may mean: the server writes `file.yaml: applications.platoon.parameters: headway`. */
 function tails(where: string): string[] {
@@ -368,18 +407,18 @@ export function placed(problems: readonly Problem[], paths: readonly string[]): 
 
 // -------------------------------------------------------------------------------------- units
 
-/** The unit of every setting of a scenario, by path; of every application's parameters by `*` and name. */
+/** The unit of every setting of a scenario, by path; of every kind's settings by `*` and name. */
 export function unitsOf(source: Source): Record<string, string> {
   const fields = fieldsOf(sections(source)).map(({ path, unit }) => [path, unit] as const);
-  const parameters = source.applications.flatMap(({ parameters: schema }) =>
-    Object.entries(schema.properties ?? {}).map(([key, { unit }]) => [`*.${key}`, unitText(unit)] as const),
+  const settings = source.kinds.flatMap(({ settings: schema }) =>
+    Object.entries(schema?.properties ?? {}).map(([key, { unit }]) => [`*.${key}`, unitText(unit)] as const),
   );
-  return Object.fromEntries([...parameters, ...fields]);
+  return Object.fromEntries([...settings, ...fields]);
 }
 
-/** The unit of a path; a parameter of an application that was exchanged since is found by its name. */
+/** The unit of a path; a setting of a kind that was exchanged since is found by its name. */
 export const unitAt = (units: Record<string, string>, path: string): string =>
-  units[path] ?? (path.includes(".parameters.") ? (units[`*.${leaf(path)}`] ?? "") : "");
+  units[path] ?? units[`*.${leaf(path)}`] ?? "";
 
 /** The value at a dotted path of a document, if there is one. */
 export function valueAt(document: Json | undefined, path: string): Json | undefined {

@@ -9,6 +9,8 @@ export interface Schema {
   title?: string;
   description?: string;
   unit?: string;
+  /** Of a slot: of which sort the kind is that is chosen there. */
+  sort?: string;
   default?: Json;
   const?: Json;
   enum?: Json[];

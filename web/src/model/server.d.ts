@@ -108,7 +108,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/applications": {
+    "/api/kinds": {
         parameters: {
             query?: never;
             header?: never;
@@ -116,10 +116,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Applications
-         * @description The registered applications with the schemas of their parameters.
+         * Kinds
+         * @description All kinds with the schemas of their settings, sort by sort, and the files that are broken.
          */
-        get: operations["applications_api_applications_get"];
+        get: operations["kinds_api_kinds_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -613,20 +613,21 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /**
-         * Application
-         * @description A registered application and the schema of its parameters.
+         * BrokenKind
+         * @description A file that gave no kind, and why.
          */
-        Application: {
+        BrokenKind: {
             /** Name */
             name: string;
-            /** Title */
-            title: string;
-            /** Description */
-            description: string;
-            /** Parameters */
-            parameters: {
-                [key: string]: unknown;
-            };
+            /** File */
+            file: string;
+            /**
+             * What
+             * @description in one line
+             */
+            what: string;
+            /** Traceback */
+            traceback: string;
         };
         /**
          * BuildingCount
@@ -666,6 +667,19 @@ export interface components {
             unit: string;
             /** Label */
             label: string;
+        };
+        /**
+         * ChannelsNews
+         * @description What the live charts may show: some channels of every vehicle, and what sensors and applications give.
+         */
+        ChannelsNews: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "channels";
+            /** Channels */
+            channels: components["schemas"]["Channel"][];
         };
         /**
          * Check
@@ -831,6 +845,18 @@ export interface components {
             type: "event";
         };
         /**
+         * Given
+         * @description A number that a kind gives; `size` of them under one name.
+         */
+        Given: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Size */
+            size: number;
+        };
+        /**
          * Glossary
          * @description The words of the results: what channels and metrics are called, their units, and what they mean.
          */
@@ -855,6 +881,47 @@ export interface components {
             scenarios_folder: string;
             /** @description what is compiled before the first run; null when that is done */
             compiling: components["schemas"]["Compiling"] | null;
+        };
+        /**
+         * Kind
+         * @description A kind that can be named in a scenario, and what may be set of it.
+         */
+        Kind: {
+            /** Sort */
+            sort: string;
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /**
+             * Source
+             * @description where it comes from: built in, a package, or its file
+             */
+            source: string;
+            /**
+             * Description
+             * @description what its file says about it
+             */
+            description: string;
+            /**
+             * Settings
+             * @description JSON schema of its settings, or of an application's parameters; null when it has none
+             */
+            settings: {
+                [key: string]: unknown;
+            } | null;
+            /** Gives */
+            gives: components["schemas"]["Given"][];
+        };
+        /**
+         * Kinds
+         * @description All kinds, sort by sort, and the files that are broken.
+         */
+        Kinds: {
+            /** Kinds */
+            kinds: components["schemas"]["Kind"][];
+            /** Broken */
+            broken: components["schemas"]["BrokenKind"][];
         };
         /**
          * Layout
@@ -1476,7 +1543,7 @@ export interface components {
          * News
          * @description One message of the socket of a live run.
          */
-        News: components["schemas"]["StateNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
+        News: components["schemas"]["StateNews"] | components["schemas"]["ChannelsNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
         /**
          * Number
          * @description A number with its unit.
@@ -1931,7 +1998,7 @@ export interface components {
         };
         /**
          * ScenarioDetail
-         * @description A scenario with its full document and the schema of its file.
+         * @description A scenario with its full document, what of it stands in the file, and the schema of its file.
          */
         ScenarioDetail: {
             /** Id */
@@ -1944,8 +2011,18 @@ export interface components {
             attribution: string;
             /** Scenario Hash */
             scenario_hash: string;
-            /** Document */
+            /**
+             * Document
+             * @description with all defaults
+             */
             document: {
+                [key: string]: unknown;
+            };
+            /**
+             * Given
+             * @description as it stands in the file, in the present version of the format: without defaults
+             */
+            given: {
                 [key: string]: unknown;
             };
             /** Schema */
@@ -2406,7 +2483,7 @@ export interface operations {
             };
         };
     };
-    applications_api_applications_get: {
+    kinds_api_kinds_get: {
         parameters: {
             query?: never;
             header?: never;
@@ -2421,7 +2498,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Application"][];
+                    "application/json": components["schemas"]["Kinds"];
                 };
             };
             /** @description Not Found */

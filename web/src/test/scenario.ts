@@ -1,8 +1,12 @@
 /** A small scenario with everything that a schema made by pydantic can hold. */
 
-import type { Application, Source } from "../model/form";
+import type { KnownKind, Source } from "../model/form";
 import type { Run, Tree } from "../model/run";
 import type { Schema } from "../model/schema";
+
+const range = { type: "number", title: "Reach", unit: "m", minimum: 0 };
+const radar = { range: { ...range, default: 120 }, rate_noise: { type: "number", unit: "m/s", default: 0.1 } };
+const lidar = { range: { ...range, default: 60 }, beams: { type: "integer", unit: "1" } };
 
 export const schema: Schema = {
   $defs: {
@@ -49,8 +53,17 @@ export const schema: Schema = {
         position: { $ref: "#/$defs/Place", title: "Start" },
         model: { type: "string", enum: ["bmw_320i", "ford_escort"], title: "Model" },
         colour: { type: "string", title: "Colour" },
+        sensors: {
+          type: "object",
+          title: "Sensors",
+          patternProperties: {
+            "^[a-z]+$": { oneOf: [{ $ref: "#/$defs/Radar" }, { $ref: "#/$defs/Lidar" }], sort: "sensor" },
+          },
+        },
       },
     },
+    Radar: { type: "object", properties: { kind: { const: "radar" }, ...radar } },
+    Lidar: { type: "object", properties: { kind: { const: "lidar" }, ...lidar } },
     Brake: {
       type: "object",
       properties: { kind: { const: "brake" }, duration: { type: "number", unit: "s" } },
@@ -84,49 +97,57 @@ export const document: Tree = {
   title: "Test",
   seed: 1,
   radio: { delay: 0.02, loss: 0.01 },
-  vehicles: { leader: { position: { along: null }, model: "bmw_320i", colour: "#2f6fde" } },
+  vehicles: {
+    leader: {
+      position: { along: null },
+      model: "bmw_320i",
+      colour: "#2f6fde",
+      sensors: { front: { kind: "radar", range: 120, rate_noise: 0.3 } },
+    },
+  },
   applications: {
-    platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6, k_p: 0.2 } },
+    platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6, standstill: 2, k_p: 0.2 } },
   },
   script: [{ kind: "swerve", width: 2 }],
   goals: {},
 };
 
-const headway = { type: "number", title: "Time headway", unit: "s", minimum: 0.1, maximum: 5 };
+/** What of the document stands in the file. */
+export const given: Tree = {
+  ...document,
+  vehicles: { leader: { position: { along: null }, sensors: { front: { kind: "radar", rate_noise: 0.3 } } } },
+  applications: { platoon: { application: "cacc", vehicles: ["leader"], parameters: { headway: 0.6 } } },
+};
 
-export const applications: Application[] = [
-  {
-    name: "cacc",
-    title: "Cooperative",
-    description: "by radio",
-    parameters: {
-      type: "object",
-      properties: {
-        headway: { ...headway, default: 0.6 },
-        k_p: { type: "number", unit: "1/s²", default: 0.2 },
-      },
-    },
-  },
-  {
-    name: "acc",
-    title: "Alone",
-    description: "by radar",
-    parameters: {
-      type: "object",
-      properties: {
-        headway: { ...headway, default: 1.2 },
-        gap_gain: { type: "number", unit: "1/s", default: 0.1 },
-      },
-    },
-  },
+const headway = { type: "number", title: "Time headway", unit: "s", minimum: 0.1, maximum: 5 };
+const standstill = { type: "number", title: "Standstill", unit: "m" };
+
+const kind = (sort: string, name: string, title: string, description: string, properties: Schema["properties"]) => ({
+  sort,
+  name,
+  title,
+  description,
+  source: "built in",
+  settings: { type: "object", properties } as Schema,
+  gives: [],
+});
+
+export const kinds: KnownKind[] = [
+  kind("application", "cacc", "Cooperative", "by radio", {
+    headway: { ...headway, default: 0.6 },
+    standstill: { ...standstill, default: 2 },
+    k_p: { type: "number", unit: "1/s²", default: 0.2 },
+  }),
+  kind("application", "acc", "Alone", "by radar", {
+    headway: { ...headway, default: 1.2 },
+    standstill: { ...standstill, default: 3 },
+    gap_gain: { type: "number", unit: "1/s", default: 0.1 },
+  }),
+  kind("sensor", "lidar", "Beams", "by light", lidar),
+  kind("sensor", "radar", "Radar", "by radio waves", radar),
 ];
 
-export const source = (changes: Source["changes"] = {}): Source => ({
-  document,
-  schema,
-  applications,
-  changes,
-});
+export const source = (changes: Source["changes"] = {}): Source => ({ document, given, schema, kinds, changes });
 
 /** A finished run, with whatever is to be different. */
 export const finished = (part: Partial<Run>): Run => ({

@@ -14,7 +14,6 @@ import {
 } from "@mantine/core";
 import { useId, useState } from "react";
 import {
-  type Application,
   changedIn,
   type Exchange,
   type Field,
@@ -22,7 +21,7 @@ import {
   type Section,
 } from "../model/form";
 import type { Json, Problem } from "../model/run";
-import { formatValue } from "../model/units";
+import { formatValue, words } from "../model/units";
 import { Icon } from "./Icon";
 import { NumberEntry } from "./NumberEntry";
 import { ProblemText } from "./Problems";
@@ -35,7 +34,6 @@ export interface Actions {
 
 interface Props extends Actions {
   sections: readonly Section[];
-  applications: readonly Application[];
   problems: ReadonlyMap<string, readonly Problem[]>;
   /** Paths of the sections that stand open. */
   open: string[];
@@ -44,7 +42,7 @@ interface Props extends Actions {
   onOpen: (open: string[]) => void;
 }
 
-type Shared = Pick<Props, "applications" | "problems" | "expanded" | "onChange" | "onExchange">;
+type Shared = Pick<Props, "problems" | "expanded" | "onChange" | "onExchange">;
 
 export function SchemaForm({ sections, open, onOpen, ...shared }: Props) {
   return (
@@ -141,28 +139,25 @@ function InnerSection({ section, ...shared }: { section: Section } & Shared) {
   );
 }
 
-function ExchangeRow({ exchange, applications, onExchange, problems }: { exchange: Exchange } & Shared) {
+function ExchangeRow({ exchange, onExchange, problems }: { exchange: Exchange } & Shared) {
   const id = useId();
-  const wrong = problems.get(exchange.path) ?? [];
+  const { path, sort, initial, value, description, choices } = exchange;
+  const changed = value !== initial;
   return (
-    <div className={classes.row} data-wide data-changed={exchange.value !== exchange.initial || undefined}>
-      <Label id={id} text="Application" description={exchange.description} path={exchange.path} />
+    <div className={classes.row} data-wide data-changed={changed || undefined}>
+      <Label id={id} text={words(sort)} description={description} path={path} />
       <NativeSelect
         id={id}
         size="xs"
-        data-testid={`application-${exchange.group}`}
-        value={exchange.value}
+        data-testid={`param-${path}`}
+        value={value}
         onChange={(event) => onExchange(exchange, event.currentTarget.value)}
-        data={applications.map(({ name, title }) => ({ value: name, label: title || name }))}
+        data={choices.map(({ name, title }) => ({ value: name, label: title }))}
       />
-      {exchange.value !== exchange.initial ? (
-        <Reset
-          label="Application"
-          initial={exchange.initial}
-          onReset={() => onExchange(exchange, exchange.initial)}
-        />
+      {changed ? (
+        <Reset label={words(sort)} initial={initial} onReset={() => onExchange(exchange, initial)} />
       ) : null}
-      <Wrong problems={wrong} />
+      <Wrong problems={problems.get(path) ?? []} />
     </div>
   );
 }
@@ -289,7 +284,7 @@ function Control({ id, field, invalid, onChange }: ControlProps) {
         <NativeSelect
           {...shared}
           value={String(field.value ?? "")}
-          data={field.choices}
+          data={field.value === null ? ["", ...field.choices] : field.choices}
           onChange={(event) => onChange(event.currentTarget.value)}
         />
       );

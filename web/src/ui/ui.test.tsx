@@ -3,7 +3,7 @@ import { act, type ReactNode } from "react";
 import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { sections } from "../model/form";
-import { applications, source } from "../test/scenario";
+import { source } from "../test/scenario";
 import { SchemaForm } from "./SchemaForm";
 import { Failure } from "./State";
 import { lastLine } from "./StatusBadge";
@@ -43,7 +43,6 @@ describe("the schema form", () => {
     render(
       <SchemaForm
         sections={sections(source(changes))}
-        applications={applications}
         problems={problems}
         open={["applications", "radio"]}
         expanded={false}
@@ -95,7 +94,7 @@ describe("the schema form", () => {
 
   it("exchanges an application", () => {
     show();
-    type(byTestId("application-platoon") as unknown as HTMLSelectElement, "acc");
+    type(byTestId("param-applications.platoon.application") as unknown as HTMLSelectElement, "acc");
     expect(onExchange.mock.lastCall?.[1]).toBe("acc");
   });
 

@@ -4,7 +4,7 @@ import { createMemoryHistory, createRootRoute, createRouter, RouterProvider } fr
 import { act } from "react";
 import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import { applications } from "../../api/queries";
+import { kinds } from "../../api/queries";
 import { finished } from "../../test/scenario";
 import { press, Sight } from "../../test/sight";
 import { RunsTable } from "./RunsTable";
@@ -28,7 +28,7 @@ beforeEach(async () => {
   root = createRoot(host);
   // What the server would say of the scenarios is not what the keys are about.
   const client = new QueryClient({ defaultOptions: { queries: { enabled: false } } });
-  client.setQueryData(applications.queryKey, []);
+  client.setQueryData(kinds.queryKey, { kinds: [], broken: [] });
   const router = createRouter({
     routeTree: createRootRoute({ component: Table }),
     history: createMemoryHistory(),

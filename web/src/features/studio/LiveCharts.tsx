@@ -1,10 +1,11 @@
 /** Two charts of the platoon, by default speed and gap, that grow while the run goes. */
 
-import { useMemo, useState } from "react";
+import { useMemo } from "react";
 import { useGlossary } from "../../api/glossary";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
-import { drawn, parts, quantitiesOf, quantity, vehiclesOf } from "../../model/channel";
+import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { carColors } from "../../model/palette";
+import type { Channel } from "../../model/run";
 import type { Samples } from "../../model/samples";
 import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -12,17 +13,28 @@ import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty } from "../../ui/State";
 import classes from "./Studio.module.css";
 
-interface Props {
-  samples: Samples | undefined;
+interface Shared {
+  samples: Samples;
   version: number;
   duration: number;
   /** The paint of the cars, by name. */
   paints: Readonly<Record<string, string>>;
 }
 
-export function LiveCharts({ samples, version, duration, paints }: Props) {
-  const [chosen, setChosen] = useState(["speed", "gap"]);
-  if (!samples || Object.keys(samples.channels).length === 0) {
+interface Props extends Omit<Shared, "samples"> {
+  samples: Samples | undefined;
+  /** What there is to choose from. */
+  channels: readonly Channel[];
+  /** The quantities that are shown, one per chart. */
+  chosen: readonly string[];
+  onChoose: (chosen: string[]) => void;
+}
+
+export function LiveCharts({ samples, channels, chosen, onChoose, ...shared }: Props) {
+  const glossary = useGlossary().channels;
+  const quantities = useMemo(() => recorded(channels, glossary), [channels, glossary]);
+  const names = useMemo(() => channels.map(({ name }) => name), [channels]);
+  if (!samples || channels.length === 0) {
     return (
       <div className={classes.charts} data-empty>
         <Empty icon="chart" title="No samples yet">
@@ -32,44 +44,41 @@ export function LiveCharts({ samples, version, duration, paints }: Props) {
     );
   }
   const choose = (place: number, name: string) =>
-    setChosen(chosen.map((old, index) => (index === place ? name : old)));
+    onChoose(chosen.map((old, index) => (index === place ? name : old)));
   return (
     <div className={classes.charts}>
       {chosen.map((name, place) => (
         <LiveChart
           key={place}
           name={name}
+          names={names}
+          quantities={quantities}
           samples={samples}
-          version={version}
-          duration={duration}
-          paints={paints}
           onChoose={(next) => choose(place, next)}
+          {...shared}
         />
       ))}
     </div>
   );
 }
 
-interface ChartProps {
+interface ChartProps extends Shared {
   name: string;
-  samples: Samples;
-  version: number;
-  duration: number;
-  paints: Readonly<Record<string, string>>;
+  /** Of all channels. */
+  names: readonly string[];
+  quantities: readonly Quantity[];
   onChoose: (name: string) => void;
 }
 
-function LiveChart({ name, samples, version, duration, paints, onChoose }: ChartProps) {
+function LiveChart({ name, names, quantities, samples, version, duration, paints, onChoose }: ChartProps) {
   const dark = useDark();
-  const names = Object.keys(samples.channels).join(" ");
-  const shown = useMemo(() => drawn(name, names.split(" ")), [name, names]);
-  const lines = useMemo(() => linesOf(shown, names.split(" "), paints, dark), [shown, names, paints, dark]);
+  const shown = useMemo(() => drawn(name, names), [name, names]);
+  const lines = useMemo(() => linesOf(shown, names, paints, dark), [shown, names, paints, dark]);
   // The columns grow in place, `version` tells when.
   const data = useMemo<Columns>(
     () => [samples.time, ...shown.map((channel) => samples.channels[channel] ?? [])],
     [samples, shown, version],
   );
-  const quantities = quantitiesOf(names.split(" "), useGlossary().channels);
   const { label, unit } = quantity(name, quantities);
   return (
     <div className={classes.chart}>

@@ -14,7 +14,6 @@ import {
 } from "@mantine/core";
 import { useMemo, useRef, useState } from "react";
 import {
-  type Application,
   type Exchange,
   exchangesOf,
   type Field,
@@ -34,7 +33,6 @@ import classes from "./Studio.module.css";
 
 interface Props {
   sections: Section[];
-  applications: readonly Application[];
   problems: readonly Problem[];
   parent: number | null;
   onChange: (field: Field, value: Json) => void;
@@ -45,7 +43,6 @@ interface Props {
 
 export function ParameterPanel({
   sections,
-  applications,
   problems,
   parent,
   onChange,
@@ -87,7 +84,6 @@ export function ParameterPanel({
         ) : (
           <SchemaForm
             sections={shown}
-            applications={applications}
             problems={wrong}
             open={query ? shown.map(({ path }) => path) : open}
             expanded={query !== ""}

@@ -3,7 +3,7 @@
 import { Button, NativeSelect, Text } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
-import { memo } from "react";
+import { memo, useState } from "react";
 import * as queries from "../../api/queries";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
 import { isLive, type RunDetail } from "../../model/run";
@@ -36,7 +36,8 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
   const [draft, update] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
-  const shown = useShownRun(run);
+  const [charted, chart] = useState(["speed", "gap"]);
+  const shown = useShownRun(run, charted);
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
   useTakeOver(id, from, update);
   useFarewell(shown.live, run);
@@ -74,7 +75,15 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
       />
       {active ? (
         <div className={classes.bottom}>
-          <LiveCharts samples={shown.samples} version={shown.version} duration={duration} paints={scene.paints} />
+          <LiveCharts
+            samples={shown.samples}
+            channels={shown.channels}
+            chosen={charted}
+            onChoose={chart}
+            version={shown.version}
+            duration={duration}
+            paints={scene.paints}
+          />
           <SidePanel scenario={id} run={run} status={shown.progress?.status} events={shown.events} />
         </div>
       ) : null}
@@ -93,7 +102,6 @@ interface ParametersProps {
 
 /** The left side. Its parts change only with the form, not ten times a second with the run. */
 const Parameters = memo(function Parameters({ id, form, draft, update, other }: ParametersProps) {
-  const { applications } = form;
   const { changes } = draft;
   return (
     <aside className={classes.panel} aria-label="Parameters">
@@ -103,14 +111,10 @@ const Parameters = memo(function Parameters({ id, form, draft, update, other }: 
       {form.sections ? (
         <ParameterPanel
           sections={form.sections}
-          applications={applications}
           problems={form.problems}
           parent={draft.parent}
           onChange={(field, value) => update({ changes: withChange(changes, field, value) })}
-          onExchange={(exchange, name) => {
-            const next = applications.find((known) => known.name === name);
-            if (next) update({ changes: exchanged(changes, exchange, next) });
-          }}
+          onExchange={(exchange, name) => update({ changes: exchanged(changes, exchange, name) })}
           onResetAll={() => update({ changes: {} })}
           onForgetParent={() => update({ parent: null })}
         />

@@ -13,29 +13,28 @@ const NONE: never[] = [];
 /** The form of a scenario with the user's changes, and what the server says about them. */
 export function useForm(id: string, changes: Changes) {
   const scenario = useQuery(queries.scenario(id));
-  const applications = useQuery(queries.applications);
-  const { document, schema } = scenario.data ?? {};
-  const known = applications.data ?? NONE;
+  const kinds = useQuery(queries.kinds);
+  const { document, given, schema } = scenario.data ?? {};
+  const known = kinds.data?.kinds ?? NONE;
   // Without an answer the name of the map is typed.
   const { data: places } = useQuery(maps);
   const form = useMemo(() => {
-    if (!document || !schema) return undefined;
+    if (!document || !given || !schema) return undefined;
     const files = places?.map((place) => `maps/${place.id}`) ?? NONE;
-    return suggesting(sections({ document, schema, applications: known, changes }), "map.file", files);
-  }, [document, schema, known, changes, places]);
+    return suggesting(sections({ document, given, schema, kinds: known, changes }), "map.file", files);
+  }, [document, given, schema, known, changes, places]);
   const [settled] = useDebouncedValue(changes, 300);
   const { data: checked } = useQuery({ ...queries.check(id, settled), enabled: form !== undefined });
   const { refetch: again } = scenario;
-  const { refetch: andApplications } = applications;
-  const retry = useCallback(() => void Promise.all([again(), andApplications()]), [again, andApplications]);
-  const error = scenario.error ?? applications.error;
+  const { refetch: andKinds } = kinds;
+  const retry = useCallback(() => void Promise.all([again(), andKinds()]), [again, andKinds]);
+  const error = scenario.error ?? kinds.error;
   const problems = checked?.problems ?? NONE;
   const blocked = error ? `The scenario could not be loaded: ${error.message}` : refusal(problems);
   return useMemo(
     () => ({
       blocked,
       sections: form,
-      applications: known,
       ok: checked?.ok ?? false,
       problems,
       duration: durationOf(checked?.document ?? document),
@@ -43,7 +42,7 @@ export function useForm(id: string, changes: Changes) {
       error,
       retry,
     }),
-    [form, known, checked, problems, blocked, document, error, retry],
+    [form, checked, problems, blocked, document, error, retry],
   );
 }
 

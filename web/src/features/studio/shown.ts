@@ -4,7 +4,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useEffect, useMemo, useState } from "react";
 import { type LiveState, useLive } from "../../api/live";
 import * as queries from "../../api/queries";
-import { isTraffic, parts } from "../../model/channel";
+import { drawn } from "../../model/channel";
 import { isLive, type RunDetail } from "../../model/run";
 import type { Samples } from "../../model/samples";
 import { durationOf } from "./form";
@@ -12,8 +12,8 @@ import type { Progressing } from "./RunBar";
 
 const NONE: never[] = [];
 
-/** The run in the address: its live state while it goes, its stored trace otherwise. */
-export function useShownRun(run: number | undefined) {
+/** The run in the address: its live state while it goes, its stored trace of what the charts show otherwise. */
+export function useShownRun(run: number | undefined, charted: readonly string[]) {
   const stored = useQuery({ ...queries.run(run ?? 0), enabled: run !== undefined });
   const detail = run === undefined ? undefined : stored.data;
   const [followed, follow] = useState<number>();
@@ -27,10 +27,11 @@ export function useShownRun(run: number | undefined) {
   useEffect(() => {
     if (lost) follow(undefined);
   }, [lost]);
-  const samples = useStoredSamples(live ? undefined : detail);
+  const samples = useStoredSamples(live ? undefined : detail, charted);
   return {
     live,
     detail,
+    channels: live?.channels ?? detail?.channels ?? NONE,
     samples: live?.samples ?? samples,
     version: live?.version ?? 0,
     events: live?.events ?? detail?.events ?? NONE,
@@ -57,21 +58,14 @@ const fromStored = ({ run, status, sim_time_s, error, document }: RunDetail): Pr
 });
 
 /** The trace of a finished run in the same shape as live samples. */
-function useStoredSamples(run: RunDetail | undefined): Samples | undefined {
+function useStoredSamples(run: RunDetail | undefined, charted: readonly string[]): Samples | undefined {
   const finished = run !== undefined && !isLive(run.status);
-  const channels = finished ? run.channels.map(({ name }) => name).filter(isCharted) : NONE;
+  const names = finished ? run.channels.map(({ name }) => name) : NONE;
+  const channels = charted.flatMap((quantity) => drawn(quantity, names));
   const { data } = useQuery(queries.trace(run?.run ?? 0, channels));
   return useMemo(() => {
     if (!finished || !data) return undefined;
     const columns = Object.entries(data.channels).map(([name, { values }]) => [name, values] as const);
     return { time: data.time, channels: Object.fromEntries(columns) };
   }, [data, finished]);
-}
-
-/** The quantities that a live run sends, too. */
-const CHARTED = new Set(["speed", "gap", "acceleration", "time_gap"]);
-
-function isCharted(channel: string): boolean {
-  const { vehicle, quantity } = parts(channel);
-  return CHARTED.has(quantity) && !isTraffic(vehicle);
 }
