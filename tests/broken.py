@@ -67,8 +67,8 @@ class Settings(Part):
 class Reading(NamedTuple):
     """The target."""
 
-    clearance: Annotated[float, "m"] = 0.0
-    closing: Annotated[float, "m/s"] = 0.0
+    clearance: Annotated[float, "m", "to the rear of the car ahead"] = 0.0
+    closing: Annotated[float, "m/s", "of the two, not measured"] = 0.0
 
 
 @compiled

@@ -13,7 +13,7 @@ from studio.kind.registry import Kind
 def given(kind: Kind) -> list[Quantity]:
     """The numbers of a reading, of a payload, of what an application logs; of a metric or a channel the one that it is."""
     if hasattr(kind.module, "UNIT"):
-        return [Quantity(kind.name, kind.module.UNIT, 1, nan)]
+        return [Quantity(kind.name, kind.module.UNIT, 1, nan, meaning=kind.title)]
     return [each for part in parts(kind) for each in quantities(part)]
 
 

@@ -113,6 +113,7 @@ class Given(BaseModel):
     name: str
     unit: str
     size: int
+    meaning: str
 
 
 class Kind(BaseModel):
@@ -154,7 +155,7 @@ def kind(known: registry.Kind) -> Kind:
         source=known.source,
         description=known.explanation,
         settings=known.settings.model_json_schema() if known.settings else None,
-        gives=[Given(name=each.name, unit=each.unit, size=each.size) for each in given(known)],
+        gives=[Given(name=each.name, unit=each.unit, size=each.size, meaning=each.meaning) for each in given(known)],
     )
 
 

@@ -111,7 +111,7 @@ def test_5_the_kinds_are_listed(page):
     own.locator("summary").focus()
     page.keyboard.press("Enter")
     expect(own).to_contain_text("the gap to the car ahead as it is")
-    for words in ("Patience", "at least 0, at most 10 s", "clearance"):
+    for words in ("Patience", "at least 0, at most 10 s", "clearance", "to the rear of the car ahead"):
         expect(own).to_contain_text(words)
 
 

@@ -65,7 +65,8 @@ def test_kinds(client):
     cacc, own = kinds["application", "cacc"], kinds["sensor", "flawless"]
     assert cacc["source"] == "built in" and cacc["settings"]["properties"]["headway"]["unit"] == "s"
     assert own["source"].endswith("flawless.py") and "A radar without noise" in own["description"]
-    assert own["gives"] == [{"name": "clearance", "unit": "m", "size": 1}, {"name": "closing", "unit": "m/s", "size": 1}]
+    clearance = {"name": "clearance", "unit": "m", "size": 1, "meaning": "to the rear of the car ahead"}
+    assert own["gives"][0] == clearance and [each["name"] for each in own["gives"]] == ["clearance", "closing"]
     assert kinds["metric", "min_ttc"]["settings"] is None
     (broken,) = found["broken"]
     assert broken["name"] == "torn" and broken["file"].endswith("torn.py")

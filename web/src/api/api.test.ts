@@ -105,6 +105,8 @@ describe("the feed of a live run", () => {
     const listener = vi.fn();
     feed.subscribe(listener);
     socket.say(state("running"));
+    const channels = [{ name: "leader.front.range", unit: "m", label: "Range of front" }];
+    socket.say({ type: "channels", channels });
     socket.say({ type: "samples", time: [0, 0.02], channels: { "leader.speed": [1, 2] } });
     const brakes = { time: 0.5, text: "brakes", vehicle: "leader", kind: "script_begun", units: ["leader"], x: 1, y: 2, numbers: {} };
     socket.say({ type: "event", ...brakes });
@@ -113,6 +115,7 @@ describe("the feed of a live run", () => {
       status: "running",
       time: 1,
       real_time_factor: 0.9,
+      channels,
       samples: { time: [0, 0.02] },
       events: [brakes],
     });

@@ -78,7 +78,9 @@ export interface Source {
 const ORDER = [
   "applications",
   "radio",
+  "messages",
   "vehicles",
+  "stations",
   "traffic",
   "script",
   "weather",

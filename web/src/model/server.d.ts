@@ -855,6 +855,8 @@ export interface components {
             unit: string;
             /** Size */
             size: number;
+            /** Meaning */
+            meaning: string;
         };
         /**
          * Glossary

@@ -11,6 +11,10 @@ interface Props {
 }
 
 export function QuantitySelect({ value, quantities, onChange }: Props) {
+  const data = quantities.map(({ name, label, unit }) => ({ value: name, label: withUnit(label, unit) }));
+  // Chosen for another run, of other sensors perhaps: the select must not show what the chart does not.
+  if (!quantities.some(({ name }) => name === value))
+    data.push({ value, label: `${quantity(value, quantities).label} (not recorded)` });
   return (
     <NativeSelect
       size="xs"
@@ -19,7 +23,7 @@ export function QuantitySelect({ value, quantities, onChange }: Props) {
       title={quantity(value, quantities).meaning}
       value={value}
       onChange={(event) => onChange(event.currentTarget.value)}
-      data={quantities.map(({ name, label, unit }) => ({ value: name, label: withUnit(label, unit) }))}
+      data={data}
     />
   );
 }

@@ -149,7 +149,7 @@ function ExchangeRow({ exchange, onExchange, problems }: { exchange: Exchange } 
       <NativeSelect
         id={id}
         size="xs"
-        data-testid={`param-${path}`}
+        data-testid={sort === "application" ? `application-${path.split(".")[1]}` : `param-${path}`}
         value={value}
         onChange={(event) => onExchange(exchange, event.currentTarget.value)}
         data={choices.map(({ name, title }) => ({ value: name, label: title }))}

@@ -4,6 +4,7 @@ import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { sections } from "../model/form";
 import { source } from "../test/scenario";
+import { QuantitySelect } from "./QuantitySelect";
 import { SchemaForm } from "./SchemaForm";
 import { Failure } from "./State";
 import { lastLine } from "./StatusBadge";
@@ -94,7 +95,7 @@ describe("the schema form", () => {
 
   it("exchanges an application", () => {
     show();
-    type(byTestId("param-applications.platoon.application") as unknown as HTMLSelectElement, "acc");
+    type(byTestId("application-platoon") as unknown as HTMLSelectElement, "acc");
     expect(onExchange.mock.lastCall?.[1]).toBe("acc");
   });
 
@@ -119,6 +120,19 @@ describe("the schema form", () => {
     expect(host.querySelector('[role="alert"]')?.textContent).toBe(
       "is too large (got 7); allowed: 0 to 1 s; take less",
     );
+  });
+});
+
+describe("the quantity of a chart", () => {
+  const speed = { name: "speed", label: "Speed", unit: "m/s", meaning: "" };
+  const shown = (value: string) => {
+    render(<QuantitySelect value={value} quantities={[speed]} onChange={() => {}} />);
+    return host.querySelector("select")?.selectedOptions[0]?.textContent;
+  };
+
+  it("is the one that is drawn, also where this run has not recorded it", () => {
+    expect(shown("speed")).toBe("Speed [m/s]");
+    expect(shown("front.clearance")).toBe("Front clearance (not recorded)");
   });
 });
 

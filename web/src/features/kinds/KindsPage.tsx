@@ -108,8 +108,8 @@ function Settings({ kind }: { kind: KnownKind }) {
 
 function Gives({ kind: { gives } }: { kind: KnownKind }) {
   if (gives.length === 0) return null;
-  const rows = gives.map(({ name, unit, size }) => [name, unitText(unit), size > 1 ? String(size) : ""]);
-  return <Rows caption="What it gives" head={["Name", "Unit", "Numbers"]} rows={rows} />;
+  const rows = gives.map(({ name, unit, size, meaning }) => [name, meaning, unitText(unit), size > 1 ? String(size) : ""]);
+  return <Rows caption="What it gives" head={["Name", "Meaning", "Unit", "Numbers"]} rows={rows} />;
 }
 
 function Rows({ caption, head, rows }: { caption: string; head: string[]; rows: string[][] }) {

@@ -24,7 +24,12 @@ export function useForm(id: string, changes: Changes) {
     return suggesting(sections({ document, given, schema, kinds: known, changes }), "map.file", files);
   }, [document, given, schema, known, changes, places]);
   const [settled] = useDebouncedValue(changes, 300);
-  const { data: checked } = useQuery({ ...queries.check(id, settled), enabled: form !== undefined });
+  const { data: checked, isPlaceholderData } = useQuery({
+    ...queries.check(id, settled),
+    enabled: form !== undefined,
+  });
+  // What was said about earlier changes says nothing about these.
+  const ok = checked !== undefined && checked.ok && settled === changes && !isPlaceholderData;
   const { refetch: again } = scenario;
   const { refetch: andKinds } = kinds;
   const retry = useCallback(() => void Promise.all([again(), andKinds()]), [again, andKinds]);
@@ -35,14 +40,14 @@ export function useForm(id: string, changes: Changes) {
     () => ({
       blocked,
       sections: form,
-      ok: checked?.ok ?? false,
+      ok,
       problems,
       duration: durationOf(checked?.document ?? document),
       seed: typeof document?.seed === "number" ? document.seed : 1,
       error,
       retry,
     }),
-    [form, checked, problems, blocked, document, error, retry],
+    [form, ok, checked, problems, blocked, document, error, retry],
   );
 }
 

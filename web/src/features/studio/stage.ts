@@ -33,4 +33,4 @@ export function useScene(id: string, set: Changes, live: number | undefined, ok:
   return { ...data, paints, again };
 }
 
-const SEEN = /^(map|vehicles|traffic|platoon|route|routes)\b/;
+const SEEN = /^(map|vehicles|traffic|script|weather|routes)\b/;
