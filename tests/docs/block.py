@@ -17,6 +17,7 @@ import yaml
 
 from studio import cli, job
 from studio.errors import StudioError
+from studio.kind import registry
 from studio.scenario import file
 from tests.conftest import ROOT
 from tests.server.server import served
@@ -167,6 +168,7 @@ class Reader:
             if block.title:
                 self.save(block)
             path = Path(block.title) if block.title else self.patched(part)
+            registry.load_folder(path.parent)
             job.prepare(job.load(path))
         except (StudioError, yaml.YAMLError) as error:
             raise BlockError(block, block.line, "this YAML", str(error)) from None

@@ -11,8 +11,8 @@ PAGES = sorted((ROOT / "docs" / "pages").rglob("*.md"))
 
 
 @pytest.fixture
-def following(tmp_path, monkeypatch):
-    """A reader in a folder of its own."""
+def following(tmp_path, monkeypatch, own_kinds):
+    """A reader in a folder of its own; kinds of the page are gone again afterwards."""
     monkeypatch.chdir(tmp_path)
     with reader(tmp_path) as made:
         yield made
