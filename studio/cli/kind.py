@@ -18,8 +18,8 @@ def kinds(folder: Kinds = None, as_json: AsJson = False) -> None:
     """Lists all kinds with where they come from, and the files that are broken; their tracebacks go to standard error."""
     from studio.kind import registry
 
-    if folder:
-        registry.load_folder(folder)
+    for each in folder or []:
+        registry.load_folder(each)
     found, broken = list(registry.every()), registry.broken()
     for each in broken:
         print(f"{each.error}\n", file=sys.stderr)

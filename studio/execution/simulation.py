@@ -18,7 +18,7 @@ from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED
-from studio.world.tick import environment, gather, look, meet, part
+from studio.world.tick import environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
 
@@ -98,11 +98,13 @@ class Simulation:
                 self.cases[world].happen(event)
 
     def end(self, status: str) -> None:
-        """The runs are over: drivers look around once more, and a last sample is taken."""
+        """The runs are over: everybody looks around once more, and a last sample is taken."""
         self.tell()
         environment(self.world)
         gather(self.world)
         look(self.world)
+        think(self.world)
+        sense(self.world, self.refuse)
         self.recorder.take(self.world, self.world.clock.k - 1)
         for number, case in enumerate(self.cases):
             if not case.is_over:
@@ -119,8 +121,8 @@ class Simulation:
             self.end("stopped")
 
     def refuse(self, fault: Fault) -> None:
-        """An application has failed, and the runs of its worlds with it."""
-        for number in sorted({group.world for group in fault.groups or (fault.group,)}):
+        """A kind has failed, and the runs of its worlds with it."""
+        for number in fault.worlds:
             if not self.cases[number].is_over:
                 self.fail(number, fault.error.message)
 

@@ -83,6 +83,19 @@ def needy(value: Any) -> str:
     return next((f"{name}: {what}" for name, field in value.model_fields.items() if (what := unlabelled(field))), "")
 
 
+def plain(value: Any) -> str:
+    """A pydantic model of plain numbers with first values."""
+    return settings(value) or unplain(value)
+
+
+def flat(value: Any) -> str:
+    """A NamedTuple of single numbers with units."""
+    if what := record(value):
+        return what
+    wide = [each.name for each in quantities(value) if each.size > 1]
+    return f"{wide[0]} is a tuple; a field for each number is meant" if wide else ""
+
+
 def waited(value: Any) -> str:
     """A pydantic model of plain numbers, whose fields may have to be given."""
     return needy(value) or unplain(value)
@@ -182,16 +195,16 @@ SORTS = {
     for each in (
         Sort("sensor", "measures what is around a unit", (
             TITLE,
-            Need("Settings", "what is set per sensor, with unit and range", settings, "class Settings(Part): ..."),
-            Need("Reading", "what one target, or the one reading, consists of", record, "class Reading(NamedTuple): ..."),
+            Need("Settings", "what is set per sensor, with unit and range", plain, "class Settings(Part): ..."),
+            Need("Reading", "what one target, or the one reading, consists of", flat, "class Reading(NamedTuple): ..."),
             Need("CAPACITY", "how many targets it gives at most; 1 when left out", count, "CAPACITY = 4", optional=True),
             Need("Memory", "what it remembers from tick to tick", record, "class Memory(NamedTuple): ...", optional=True),
-            Need("measure", "one sensor at one tick: reports its targets and returns how many", function(
-                "view", "me", "settings", "memory", "out", compiled=True), "def measure(view, me, settings, memory, out)"),
+            Need("measure", "one sensor at one tick: reports its targets, returns how many; with a Memory: how many, Memory(...)",
+                 function("view", "me", "settings", "memory", "out", compiled=True), "def measure(view, me, settings, memory, out)"),
         )),
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
-            Need("Settings", "what is set for all units of a scenario", settings, "class Settings(Part): ..."),
+            Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
             Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
             Need("largest", "the largest message [bytes]", function("settings"), "def largest(settings)"),
@@ -202,7 +215,7 @@ SORTS = {
             TITLE,
             Need("SIZE", "bytes on the channel, with everything", count, "SIZE = 200"),
             Need("Payload", "what it carries, with units", record, "class Payload(NamedTuple): ..."),
-            Need("Settings", "what is set for a message that every unit sends by itself", settings, "class Settings(Part): ...",
+            Need("Settings", "what is set for a message that every unit sends by itself", plain, "class Settings(Part): ...",
                  optional=True),
             Need("beacon", "the payload that every unit sends once per `period` of the settings", function(
                 "own", "settings", compiled=True), "def beacon(own, settings)", optional=True),
@@ -241,7 +254,7 @@ SORTS = {
         )),
         Sort("application", "what a developer invents", (
             TITLE,
-            Need("Parameters", "what its developer tunes, with unit and range", settings, "class Parameters(Part): ..."),
+            Need("Parameters", "what its developer tunes, with unit and range", plain, "class Parameters(Part): ..."),
             Need("Memory", "what it remembers from tick to tick", remembered, "class Memory(NamedTuple): ..."),
             Need("Sees", "its ports: what it sees", bundle, "class Sees(NamedTuple): ..."),
             Need("Does", "its ports: what it does", bundle, "class Does(NamedTuple): ..."),

@@ -88,6 +88,6 @@ async def misread(request: Request, error: RequestValidationError) -> Response:
 
 def description() -> dict[str, Any]:
     """The OpenAPI description; its version is left out, so that it changes with the routes only."""
-    app = create_app(Desk(db=Path("runs.db"), scenarios=Path("scenarios"), kinds=None))
+    app = create_app(Desk(db=Path("runs.db"), scenarios=Path("scenarios"), kinds=()))
     app.version = "1"
     return app.openapi()

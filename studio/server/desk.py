@@ -28,7 +28,7 @@ class Desk:
 
     db: Path
     scenarios: Path
-    kinds: Path | None
+    kinds: tuple[Path, ...]
 
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)

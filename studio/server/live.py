@@ -224,7 +224,7 @@ class Listener:
 class Lives:
     """All live runs, and the process that waits for the next one."""
 
-    def __init__(self, *, db: Path, first: Path | None, kinds: Path | None,
+    def __init__(self, *, db: Path, first: Path | None, kinds: tuple[Path, ...],
                  on_frame: Callable[[LiveRun, Frame], None]) -> None:  # fmt: skip
         self.db, self.first, self.kinds, self.on_frame = db, first, kinds, on_frame
         self.runs: dict[int, LiveRun] = {}

@@ -20,7 +20,7 @@ FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent i
 PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
 
 
-def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: Path | None, browser: bool) -> None:
+def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list[Path] | None, browser: bool) -> None:
     """Serves until it is interrupted. Raises StoreError or ServerError before it starts."""
     listening = listen(host, port)
     try:
@@ -45,17 +45,17 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: Path
     uvicorn.Server(config).run(sockets=[listening])
 
 
-def application(db: Path, folder: Path, kinds: Path | None, host: str):
-    """The ASGI application. Live runs load the folder of kinds again, each in its process."""
+def application(db: Path, folder: Path, kinds: list[Path] | None, host: str):
+    """The ASGI application. Live runs load the folders of kinds again, each in its process."""
     return SameOrigin(Door(page.app, lambda: inner(db, folder, kinds)), host=host)
 
 
-def inner(db: Path, folder: Path, kinds: Path | None):
+def inner(db: Path, folder: Path, kinds: list[Path] | None):
     """REST and scene; imported here, behind the door."""
     from studio.server.app import create_app
     from studio.server.desk import Desk
 
-    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=kinds.resolve() if kinds else None))
+    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=tuple(each.resolve() for each in kinds or ())))
 
 
 def listen(host: str, port: int) -> socket.socket:

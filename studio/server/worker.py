@@ -192,11 +192,11 @@ class Live:
             self.pipe.send(("samples", record.time, {name: record.trace(name) for name, _, _ in self.channels()}))
 
 
-def main(pipe: Connection, first: Path | None, kinds: Path | None) -> None:
+def main(pipe: Connection, first: Path | None, kinds: tuple[Path, ...]) -> None:
     """The process: gets ready, waits for its order, runs it."""
     try:
-        if kinds:
-            load_folder(kinds)
+        for folder in kinds:
+            load_folder(folder)
         warm(first)
         pipe.send(("ready",))
         order, *values = pipe.recv()

@@ -44,6 +44,7 @@ def unfit(name: str, group: Application, kind: Kind, scenario: Scenario, where: 
         if port.commanded(kind.module) and unit in scenario.stations:
             yield Problem(at, f"is a station, and {kind.name!r} commands a car", repr(unit), ", ".join(scenario.vehicles))
         yield from blind(kind, unit, scenario, at)
+        yield from namesake(name, kind, unit, scenario, f"{where}: applications.{name}")
         yield from silent(kind, group, i, scenario, f"{where}: applications.{name}.listens_to.{i}")
 
 
@@ -74,6 +75,14 @@ def blind(kind: Kind, unit: str, scenario: Scenario, where: str) -> Iterator[Pro
             elif len(names) > 1 and one.name not in names:
                 what = f"has several sensors of the kind {one.kind!r}, none of them named {one.name!r} as the port of {kind.name!r} is"
                 yield Problem(where, what, ", ".join(names), remedy=f"name one of them {one.name!r}")
+
+
+def namesake(name: str, kind: Kind, unit: str, scenario: Scenario, where: str) -> Iterator[Problem]:
+    """A group that is named like a sensor of its unit: what both give would be recorded under one name."""
+    part = scenario.vehicles.get(unit) or scenario.stations.get(unit)
+    tells = any(one.what in (port.LOG, port.NOTICE) for one in port.done(kind.module))
+    if part and tells and name in part.sensors:
+        yield Problem(where, f"is named like a sensor of {unit!r}, and {kind.name!r} has values to be recorded", name, remedy="rename one")
 
 
 def silent(kind: Kind, group: Application, i: int, scenario: Scenario, where: str) -> Iterator[Problem]:

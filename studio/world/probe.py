@@ -2,7 +2,8 @@
 
 A sensor's first target is `follower_1.front.range`, its second `follower_1.front.2.range`; where there can be
 several, `follower_1.front.count` says how many.
-What an application logs is `follower_1.cacc.spacing_error`; what it shows to the driver `follower_1.cacc.notice`.
+What an application logs stands under the name of its group, `follower_1.platoon.spacing_error`; what it shows to the driver
+is `follower_1.platoon.notice`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -67,16 +68,13 @@ def of_sensor(each: Mounted, units: Units) -> Iterator[tuple[int, Probe]]:
 def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
     """What an application logs and shows, with the number of the world."""
     for column, unit in enumerate(each.unit.tolist()):
-        at, world = f"{units.name_of(unit)}.{each.application.name}", int(units.world[unit])
+        group, world = each.group_of(column).name, int(units.world[unit])
+        at = f"{units.name_of(unit)}.{group}"
         for part, unit_of, i in parts(each.log):
-            yield (
-                world,
-                Probe(
-                    f"{at}.{part}", unit_of, f"{part.replace('_', ' ').capitalize()} of {each.application.name}", each, "said", i, column
-                ),
-            )
+            label = f"{part.replace('_', ' ').capitalize()} of {group}"
+            yield world, Probe(f"{at}.{part}", unit_of, label, each, "said", i, column)
         if each.shows:
-            yield world, Probe(f"{at}.notice", "1", f"Notice of {each.application.name}", each, "shown", -1, column)
+            yield world, Probe(f"{at}.notice", "1", f"Notice of {group}", each, "shown", -1, column)
 
 
 def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:

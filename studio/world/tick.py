@@ -20,7 +20,7 @@ Refuse = Callable[[Fault], None]
 
 
 def let_through(fault: Fault) -> None:
-    """An application that fails ends everything."""
+    """A kind that fails ends everything."""
     raise fault.error
 
 
@@ -33,16 +33,16 @@ def tick(world: World) -> None:
 def meet(world: World, refuse: Refuse = let_through) -> None:
     """What happens at one instant; afterwards everything that is known belongs to the same time.
 
-    `refuse` is told of applications that fail.
+    `refuse` is told of sensors, radios and applications that fail.
     """
     environment(world)
     gather(world)
     look(world)
     think(world)
-    sense(world)
-    communicate(world)
+    sense(world, refuse)
+    communicate(world, refuse)
     applications(world, refuse)
-    dispatch(world)
+    dispatch(world, refuse)
     act(world)
 
 
@@ -93,7 +93,7 @@ def think(world: World) -> None:
     world.unfit = sum([seats.decide(v.state, v.parameter, v.mind) for seats in world.seats])
 
 
-def sense(world: World) -> None:
+def sense(world: World, refuse: Refuse = let_through) -> None:
     """Satellites tell where one is; units look at themselves and around."""
     v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
     own.carry(
@@ -101,24 +101,27 @@ def sense(world: World) -> None:
         r.shadow, u.satellite, u.now,
     )  # fmt: skip
     for each in u.mounted:
-        each.run(clock.k, clock.time, *world.view, each.unit, each.stream, each.settings, each.memory, each.out)
+        for i, what in each.ask(clock.k, clock.time, world.view).items():
+            refuse(u.blame(each, i, what))
 
 
-def communicate(world: World) -> None:
+def communicate(world: World, refuse: Refuse = let_through) -> None:
     """Beacons go out; what has come in is taken, and laid before the applications."""
     clock = world.clock
     for post in world.units.posts:
         own = (post.period, post.settings, post.link_sender, post.inbox)
-        post.exchange(clock.k, clock.tick, *own, *sent(world, post))
+        with post.answering(refuse):
+            post.exchange(clock.k, clock.tick, *own, *sent(world, post))
     for each in world.open_inboxes:
         freshest(each.first, each.count, each.links, each.post.inbox, each.heard, each.slots)
 
 
-def dispatch(world: World) -> None:
+def dispatch(world: World, refuse: Refuse = let_through) -> None:
     """The radio decides about what applications have sent."""
     for post in world.units.posts:
         if post.is_of_applications and post.fresh.any():
-            post.dispatch(*sent(world, post))
+            with post.answering(refuse):
+                post.dispatch(*sent(world, post))
 
 
 def sent(world: World, post: Post) -> tuple:

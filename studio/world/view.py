@@ -13,9 +13,16 @@ from studio.model.random import normal, uniform
 from studio.world.passes.neighbour import within
 from studio.world.table.unit import BUMPER, COSINE, HEADING, OWN_FIRST, SINE, TRUE_X, TRUE_Y
 
+MISSHAPEN = -1.0  # in place of a count
+
 
 class View(NamedTuple):
-    """The world at one tick. Arrays are [row, vehicle], [row, unit], [row, object]; rows as in studio/vehicle and studio/world/table."""
+    """The world at one tick. Arrays are [row, vehicle], [row, unit], [row, object].
+
+    Rows are constants: of `state` those of studio/vehicle/state.py (V_X, ACTIVE), of `parameter` of studio/vehicle/parameter.py (LENGTH),
+    of `places` of studio/world/passes/neighbour.py (REAR_X), of `unit` of studio/world/table/unit.py, of `table` of
+    studio/world/table/street.py. The glossary in the reference lists them all.
+    """
 
     k: int  # ticks since the start
     time: float  # [s]
@@ -57,6 +64,7 @@ class Me(NamedTuple):
     speed: float  # [m/s]
     yaw_rate: float  # [rad/s]
     stream: int  # of its random numbers
+    width: int  # numbers of one Reading
 
 
 class Way(NamedTuple):
@@ -84,12 +92,12 @@ class Transmission(NamedTuple):
 
 
 @inlined
-def about(view, unit, sensor, stream):
+def about(view, unit, sensor, stream, width):
     """Who is asked."""
     u, v, w = view.unit, view.unit_vehicle[unit], view.unit_world[unit]
     return Me(
         sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit],
-        u[OWN_FIRST, unit], u[OWN_FIRST + 2, unit], stream,
+        u[OWN_FIRST, unit], u[OWN_FIRST + 2, unit], stream, width,
     )  # fmt: skip
 
 
@@ -117,9 +125,11 @@ def draw_normal(view, me, number):
 
 @inlined
 def report(out, me, slot, reading):
-    """Writes down target `slot`, 0, 1, ...; numbers only, in the order of the Reading. One too many is not written."""
-    row = 1 + slot * len(reading)
+    """Writes down target `slot`, 0, 1, ...; a whole Reading. One too many is not written, and one of another size makes the run fail."""
+    row = 1 + slot * me.width
+    if len(reading) != me.width:
+        out[0, me.sensor] = MISSHAPEN
     for value in literal_unroll(reading):
         if row < out.shape[0]:
-            out[row, me.sensor] = value
+            out[row, me.sensor] = value * 1.0
         row += 1

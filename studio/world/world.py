@@ -7,13 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
+from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import ACTIVE
-from studio.world.board.host import Group, Hosted
+from studio.world.board.host import Fault, Group, Hosted
 from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
@@ -194,6 +195,11 @@ class Units:
     def number(self, name: str, world: int = 0) -> int:
         """A unit by its name; raises ValueError."""
         return int(self.first[world]) + self.names[world].index(name)
+
+    def blame(self, of: Mounted, i: int, what: str) -> Fault:
+        """What sensor i of a kind did wrong."""
+        text = f"The sensor {of.kind.name!r} ({of.names[i]} of {self.name_of(int(of.unit[i]))}) {what}"
+        return Fault((int(self.world[of.unit[i]]),), ApplicationError(text))
 
     def name_of(self, unit: int) -> str:
         """Its name."""

@@ -74,9 +74,9 @@ def test_what_is_declared_is_what_runs(made, above):
     made(tried=HEAD + above + DECIDE)
     found = run({"mine": GROUP | {"application": "tried", "parameters": {"u": -1.0}}}, seconds=1.5)
     assert found.status == "done", found.error
-    log = found.trace("follower_2.tried.seen")
+    log = found.trace("follower_2.mine.seen")
     np.testing.assert_array_equal(log[1:-1], found.trace("follower_2.front.range")[1:-1])
-    assert found.trace("follower_2.tried.count")[-1] == 2.0 and found.trace("follower_1.tried.count")[-1] == 1.0
+    assert found.trace("follower_2.mine.count")[-1] == 2.0 and found.trace("follower_1.mine.count")[-1] == 1.0
     assert found.trace("follower_1.acceleration")[-1] == pytest.approx(-1.0, abs=0.2)
 
 
@@ -84,7 +84,7 @@ def test_compiled_or_not_is_the_same_to_the_last_bit(made):
     made(tried=HEAD + DECIDE, machine=HEAD + "@compiled" + DECIDE)
     one, other = (run({"mine": GROUP | {"application": name, "parameters": {"u": -0.5}}}) for name in ("tried", "machine"))
     np.testing.assert_array_equal(one.record.values, other.record.values)
-    np.testing.assert_array_equal(one.trace("follower_2.tried.seen"), other.trace("follower_2.machine.seen"))
+    np.testing.assert_array_equal(one.trace("follower_2.mine.seen"), other.trace("follower_2.mine.seen"))
 
 
 WRONG = {
@@ -158,10 +158,10 @@ def test_messages_of_ones_own_from_two_senders(made):
     found = run({"mine": subscribed}, seconds=1.0, **{"radio.loss": 0.0})
     assert found.status == "done", found.error
     speeds = [found.trace(f"{name}.speed")[30:40].mean() for name in ("follower_1", "leader")]
-    assert found.trace("follower_2.talker.seen")[-1] == pytest.approx(speeds[0] + 100.0 * speeds[1], rel=0.01)
-    assert found.trace("follower_2.talker.count")[-1] == 1.0 + 10.0 * 0.0
+    assert found.trace("follower_2.mine.seen")[-1] == pytest.approx(speeds[0] + 100.0 * speeds[1], rel=0.01)
+    assert found.trace("follower_2.mine.count")[-1] == 1.0 + 10.0 * 0.0
     everybody = run({"mine": group}, seconds=1.0, **{"radio.loss": 0.0})
-    assert everybody.status == "done" and everybody.trace("leader.talker.seen")[-1] > 100.0
+    assert everybody.status == "done" and everybody.trace("leader.mine.seen")[-1] > 100.0
 
 
 def test_a_station_hears_and_logs(made):
@@ -180,8 +180,8 @@ def decide(parameters, memory, sees):
     group = {"application": "watcher", "units": ["roadside"], "listens_to": ["leader"]}
     found = run({"watch": group}, seconds=1.0, stations={"roadside": station}, **{"radio.range": 5000.0, "radio.loss": 0.0})
     assert found.status == "done", found.error
-    assert found.trace("roadside.watcher.count")[-2] == pytest.approx(2.98)
-    assert 2.0 < found.trace("roadside.watcher.seen")[-2] < 2.2
+    assert found.trace("roadside.watch.count")[-2] == pytest.approx(2.98)
+    assert 2.0 < found.trace("roadside.watch.seen")[-2] < 2.2
 
 
 def refused(applications, **changes):
@@ -249,8 +249,8 @@ def decide(parameters, memory, sees):
     made(tried=text + body)
     found = run({"mine": {"application": "tried", "units": ["follower_1"], "parameters": {"law": "hard"}}}, seconds=0.1)
     assert found.status == "done", found.error
-    assert (found.trace("follower_1.tried.seen")[:-1] == 2.0).all()
-    assert found.trace("follower_1.tried.count").tolist()[:4] == [100.0, 110.0, 111.0, 211.0]
+    assert (found.trace("follower_1.mine.seen")[:-1] == 2.0).all()
+    assert found.trace("follower_1.mine.count").tolist()[:4] == [100.0, 110.0, 111.0, 211.0]
 
 
 def test_what_is_shown_to_the_driver(made):
@@ -263,4 +263,4 @@ def decide(parameters, memory, sees):
 """
     made(shows=text + body)
     found = run({"mine": {"application": "shows", "units": ["follower_1"]}}, seconds=0.3)
-    assert found.trace("follower_1.shows.notice").tolist()[:12] == [0.0] * 5 + [1.0] * 5 + [2.0] * 2
+    assert found.trace("follower_1.mine.notice").tolist()[:12] == [0.0] * 5 + [1.0] * 5 + [2.0] * 2

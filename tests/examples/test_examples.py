@@ -53,8 +53,8 @@ def test_one_scenario_uses_them_all(run, examples):
     assert row["status"] == "done" and row["error"] is None and row["unmet"] == []
     assert {f"{kind.sort}.{kind.name}" for kind in examples.values()} <= set(row["kinds"])
     assert row["metrics"]["time_exposed"]["value"] == 0.0
-    kept = runs.trace(1, ["letting.let_in.wanting", "letting.let_in.notice", "letting.side.ahead", "ahead.specific_power"])
-    assert kept["letting.let_in.wanting"].max() == 1.0 and kept["letting.let_in.notice"].max() == 1.0
+    kept = runs.trace(1, ["letting.letting.wanting", "letting.letting.notice", "letting.side.ahead", "ahead.specific_power"])
+    assert kept["letting.letting.wanting"].max() == 1.0 and kept["letting.letting.notice"].max() == 1.0
     assert 2.0 < kept["letting.side.ahead"][0] < 12.0 and kept["ahead.specific_power"].max() > 5.0
     told = [event.text for event in runs.events(1)]
     assert any("careful begins" in text for text in told) and any("wriggle begins: sine with dwell" in text for text in told)

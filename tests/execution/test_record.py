@@ -89,5 +89,5 @@ def test_what_happens_to_the_platoon_is_told(sample):
     assert any("is between it and" in text for _, text in told)
     takes_over = told["follower_4", "driver takes over: red light"]
     acting = run.trace("follower_4.intervening")
-    assert run.time[acting == 1.0][0] == pytest.approx(takes_over - 0.02)
+    assert run.time[acting == 1.0][0] == pytest.approx(takes_over)
     assert told["leader", "hard_brake begins: brake with 6 m/s²"] == 20

@@ -216,7 +216,7 @@ def test_it_is_an_event_and_a_channel(road):
     (told,) = record.happenings
     assert (told.vehicle, told.kind, told.text) == ("car", "driver_takes_over", "driver takes over: collision")
     trace = record.trace("car.intervening")
-    assert set(trace) == {0.0, 1.0} and record.time[trace == 1.0][0] == pytest.approx(told.time - TICK)
+    assert set(trace) == {0.0, 1.0} and record.time[trace == 1.0][0] == pytest.approx(told.time)
     assert not record.trace("standing.intervening").any()
 
 

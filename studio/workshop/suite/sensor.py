@@ -12,7 +12,7 @@ from studio.workshop.check import Check, tried
 from studio.workshop.stage import stage
 from studio.world.board.sensing import Mounted
 from studio.world.tick import gather
-from studio.world.view import View, about
+from studio.world.view import MISSHAPEN, View, about
 
 SENSORS = 6  # on the car, with drawn settings each, the first with those that count when nothing is set
 LOOKS, APART = 8, 25  # how often is looked, and how many ticks lie between
@@ -51,11 +51,13 @@ def asked(current: Simulation, each: Mounted, i: int, measure) -> tuple[int, np.
     module = each.kind.module
     out = np.zeros_like(each.out)
     seen = View(current.world.clock.k, current.world.clock.time, *current.world.view)
-    me = about(seen, each.unit[i], i, each.stream[i])
+    me = about(seen, each.unit[i], i, each.stream[i], sum(one.size for one in each.reading))
     chosen = current.cases[0].setting.scenario.vehicles["own"].sensors[each.names[i]].model_dump(exclude={"kind"})
     settings = draw.settings_tuple(module, module.Settings.model_validate(chosen))
     memory = module.Memory(*each.memory[:, i].tolist()) if hasattr(module, "Memory") else 0
     answer = measure(seen, me, settings, memory, out)
+    if out[0, i] == MISSHAPEN:
+        raise ValueError(f"report() was given something that is no whole Reading: {', '.join(one.name for one in each.reading)} are meant")
     return int(answer[0] if isinstance(answer, tuple) else answer), out[:, i]
 
 

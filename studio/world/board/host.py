@@ -108,8 +108,9 @@ class Hosted:
             problem = Problem(where, REASONS[reason], f"{self.wrong[j]:g}", allowed(name), REMEDIES[reason])
             when = f"at tick {round(time / tick)} ({time:g} s)"
             who = f"The application {self.application.name!r} on {self.names[j]!r}"
-            text = f"{who} gave {name} = {self.wrong[j]:g} {when}, which {REASONS[reason]}"
-            yield Fault(self.group_of(j), ApplicationError(text, [problem]))
+            bounds = f" (allowed: {problem.allowed})" if problem.allowed else ""
+            text = f"{who} gave {name} = {self.wrong[j]:g} {when}, which {REASONS[reason]}{bounds}; {problem.remedy}"
+            yield Fault((self.group_of(j).world,), ApplicationError(text, [problem]))
 
     def raised(self, error: BaseException) -> "Fault":
         """An exception, with its traceback and the unit that was deciding."""
@@ -117,7 +118,7 @@ class Hosted:
         groups = [self.group_of(int(j)) for j in at] or self.groups
         who = f"on {self.names[int(at[0])]!r}" if at.size else "on " + ", ".join(repr(each.name) for each in self.groups)
         text = f"The application {self.application.name!r} {who} raised {type(error).__name__}: {error}\n{traceback.format_exc()}"
-        return Fault(groups[0], ApplicationError(text), tuple(groups))
+        return Fault(tuple(sorted({each.world for each in groups})), ApplicationError(text))
 
     def group_of(self, j: int) -> Group:
         """The group of a hosted unit."""
@@ -125,11 +126,10 @@ class Hosted:
 
 
 class Fault(NamedTuple):
-    """Something that an application did wrong: its group, what it was, and all groups if it concerns several."""
+    """Something that a kind did wrong: the worlds whose runs fail with it, and what it was."""
 
-    group: Group
+    worlds: tuple[int, ...]
     error: ApplicationError
-    groups: tuple[Group, ...] = ()
 
 
 def allowed(name: str) -> str:

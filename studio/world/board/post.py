@@ -7,7 +7,9 @@ depend on seed, sender, receiver and the message's number only.
 At a tick: beacons go out, then what has come in by now is taken; what applications send goes out after they have decided.
 """
 
-from collections.abc import Callable, Sequence
+import traceback
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from math import ceil, inf, sqrt
 from types import ModuleType
@@ -18,6 +20,7 @@ from numba import literal_unroll
 
 from studio.application.contract import Own
 from studio.compiled import inlined, lean
+from studio.errors import ApplicationError
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import width
@@ -26,6 +29,7 @@ from studio.model.random import uniform
 from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import walls_between
 from studio.rows import Moving
+from studio.world.board.host import Fault
 from studio.world.table.unit import (
     DRIFT,
     H_CAME,
@@ -100,6 +104,7 @@ class Post:
 
     kind: Kind
     radio: Kind
+    worlds: tuple[int, ...]
     is_of_applications: bool  # whether applications send it, besides or instead of beacons
     sender: np.ndarray  # units that send it
     period: np.ndarray  # [ticks] per world, of beacons
@@ -117,6 +122,15 @@ class Post:
     inbox: Moving  # [row, link]
     dispatch: Callable  # the radio decides about what was sent
     exchange: Callable  # beacons go out, the radio decides, what has come in is taken
+
+    @contextmanager
+    def answering(self, refuse: Callable[[Fault], None]) -> Generator[None]:
+        """A message or radio that raises ends the runs of all worlds that have it; told with the traceback."""
+        try:
+            yield
+        except (Exception, SystemExit):
+            text = f"The message {self.kind.name!r} on the radio {self.radio.name!r} cannot be sent:\n{traceback.format_exc()}"
+            refuse(Fault(self.worlds, ApplicationError(text)))
 
     @property
     def size(self) -> float:
@@ -183,6 +197,7 @@ def post(kind: Kind, radio: Kind, need: Need, entity: np.ndarray, number: np.nda
     return Post(
         kind=kind,
         radio=radio,
+        worlds=tuple(sorted({int(world_of[unit]) for unit in need.senders})),
         is_of_applications=need.at_once > 0,
         sender=sender,
         period=periods,
@@ -252,7 +267,7 @@ def send(i, unit, time, fixed, payload, now, ring, last, fresh):
     ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
     row = SENT_ROWS
     for value in literal_unroll(payload):
-        ring[row, column] = value
+        ring[row, column] = value * 1.0
         row += 1
     fresh[i] += 1
 
@@ -299,15 +314,28 @@ def receive(time, tick, sender_count, last, ring, link_sender, arrival, inbox):
             if ring[S_NUMBER, column] != number:
                 break
             if time - tick < arrival[slot, link] - EARLY <= time:
+                inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, sender_count, ring, arrival)
                 take(time, number, column, link, ring, inbox)
                 break
 
 
 @lean
+def lost_since(before, number, i, link, sender_count, ring, arrival):
+    """How many messages between two were lost; those that are still under way, or have been overtaken, were not."""
+    if before < 0:
+        return 0.0
+    slots, lost = arrival.shape[0], 0.0
+    for each in range(before + 1, number):
+        slot = each % slots
+        is_kept = ring[S_NUMBER, slot * sender_count + i] == each
+        if not is_kept or arrival[slot, link] == inf:
+            lost += 1.0
+    return lost
+
+
+@lean
 def take(time, number, column, link, ring, inbox):
     """A message comes in."""
-    before = inbox[H_NUMBER, link]
-    inbox[H_MISSED, link] = number - before - 1.0 if before >= 0.0 else 0.0
     inbox[H_NUMBER, link], inbox[H_CAME, link] = number, time
     inbox[H_TIME, link], inbox[H_STAMP, link] = ring[S_TIME, column], ring[S_STAMP, column]
     for row in range(ring.shape[0] - SENT_ROWS):

@@ -139,7 +139,7 @@ def check_values(given: Any, where: str, of: type) -> None:
             )
 
 
-NUMBER = (int, float, np.number)
+NUMBER = (int, float, np.number, np.bool_)
 TYPES = {COMMAND: Command, OUTBOX: Outbox, NOTICE: Notice}
 
 
@@ -162,7 +162,7 @@ def source(application: Kind) -> str:
     seen = list(wired(port.seen(module), (TARGETS, INBOX)))
     sent = list(wired(port.done(module), (OUTBOX,), len(seen)))
     decide = f"decide(ParametersTuple({spelled([each.size for each in shapes(module.Parameters)], 'parameters')}), "
-    decide += f"Memory({spelled([each.size for each in remembered], 'memory')}), sees)"
+    decide += f"Memory({values(remembered, 'memory', 'j', 0)}), sees)"
     return HEAD.format(
         name=application.name,
         module=module.__name__,
@@ -284,7 +284,9 @@ def checks(module: ModuleType) -> Iterator[str]:
 
 
 def ones(each: Quantity) -> list[str]:
-    """How the numbers of a quantity are reached."""
+    """How the numbers of a quantity are reached; yes and no become 1 and 0."""
+    if each.is_flag:
+        return [" * 1.0"]
     return [""] if each.size == 1 else [f"[{i}]" for i in range(each.size)]
 
 

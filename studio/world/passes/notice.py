@@ -114,17 +114,15 @@ def notice(world: World, at: Watch) -> None:
         s.phase, s.turned, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, v.state, at.table, at.count
     )
     notice_vehicles(time, v.state, w.of, w.number, at.named, at.vehicles_told, at.table, at.count)
+    u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
     if at.follower.size:
-        notice_company(
-            time, v.state, v.mind, w.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count
-        )
+        notice_company(now, v.state, v.mind, w.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
     if r.stop_station.size:
         notice_lights(
             time, world.clock.tick, v.state, v.mind, v.parameter, w.of, w.number, at.named, r.path_first, r.stop_first, r.stop_count,
             r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
         )  # fmt: skip
-    notice_drivers(time, v.state, v.mind, w.of, w.number, at.acting, at.table, at.count)
-    u, now = world.units, time - world.clock.tick
+    notice_drivers(now, v.state, v.mind, w.of, w.number, at.acting, at.table, at.count)
     for post in u.posts:
         notice_messages(now, world.clock.tick, post.inbox, post.link_receiver, post.sender, post.link_sender, u.world, u.first, u.now,
                         at.table, at.count)  # fmt: skip
