@@ -85,7 +85,7 @@ def decide(parameters, memory, sees):
 
 
 def test_what_is_overtaken_is_not_lost(made):  # noqa: F811
-    """A radio that loses nothing, with delays that let messages overtake each other: none is told as lost; one that loses some tells all."""
+    """A radio that loses nothing, with delays that let them overtake each other: none is told as lost; one that loses some tells all."""
     group = {"mine": {"application": "cacc", "units": ["follower_1"], "listens_to": ["leader"]}}
     slow = {"radio.delay": 0.2, "radio.delay_variation": 0.2}
     whole = run(group, seconds=10.0, **slow, **{"radio.loss": 0.0})
