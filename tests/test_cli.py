@@ -129,9 +129,9 @@ def test_an_old_scenario_is_read_told_and_rewritten(tmp_path, sample):
     assert "version 1 to 2: `road.friction` is `weather.friction`" in told and f"`studio migrate {path}` rewrites it" in told
     assert path.read_text() == OLD
     code, out, _ = studio("migrate", path, cwd=tmp_path)
-    assert code == 0 and "is of version 2 now" in out
-    assert path.read_text() == OLD.replace("title", "version: 2\ntitle").replace("road: {", "weather: {")
-    assert studio("migrate", path, cwd=tmp_path)[1] == f"{path} is of version 2 already\n"
+    assert code == 0 and "is of version 3 now" in out
+    assert path.read_text() == OLD.replace("title", "version: 3\ntitle").replace("road: {", "weather: {")
+    assert studio("migrate", path, cwd=tmp_path)[1] == f"{path} is of version 3 already\n"
     code, out, told = studio("check", path, cwd=tmp_path)
     assert code == 0 and told == ""
 

@@ -46,6 +46,10 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
     full, rest = laid_out(document, where), dict(changes)
     for path in changes:
         if sort := exchanged_sort(full, path):
+            for around in [
+                each for each in rest if path.startswith(f"{each}.")
+            ]:  # what is set as a whole is set before its kind is exchanged
+                document = patched(document, edit.assignment(document, full, around, rest.pop(around)))
             document = exchanged(document, full, sort, path, rest)
     full = full if len(rest) == len(changes) else laid_out(document, where)
     for path, value in rest.items():

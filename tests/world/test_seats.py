@@ -70,8 +70,10 @@ def folder(tmp_path_factory):
     """A folder with a driver."""
     folder = tmp_path_factory.mktemp("drivers")
     (folder / "cruiser.py").write_text(FILE)
+    kept = list(registry.every())
     registry.load_folder(folder)
-    return folder
+    yield folder
+    registry.restore(kept)
 
 
 def test_a_driver_in_one_file_drives_beside_the_usual_one(folder):
@@ -92,8 +94,11 @@ def test_another_kind_keeps_the_settings_that_both_have(folder):
     told, usual = (each.driver for each in job.load(path, changes).scenario.vehicles.values())
     assert (told.kind, told.time_headway, told.steering_gain, told.cruise) == ("cruiser", 2.0, 3.0, 14.0)
     assert (usual.kind, usual.time_headway, usual.cruise) == ("cruiser", 1.2, 12.0)
-    with pytest.raises(ScenarioError, match=r"vehicles.told.driver.cruise: is not a field"):
-        job.load(path, {"vehicles.told.driver": {"kind": "cruiser", "cruise": 30}}).changed({"vehicles.told.driver.kind": "attentive"})
+    whole = {"kind": "cruiser", "cruise": 30, "time_headway": 3.0}
+    last = (
+        job.load(path, {"vehicles.told.driver": whole}).changed({"vehicles.told.driver.kind": "attentive"}).scenario.vehicles["told"].driver
+    )
+    assert (last.kind, last.time_headway, hasattr(last, "cruise")) == ("attentive", 3.0, False)
     crowd = job.load(path, {"traffic.driver.kind": "cruiser"})
     assert crowd.scenario.traffic.driver.kind == "cruiser"
 
