@@ -44,17 +44,20 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
     Raises ScenarioError for a path that does not exist.
     """
     full, rest = laid_out(document, where), dict(changes)
-    for path in changes:
+    for i, path in enumerate(changes):
         if sort := exchanged_sort(full, path):
-            for around in [
-                each for each in rest if path.startswith(f"{each}.")
-            ]:  # what is set as a whole is set before its kind is exchanged
+            for around in whole(list(changes)[:i], path):
                 document = patched(document, edit.assignment(document, full, around, rest.pop(around)))
             document = exchanged(document, full, sort, path, rest)
     full = full if len(rest) == len(changes) else laid_out(document, where)
     for path, value in rest.items():
         document = patched(document, edit.assignment(document, full, path, value))
     return document
+
+
+def whole(earlier: list[str], path: str) -> list[str]:
+    """What has been set before as a whole that a path is a part of: it comes first."""
+    return [each for each in earlier if path.startswith(f"{each}.")]
 
 
 def laid_out(document: dict[str, Any], where: str) -> dict[str, Any]:
