@@ -46,7 +46,7 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
     full, rest = laid_out(document, where), dict(changes)
     for i, path in enumerate(changes):
         if sort := exchanged_sort(full, path):
-            for around in whole(list(changes)[:i], path):
+            for around in whole([each for each in list(changes)[:i] if each in rest], path):
                 document = patched(document, edit.assignment(document, full, around, rest.pop(around)))
             document = exchanged(document, full, sort, path, rest)
     full = full if len(rest) == len(changes) else laid_out(document, where)
