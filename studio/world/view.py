@@ -11,7 +11,7 @@ from numba import literal_unroll
 from studio.compiled import inlined
 from studio.model.random import normal, uniform
 from studio.world.passes.neighbour import within
-from studio.world.table.unit import BUMPER, COSINE, HEADING, OWN_FIRST, SINE, TRUE_X, TRUE_Y
+from studio.world.table.unit import BUMPER, COSINE, HEADING, OWN_SPEED, OWN_YAW_RATE, SINE, TRUE_X, TRUE_Y
 
 MISSHAPEN = -1.0  # in place of a count
 
@@ -97,7 +97,7 @@ def about(view, unit, sensor, stream, width):
     u, v, w = view.unit, view.unit_vehicle[unit], view.unit_world[unit]
     return Me(
         sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit],
-        u[OWN_FIRST, unit], u[OWN_FIRST + 2, unit], stream, width,
+        u[OWN_SPEED, unit], u[OWN_YAW_RATE, unit], stream, width,
     )  # fmt: skip
 
 

@@ -160,6 +160,8 @@ def test_messages_of_ones_own_from_two_senders(made):
     speeds = [found.trace(f"{name}.speed")[30:40].mean() for name in ("follower_1", "leader")]
     assert found.trace("follower_2.mine.seen")[-1] == pytest.approx(speeds[0] + 100.0 * speeds[1], rel=0.01)
     assert found.trace("follower_2.mine.count")[-1] == 1.0 + 10.0 * 0.0
+    some = run({"mine": group | {"listens_to": [[], [], "leader"]}}, seconds=1.0, **{"radio.loss": 0.0})
+    assert some.trace("leader.mine.seen")[-1] > 100.0  # an empty list hears everybody, beside others that name whom they hear
     everybody = run({"mine": group}, seconds=1.0, **{"radio.loss": 0.0})
     assert everybody.status == "done" and everybody.trace("leader.mine.seen")[-1] > 100.0
 

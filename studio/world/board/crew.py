@@ -117,7 +117,7 @@ def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
 def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -> Wiring:
     """The links of every unit: those of `listens_to` in its order, or the freshest of all."""
     post = post_of(units.posts, one.kind, found[0].radio)
-    links = post.links
+    links, of_receiver = post.links, post.links_by_receiver
     members = [(crew, i, unit) for crew in found for i, unit in enumerate(crew.units)]
     slots, heard = np.full((one.most, len(members)), -1, dtype=np.int64), np.zeros(len(members), dtype=np.int64)
     everybody: list[list[int]] = []
@@ -125,9 +125,10 @@ def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -
         senders = crew.group.senders(i)
         named = [links.get((unit, units.number(sender, crew.world)), -1) for sender in senders]
         slots[: len(named), j], heard[j] = named, len(named)
-        everybody.append([] if senders else [link for (receiver, _), link in links.items() if receiver == unit])
-    if not all(crew.group.listens_to for crew in found):
-        opened.append(to_all(post, everybody, [bool(crew.group.listens_to) for crew, _, _ in members], heard, slots))
+        everybody.append([] if senders else of_receiver.get(unit, []))
+    named_any = [bool(crew.group.senders(i)) for crew, i, _ in members]
+    if not all(named_any):
+        opened.append(to_all(post, everybody, named_any, heard, slots))
     return Wiring(one, post, ("inbox",), (slots, heard))
 
 

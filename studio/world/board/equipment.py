@@ -16,7 +16,7 @@ from studio.scenario.schema import Application
 from studio.world.board.post import Need, Post, post
 from studio.world.board.sensing import Mounted, Sensor, mounted
 from studio.world.setting import Car, Setting
-from studio.world.table.unit import COSINE, GPS_SET, HEADING, OWN_FIRST, PRESENT, SATELLITE, SINE, TRUE_X, TRUE_Y, UNIT
+from studio.world.table.unit import COSINE, GPS_SET, HEADING, OWN_X, OWN_Y, PRESENT, SATELLITE, SINE, TRUE_X, TRUE_Y, UNIT
 from studio.world.world import Units, Worlds
 
 STATIONS = 50_000  # stations are numbered from here on, as chance tells them apart
@@ -65,7 +65,7 @@ def stand(settings: Sequence[Setting], units: Units) -> None:
             u, (x, y) = units.number(name, w), each.spots[name]
             units.now[[TRUE_X, TRUE_Y, HEADING, PRESENT], u] = x, y, station.heading, 1.0
             units.now[[COSINE, SINE], u] = np.cos(station.heading), np.sin(station.heading)
-            units.now[[OWN_FIRST + 7, OWN_FIRST + 8], u] = x, y
+            units.now[[OWN_X, OWN_Y], u] = x, y
 
 
 def sensors_of(parts: Sequence) -> Iterator[Mounted]:

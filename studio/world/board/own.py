@@ -7,15 +7,31 @@ from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.satellite import fix
 from studio.world.table.mind import V_DESIRED, WISH
-from studio.world.table.unit import BUMPER, COSINE, GPS_EAST, GPS_NORTH, HEADING, OWN_FIRST, PRESENT, SINE, TRUE_X, TRUE_Y
+from studio.world.table.unit import (
+    BUMPER,
+    COSINE,
+    GPS_EAST,
+    GPS_NORTH,
+    HEADING,
+    OWN_ACCELERATION,
+    OWN_DRIVER,
+    OWN_REQUEST,
+    OWN_SET_SPEED,
+    OWN_SPEED,
+    OWN_STEERING,
+    OWN_X,
+    OWN_Y,
+    OWN_YAW_RATE,
+    PRESENT,
+    SINE,
+    TRUE_X,
+    TRUE_Y,
+)  # fmt: skip
 
 
 @lean
 def carry(k, tick, vehicle, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, place_of, shadow, satellite, now):
-    """Satellites tell vehicles where they are, and every unit on a vehicle goes with it; stations stay as they are.
-
-    The rows of `Own` stand in their order.
-    """
+    """Satellites tell vehicles where they are, and every unit on a vehicle goes with it; stations stay as they are."""
     fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, satellite)
     n = state.shape[1]
     for u in range(vehicle.size):
@@ -25,9 +41,9 @@ def carry(k, tick, vehicle, state, parameter, mind, commands, places, gps_set, w
         now[TRUE_X, u], now[TRUE_Y, u], now[HEADING, u] = state[X, v], state[Y, v], state[PSI, v]
         now[COSINE, u], now[SINE, u] = places[COS, v], places[SIN, v]
         now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]
-        now[OWN_FIRST, u], now[OWN_FIRST + 1, u] = state[V_X, v], state[A_X, v]
-        now[OWN_FIRST + 2, u], now[OWN_FIRST + 3, u] = state[YAW_RATE, v], state[DELTA, v]
-        now[OWN_FIRST + 4, u], now[OWN_FIRST + 5, u] = mind[V_DESIRED, v], mind[WISH, v]
-        now[OWN_FIRST + 6, u] = commands[U, ((k - 1) % RING) * n + v]
-        now[OWN_FIRST + 7, u] = state[X, v] + satellite[GPS_EAST, v]
-        now[OWN_FIRST + 8, u] = state[Y, v] + satellite[GPS_NORTH, v]
+        now[OWN_SPEED, u], now[OWN_ACCELERATION, u] = state[V_X, v], state[A_X, v]
+        now[OWN_YAW_RATE, u], now[OWN_STEERING, u] = state[YAW_RATE, v], state[DELTA, v]
+        now[OWN_SET_SPEED, u], now[OWN_DRIVER, u] = mind[V_DESIRED, v], mind[WISH, v]
+        now[OWN_REQUEST, u] = commands[U, ((k - 1) % RING) * n + v]
+        now[OWN_X, u] = state[X, v] + satellite[GPS_EAST, v]
+        now[OWN_Y, u] = state[Y, v] + satellite[GPS_NORTH, v]

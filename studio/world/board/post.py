@@ -42,6 +42,7 @@ from studio.world.table.unit import (
     HEIGHT,
     OFFSET,
     OWN_FIRST,
+    OWN_SPEED,
     PRESENT,
     S_NUMBER,
     S_STAMP,
@@ -146,6 +147,14 @@ class Post:
     def senders(self) -> dict[int, int]:
         """Index of every sender by its unit."""
         return {int(unit): i for i, unit in enumerate(self.sender)}
+
+    @property
+    def links_by_receiver(self) -> dict[int, list[int]]:
+        """The numbers of all links of every unit that hears somebody."""
+        found: dict[int, list[int]] = {}
+        for link, unit in enumerate(self.link_receiver.tolist()):
+            found.setdefault(unit, []).append(link)
+        return found
 
     @property
     def links(self) -> dict[tuple[int, int], int]:
@@ -280,7 +289,7 @@ def way_of(i, sender, receiver, slot, size, reach, place, shadow, fixed, now, ri
     distance, walls, inside = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), 0.0, 0.0
     if distance <= reach and shadow.grid.frame[COLUMNS, place] > 0.0:
         walls, inside = walls_between(shadow, place, x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver])
-    return Way(distance, float(walls), inside, size, now[OWN_FIRST, receiver])
+    return Way(distance, float(walls), inside, size, now[OWN_SPEED, receiver])
 
 
 @inlined

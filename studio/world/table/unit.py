@@ -14,7 +14,10 @@ COSINE = UNIT.row("cosine", "1", "of the heading")
 SINE = UNIT.row("sine", "1", "of the heading")
 BUMPER = UNIT.row("bumper", "m", "from its position to its front, where sensors are mounted")
 PRESENT = UNIT.row("present", "1", "1 until its vehicle has arrived")
-OWN_FIRST, *_ = [UNIT.row(each.name, each.unit, each.meaning) for each in OWN]
+OWN_FIRST = len(UNIT)  # the rows of `Own`, in its order
+OWN_SPEED, OWN_ACCELERATION, OWN_YAW_RATE, OWN_STEERING, OWN_SET_SPEED, OWN_DRIVER, OWN_REQUEST, OWN_X, OWN_Y = [
+    UNIT.row(each.name, each.unit, each.meaning) for each in OWN
+]
 
 UNIT_SET = Table("unit_setting", Role.PARAMETER, per="unit")
 OFFSET = UNIT_SET.row("clock_offset", "s", "of its clock at the start")
