@@ -54,6 +54,7 @@ from studio.world.tick import (
     applications,
     collide,
     communicate,
+    dispatch,
     environment,
     gather,
     look,
@@ -213,7 +214,7 @@ def parts(running: Simulation, ticks: int) -> dict[str, float]:
 def parts_of_tick(running: Simulation) -> Iterator[tuple[str, Callable[[], Any]]]:
     """One tick of a run, part by part."""
     world, clock = running.world, running.world.clock
-    meeting = (environment, gather, look, sense, communicate, think, applications, act)
+    meeting = (environment, gather, look, think, sense, communicate, applications, dispatch, act)
     yield from ((part.__name__, partial(part, world)) for part in meeting)
     yield "record", lambda: running.recorder.take(world, clock.k)
     yield from ((part.__name__, partial(part, world)) for part in (move, collide, recirculate))
