@@ -219,11 +219,6 @@ class Events:
         """Collisions of all worlds."""
         return int(self.found.sum())
 
-    def hits_of(self, world: int) -> np.ndarray:
-        """float64[row, collision] of one world."""
-        share = self.hits.shape[1] // self.found.size
-        return self.hits[:, world * share : world * share + int(self.found[world])]
-
 
 @dataclass
 class World:

@@ -4,11 +4,14 @@ import io
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+from tests.patience import PATIENCE_MS
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = [
@@ -32,6 +35,17 @@ def browser() -> Iterator[Browser]:
         pytest.skip("no browser: install one with `apt install chromium`, or put google-chrome on the PATH")
     with sync_playwright() as playwright:
         yield playwright.chromium.launch(executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS)
+
+
+def watched(opened: Browser, **options: Any) -> tuple[Page, list[str]]:
+    """A new page that waits as long as a busy machine needs, and what its console will have complained about."""
+    page = opened.new_page(**options)
+    page.set_default_timeout(PATIENCE_MS)
+    expect.set_options(timeout=PATIENCE_MS)
+    complaints: list[str] = []
+    page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    return page, complaints
 
 
 def drawn(page: Page) -> None:

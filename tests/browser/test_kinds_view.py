@@ -6,8 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.broken import FLAWLESS, TORN
-from tests.browser.browser import browser
-from tests.patience import PATIENCE_MS
+from tests.browser.browser import browser, watched
 from tests.server.server import served
 
 SIZE = {"width": 1280, "height": 760}
@@ -31,12 +30,7 @@ def place(tmp_path_factory, sample):
 def studio(place):
     """A page of a server with these kinds, what its console complained about, and a client."""
     with browser() as opened, served(place, "--kinds", place / "kinds") as (client, _, _):
-        page = opened.new_page(viewport=SIZE, color_scheme="light")
-        page.set_default_timeout(PATIENCE_MS)
-        expect.set_options(timeout=PATIENCE_MS)
-        complaints = []
-        page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page, complaints = watched(opened, viewport=SIZE, color_scheme="light")
         page.goto(str(client.base_url))
         yield page, complaints, client
         opened.close()

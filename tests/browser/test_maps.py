@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.browser import browser, drawn, pixels
-from tests.patience import PATIENCE_MS, until
+from tests.browser.browser import browser, drawn, pixels, watched
+from tests.patience import until
 from tests.server.server import served
 
 SIZE = {"width": 1280, "height": 760}
@@ -50,12 +50,7 @@ def place(tmp_path_factory, sample):
 def maps(place):
     """A page of a server, at its maps, and what its console complained about."""
     with browser() as opened, served(place) as (client, _, _):
-        page = opened.new_page(viewport=SIZE, color_scheme="light")
-        page.set_default_timeout(PATIENCE_MS)
-        expect.set_options(timeout=PATIENCE_MS)
-        complaints = []
-        page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page, complaints = watched(opened, viewport=SIZE, color_scheme="light")
         page.add_init_script(NOTE)
         page.goto(f"{client.base_url}/maps")
         yield page, complaints

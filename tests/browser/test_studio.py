@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.browser import browser, drawn, pixels
-from tests.patience import PATIENCE_MS, until
+from tests.browser.browser import browser, drawn, pixels, watched
+from tests.patience import until
 from tests.server.server import served
 
 SIZE = {"width": 1100, "height": 640}  # a software renderer draws every pixel of it
@@ -17,12 +17,7 @@ def studio(tmp_path_factory, sample):
     """A page of a server with an empty database, and what its console complained about."""
     folder = tmp_path_factory.mktemp("browser")
     with browser() as opened, served(folder, "--scenarios", sample.parent) as (client, _, _):
-        page = opened.new_page(viewport=SIZE)
-        page.set_default_timeout(PATIENCE_MS)
-        expect.set_options(timeout=PATIENCE_MS)
-        complaints = []
-        page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page, complaints = watched(opened, viewport=SIZE)
         page.goto(str(client.base_url))
         yield page, complaints, client
         opened.close()

@@ -64,7 +64,6 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
     logged = sum(width(each.type) for each in port.done(module) if each.what == port.LOG)
     return Hosted(
         application=application,
-        priority=found[0].group.priority,
         groups=[Group(crew.world, crew.place, crew.name, slice(end - len(crew.units), end)) for crew, end in zip(found, ends, strict=True)],
         unit=unit,
         names=tuple(units.name_of(each) for each in unit),

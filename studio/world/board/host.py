@@ -60,7 +60,6 @@ class Hosted:
     """One application on its units: columns [unit], parameters and memory, [row, unit]. Several groups share one host if it is compiled."""
 
     application: Kind
-    priority: int
     groups: list[Group]
     unit: np.ndarray
     names: tuple[str, ...]  # of the units
