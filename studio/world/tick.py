@@ -97,8 +97,8 @@ def sense(world: World, refuse: Refuse = let_through) -> None:
     """Satellites tell where one is; units look at themselves and around."""
     v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
     own.carry(
-        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
-        r.shadow, u.satellite, u.now,
+        clock.k, clock.tick, u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity,
+        w.seed, r.place_of, r.shadow, u.satellite, u.now,
     )  # fmt: skip
     for each in u.mounted:
         for i, what in each.ask(clock.k, clock.time, world.view).items():

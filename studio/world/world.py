@@ -67,6 +67,7 @@ class Roads:
     """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
+    chart: np.ndarray  # of the roads under them
     path_first: Moving
     path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
@@ -189,6 +190,7 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    sight: np.ndarray  # room for what one sensor sees, [row, body]
     mounted: list[Mounted]
     posts: list[Post]
 
@@ -250,7 +252,8 @@ class World:
         v, u, w, o, r, g, tick = self.vehicles, self.units, self.worlds, self.obstacles, self.roads, self.neighbours, self.clock.tick
         return (
             tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
-            o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+            o.table, o.first, o.count, o.standing, r.place_of, r.shadow, v.mind, r.points, r.chart, r.path_first, r.path_count,
+            r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight,
         )  # fmt: skip
 
     @property
@@ -281,7 +284,12 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        units = [
+            u.satellite,
+            u.now,
+            *(part for each in u.mounted for part in (each.out, each.ring, each.output)),
+            *(part for post in u.posts for part in (post.ring, post.inbox)),
+        ]
         happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -300,7 +308,9 @@ class World:
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
         yield u.now[:, u.world == number]
-        yield from (each.out[:, u.world[each.unit] == number] for each in u.mounted)
+        for each in u.mounted:
+            mine = u.world[each.unit] == number
+            yield from (each.out[:, mine], each.ring[:, mine[each.slots]], each.output[:, mine[each.slots]])
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
