@@ -73,7 +73,7 @@ class Hosted:
     wiring: list[Wiring]
     run: Callable
     checked: list[str] = field(default_factory=list)  # names of the fields, as faults count them
-    ready: Callable | None = None  # the loop with all arrays given
+    ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
     @property
     def shows(self) -> bool:
@@ -97,9 +97,9 @@ class Hosted:
         `around` are the arrays of the world: settings of units, what they know, commands. All arrays stay where they are.
         """
         try:
-            if self.ready is None:
-                self.ready = bound(self.run, *around, *self.arrays, then=(time, tick))
-            faults = self.ready(time, tick)
+            if not self.ready:
+                self.ready["run"] = bound(self.run, *around, *self.arrays, then=(time, tick))
+            faults = self.ready["run"](time, tick)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())

@@ -122,7 +122,7 @@ class Post:
     inbox: Moving  # [row, link]
     dispatch: Callable  # the radio decides about what was sent
     exchange: Callable  # beacons go out, the radio decides, what has come in is taken
-    ready: dict[str, Callable] = field(default_factory=dict)  # the same with all arrays given
+    ready: dict[str, Callable] = field(default_factory=dict)  # the same with all arrays given, once they have been called
 
     def exchanged(self, k: int, time: float, tick: float, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
