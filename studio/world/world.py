@@ -61,7 +61,9 @@ class Worlds:
     entity: np.ndarray  # per vehicle, as chance tells them apart
     first: np.ndarray  # per world
     count: np.ndarray  # per world
-    seed: np.ndarray  # per world
+    seed: np.ndarray  # per world, of sensors
+    satellite_seed: np.ndarray  # per world
+    radio_seed: np.ndarray  # per world
 
 
 @dataclass
@@ -259,14 +261,14 @@ class World:
     def air(self) -> tuple:
         """What radios see of the world, likewise."""
         u, w, r = self.units, self.worlds, self.roads
-        return u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now
+        return u.world, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now
 
     @cached_property
     def carry(self) -> Callable:
         """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
         v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
-        own_ones = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow)
-        return bound(carry, *own_ones, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+        cars = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:
