@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from studio.compiled import bound
 from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
@@ -16,6 +17,7 @@ from studio.vehicle.fleet import Fleet
 from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
 from studio.world.board.host import Fault, Group, Hosted
+from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
@@ -253,6 +255,19 @@ class World:
             tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
             o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
         )  # fmt: skip
+
+    @cached_property
+    def air(self) -> tuple:
+        """What radios see of the world, likewise."""
+        u, w, r = self.units, self.worlds, self.roads
+        return u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now
+
+    @cached_property
+    def carry(self) -> Callable:
+        """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
+        v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
+        own_ones = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow)
+        return bound(carry, *own_ones, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:

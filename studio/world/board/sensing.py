@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.compiled import inlined
+from studio.compiled import bound, inlined
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
@@ -29,7 +29,7 @@ from {module} import {imports}
 
 
 @lean
-def run(k, time, {seen}, mounted_on, stream, settings, memory, out, fault):
+def run({seen}, mounted_on, stream, settings, memory, out, fault, k, time):
     view, faults = View(k, time, {seen}), 0
     for i in range(mounted_on.size):
         fault[i] = 0
@@ -85,11 +85,15 @@ class Mounted:
     out: Moving
     fault: np.ndarray  # scratch: what is wrong with the answer of each, as WRONG numbers it
     run: Callable
+    ready: Callable | None = None  # the same with all arrays given
 
     def ask(self, k: int, time: float, view: tuple) -> dict[int, str]:
         """All of them measure; says what went wrong, by the number of the sensor."""
         try:
-            faults = self.run(k, time, *view, self.unit, self.stream, self.settings, self.memory, self.out, self.fault)
+            if self.ready is None:
+                own = (self.unit, self.stream, self.settings, self.memory, self.out, self.fault)
+                self.ready = bound(self.run, *view, *own, then=(k, time))
+            faults = self.ready(k, time)
         except (Exception, SystemExit):
             return dict.fromkeys(range(self.unit.size), f"cannot be asked:\n{traceback.format_exc()}")
         wrong = np.flatnonzero(self.fault).tolist() if faults else []
