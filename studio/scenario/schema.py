@@ -291,7 +291,7 @@ class Recording(Part):
 
 
 class Goal(Part):
-    """What a metric must keep for the run to pass."""
+    """What a measure must keep for the run to pass."""
 
     least: float | None = Field(None, title="At least", allow_inf_nan=False)
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
@@ -328,7 +328,10 @@ class Scenario(Part, defer_build=True):
         default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
     )
     recording: Recording = Field(default_factory=Recording, title="Recording")
-    goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
+    measures: dict[Name, Annotated[Any, Slot("metric")]] = Field(
+        {}, title="Measures", description="metrics with settings of their own, by name; all others are measured as usual"
+    )
+    goals: dict[Name, Goal] = Field({}, title="Goals", description="per measure or metric")
 
     def seed_of(self, stream: Literal["traffic", "sensors", "satellites", "radio"]) -> int:
         """The seed of a stream: its own, or that of everything."""

@@ -14,6 +14,7 @@ from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
+from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
 from studio.world.board.host import Fault, Group, Hosted
 from studio.world.board.own import carry
@@ -284,6 +285,14 @@ class World:
         if number <= OBJECT:
             return self.obstacles.names[self.objects(world)][OBJECT - number]
         return self.names[world][number]
+
+    def bodies(self, world: int = 0) -> np.ndarray:
+        """Length, width, centre of gravity to front [m], mass [kg] and wheel radius [m] of one world's vehicles, float64[5, vehicle]."""
+        return self.vehicles.parameter[[LENGTH, WIDTH, FRONT, MASS, RADIUS], self.columns(world)]
+
+    def object_numbers(self, world: int = 0) -> list[int]:
+        """The numbers that stand for the objects of one world where those of vehicles may."""
+        return [OBJECT - i for i in range(int(self.obstacles.count[world]))]
 
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""
