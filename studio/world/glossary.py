@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from studio.rows import Row, Table
+from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND
 from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.parameter import GEARBOX, PARAMETER
@@ -21,7 +22,7 @@ from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
 from studio.world.table.unit import GPS_SET, HEARD, OUTPUT, SATELLITE, SENSOR, SENT, UNIT, UNIT_SET
 
 TABLES = (
-    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
+    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
     MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD,
     LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE, SIGHT, CHART,
 )  # fmt: skip

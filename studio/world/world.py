@@ -7,14 +7,17 @@ from functools import cached_property
 
 import numpy as np
 
+from studio.compiled import bound
 from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
+from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
 from studio.world.board.host import Fault, Group, Hosted
+from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
@@ -59,7 +62,9 @@ class Worlds:
     entity: np.ndarray  # per vehicle, as chance tells them apart
     first: np.ndarray  # per world
     count: np.ndarray  # per world
-    seed: np.ndarray  # per world
+    seed: np.ndarray  # per world, of sensors
+    satellite_seed: np.ndarray  # per world
+    radio_seed: np.ndarray  # per world
 
 
 @dataclass
@@ -256,6 +261,19 @@ class World:
             r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight,
         )  # fmt: skip
 
+    @cached_property
+    def air(self) -> tuple:
+        """What radios see of the world, likewise."""
+        u, w, r = self.units, self.worlds, self.roads
+        return u.world, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now
+
+    @cached_property
+    def carry(self) -> Callable:
+        """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
+        v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
+        cars = (u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, w.seed, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+
     @property
     def size(self) -> int:
         """Number of vehicles in all worlds."""
@@ -270,6 +288,14 @@ class World:
         if number <= OBJECT:
             return self.obstacles.names[self.objects(world)][OBJECT - number]
         return self.names[world][number]
+
+    def bodies(self, world: int = 0) -> np.ndarray:
+        """Length, width, centre of gravity to front [m], mass [kg] and wheel radius [m] of one world's vehicles, float64[5, vehicle]."""
+        return self.vehicles.parameter[[LENGTH, WIDTH, FRONT, MASS, RADIUS], self.columns(world)]
+
+    def object_numbers(self, world: int = 0) -> list[int]:
+        """The numbers that stand for the objects of one world where those of vehicles may."""
+        return [OBJECT - i for i in range(int(self.obstacles.count[world]))]
 
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""

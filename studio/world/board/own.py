@@ -32,8 +32,8 @@ from studio.world.table.unit import (
 
 
 @lean
-def carry(k, tick, vehicle, fixed, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, place_of, shadow, satellite,
-          now):  # fmt: skip
+def carry(vehicle, fixed, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, bus_seed, place_of, shadow, satellite,
+          now, k, tick):  # fmt: skip
     """Satellites tell vehicles where they are, and every unit on a vehicle goes with it; stations stay as they are."""
     fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, satellite)
     n = state.shape[1]
@@ -46,7 +46,7 @@ def carry(k, tick, vehicle, fixed, state, parameter, mind, commands, places, gps
         now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]
         now[OWN_SPEED, u], now[OWN_ACCELERATION, u] = state[V_X, v], state[A_X, v]
         now[OWN_YAW_RATE, u], now[OWN_STEERING, u] = state[YAW_RATE, v], state[DELTA, v]
-        blur(k, u, entity[v], seed[world_of[v]], fixed, now)
+        blur(k, u, entity[v], bus_seed[world_of[v]], fixed, now)
         now[OWN_SET_SPEED, u] = mind[V_DESIRED, v]
         now[OWN_REQUEST, u] = commands[U, ((k - 1) % RING) * n + v]
         now[OWN_X, u] = state[X, v] + satellite[GPS_EAST, v]

@@ -9,13 +9,13 @@ mounted(kind, sensors, tick)   →  Mounted        the sensors of one kind of al
 
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import ceil, inf, isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.compiled import inlined
+from studio.compiled import bound, inlined
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
@@ -169,12 +169,26 @@ class Mounted:
     out: Moving
     fault: np.ndarray  # scratch: what is wrong with the answer of each, as WRONG numbers it
     run: Callable
+    ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
     def ask(self, k: int, time: float, view: tuple) -> dict[int, str]:
         """All of them measure; says what went wrong, by the number of the sensor."""
-        own = (self.unit, self.stream, self.settings, self.memory, self.health, self.first, self.ring, self.output, self.out, self.fault)
         try:
-            faults = self.run(*view, *own, k, time)
+            if not self.ready:
+                own = (
+                    self.unit,
+                    self.stream,
+                    self.settings,
+                    self.memory,
+                    self.health,
+                    self.first,
+                    self.ring,
+                    self.output,
+                    self.out,
+                    self.fault,
+                )
+                self.ready["run"] = bound(self.run, *view, *own, then=(k, time))
+            faults = self.ready["run"](k, time)
         except (Exception, SystemExit):
             return dict.fromkeys(range(self.unit.size), f"cannot be asked:\n{traceback.format_exc()}")
         wrong = np.flatnonzero(self.fault).tolist() if faults else []

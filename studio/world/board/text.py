@@ -36,7 +36,7 @@ from {module} import Does, Memory, ParametersTuple, Sees, decide
 {parts}
 
 
-{above}def run(time, tick, fixed, now, commands, unit, column, parameters, memory, said, shown, fault, wrong{arguments}):
+{above}def run(fixed, now, commands, unit, column, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
     faults = 0
     for j in range(unit.size):
         u = unit[j]
