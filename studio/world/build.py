@@ -35,7 +35,7 @@ from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
 
-MOST_HITS = 64  # collisions that are reported per world
+FIRST_HITS = 64  # collisions of a world that there is room for at first
 
 
 def build(settings: Sequence[Setting]) -> World:
@@ -122,7 +122,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
         any_returns=any(car.returns for car in cars),
-        app_command=np.full((len(ACTUATORS), n), np.nan),
+        app_command=np.full((2 * len(ACTUATORS), n), np.nan),
     )
 
 
@@ -226,7 +226,7 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
 
 def events_of(settings: Sequence[Setting]) -> Events:
     """No collisions yet."""
-    return Events(hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
+    return Events(hits=np.zeros((len(COLLISION), FIRST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
 
 
 def settle(world: World) -> None:

@@ -50,7 +50,7 @@ class Vehicles(Fleet):
     mind: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     any_returns: bool  # at the start
-    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
+    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none; then who commands each
 
 
 @dataclass
@@ -214,15 +214,25 @@ class Units:
 
 @dataclass
 class Events:
-    """The collisions found."""
+    """The collisions found. Every world has its share of the columns, which all grow when one of them is full."""
 
-    hits: Moving  # every world has its share of the columns
+    hits: np.ndarray  # [row, collision]; moves, and grows, so that a snapshot keeps it for itself
     found: Moving  # how many collisions each world has had
 
     @property
     def hits_found(self) -> int:
         """Collisions of all worlds."""
         return int(self.found.sum())
+
+    def of(self, number: int) -> np.ndarray:
+        """Those of one world, [row, collision]."""
+        first = number * (self.hits.shape[1] // self.found.size)
+        return self.hits[:, first : first + int(self.found[number])]
+
+    def grow(self) -> None:
+        """Twice the room for every world."""
+        shares = self.hits.reshape(self.hits.shape[0], self.found.size, -1)
+        self.hits = np.concatenate([shares, np.zeros_like(shares)], axis=2).reshape(self.hits.shape[0], -1)
 
 
 @dataclass
@@ -308,7 +318,7 @@ class World:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
         units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
-        happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
+        happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
@@ -331,8 +341,7 @@ class World:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
             yield post.inbox[:, u.world[post.link_receiver] == number]
-        share = e.hits.shape[1] // e.found.size
-        yield e.hits[:, number * share : (number + 1) * share]
+        yield e.of(number)
         yield s.phase[s.world == number]
         yield s.turned[:, s.world == number]
         yield o.standing[self.objects(number)]

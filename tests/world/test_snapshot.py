@@ -123,7 +123,7 @@ def test_whatever_changes_is_declared(settings, sample):
 
 def declared(world) -> set[str]:
     """What may change: what is declared as moving, follows from it, or is nobody's concern."""
-    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena"}
+    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena", "world.events.hits"}
 
 
 def test_a_collision_is_declared(sample_setting):

@@ -19,6 +19,7 @@ from studio.world.board import text
 from studio.world.board.equipment import equip, post_of
 from studio.world.board.host import Group, Hosted, Wiring, is_compiled
 from studio.world.board.post import Open, Post
+from studio.world.commander import number_of
 from studio.world.setting import Setting
 from studio.world.world import Units
 
@@ -32,6 +33,7 @@ class Crew(NamedTuple):
     group: Application
     units: tuple[int, ...]
     radio: str
+    rank: int
 
 
 def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[Hosted], list[Open]]:
@@ -52,7 +54,15 @@ def crews(settings: Sequence[Setting], units: Units) -> Iterator[Crew]:
     place = 0
     for w, each in enumerate(settings):
         for name, group in each.scenario.applications.items():
-            yield Crew(w, place, name, group, tuple(units.number(unit, w) for unit in group.units), each.scenario.radio.kind)
+            yield Crew(
+                w,
+                place,
+                name,
+                group,
+                tuple(units.number(unit, w) for unit in group.units),
+                each.scenario.radio.kind,
+                number_of(name, each.scenario),
+            )
             place += 1
 
 
@@ -68,6 +78,7 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
         unit=unit,
         names=tuple(units.name_of(each) for each in unit),
         column=units.vehicle[unit],
+        rank=np.repeat([float(crew.rank) for crew in found], [len(crew.units) for crew in found]),
         parameters=np.concatenate([parameters(application, crew) for crew in found], axis=1),
         memory=np.tile(np.array(first_values(module.Memory))[:, None], unit.size),
         said=np.zeros((logged, unit.size)),

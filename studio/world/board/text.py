@@ -36,7 +36,7 @@ from {module} import Does, Memory, ParametersTuple, Sees, decide
 {parts}
 
 
-{above}def run(fixed, now, commands, unit, column, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
+{above}def run(fixed, now, commands, unit, column, rank, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
     faults = 0
     for j in range(unit.size):
         u = unit[j]
@@ -327,6 +327,7 @@ def stores(module: ModuleType) -> Iterator[str]:
                 if port.commanded(module) >> i & 1:
                     yield f"if int(does.{each.name}.mask) >> {i} & 1:"
                     yield f"    commands[{i}, column[j]] = does.{each.name}.{one.name}"
+                    yield f"    commands[{len(ACTUATORS) + i}, column[j]] = rank[j]"
         elif each.what == NOTICE:
             yield f"shown[j] = does.{each.name}.number"
         elif each.what == LOG:
