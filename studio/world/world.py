@@ -72,6 +72,7 @@ class Roads:
     """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
+    chart: np.ndarray  # of the roads under them
     path_first: Moving
     path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
@@ -194,6 +195,7 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    sight: np.ndarray  # room for what one sensor sees, [row, body]
     mounted: list[Mounted]
     posts: list[Post]
 
@@ -265,7 +267,8 @@ class World:
         v, u, w, o, r, g, tick = self.vehicles, self.units, self.worlds, self.obstacles, self.roads, self.neighbours, self.clock.tick
         return (
             tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
-            o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+            o.table, o.first, o.count, o.standing, r.place_of, r.shadow, v.mind, r.points, r.chart, r.path_first, r.path_count,
+            r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight,
         )  # fmt: skip
 
     @cached_property
@@ -278,8 +281,8 @@ class World:
     def carry(self) -> Callable:
         """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
         v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
-        cars = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
-        return bound(carry, *cars, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+        cars = (u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, w.seed, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:
@@ -317,7 +320,12 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        units = [
+            u.satellite,
+            u.now,
+            *(part for each in u.mounted for part in (each.out, each.ring, each.output)),
+            *(part for post in u.posts for part in (post.ring, post.inbox)),
+        ]
         happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -336,7 +344,9 @@ class World:
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
         yield u.now[:, u.world == number]
-        yield from (each.out[:, u.world[each.unit] == number] for each in u.mounted)
+        for each in u.mounted:
+            mine = u.world[each.unit] == number
+            yield from (each.out[:, mine], each.ring[:, mine[each.slots]], each.output[:, mine[each.slots]])
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
