@@ -217,7 +217,10 @@ class Application(Part):
     listens_to: list[UnitName | list[UnitName]] = Field(
         [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
     )
-    parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    preset: str | None = Field(None, title="Preset", description="a set of parameters that the application has a name for")
+    parameters: dict = Field(
+        {}, title="Parameters", description="of the application; what is not given is the preset's, or has its default"
+    )
     priority: int = Field(
         0, ge=-100, le=100, title="Priority", description="of several applications that command an actuator, the highest does"
     )
