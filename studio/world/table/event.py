@@ -41,4 +41,6 @@ RED_PASSED = event("red_light_passed", "passes a red light at {speed:.1f} m/s", 
 TAKES_OVER = event("driver_takes_over", "driver takes over: {reason}", "reason")
 MESSAGE_LOST = event("message_lost", "messages of {1} lost before the one that came: {missed:.0f}", missed="1")
 NOTICE_SHOWN = event("notice_shown", "shows the driver: {sentence}", "sentence")
+NEAR_MISS = event("near_miss", "comes near {1}: {ttc:.2f} s to a collision", ttc="s")
+HARD_BRAKE = event("hard_brake", "brakes hard, with up to {deceleration:.1f} m/s²", deceleration="m/s²")
 FAILED = event("failed", "failed: {reason}", "reason")

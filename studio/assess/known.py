@@ -1,0 +1,156 @@
+"""Known: what a unit knew of another one at a moment, by its sensors and by messages.
+
+A sensor does not say whom it has seen, and an application may not know. The record tells both afterwards: the target belongs to the vehicle
+whose outline is nearest to where the sensor has put it, at the time at which it was measured, if it is not farther away than 3 m.
+Vehicles that were not recorded are nobody here.
+
+How old a reading is: since its numbers last changed, where it does not say so itself.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from studio.execution.happening import Number
+from studio.execution.record import Record
+
+NEAR = 3.0  # [m] from an outline, within which a target is taken for that of this vehicle
+SENSED = (("range", "azimuth"), ("ahead", "left"), ("x", "y"))  # pairs of fields that say where a target is, by which they are known
+MOST_LOST = 20  # messages of one link that are listed
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A message that did not come: when it was sent [s], and why."""
+
+    time: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Known:
+    """What `unit` knew `about` another: from which sensor or message, how old [s], and which messages of it were lost since."""
+
+    unit: str
+    about: str
+    source: str
+    age: float | None
+    what: dict[str, Number] = field(default_factory=dict)
+    lost: tuple[Lost, ...] = ()
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain data."""
+        what = {name: each._asdict() for name, each in self.what.items()}
+        return vars(self) | {"what": what, "lost": [vars(each) for each in self.lost]}
+
+    @property
+    def text(self) -> str:
+        """All of it in a sentence."""
+        age = "" if self.age is None else f", {self.age:.2f} s old"
+        what = "".join(f", {name.replace('_', ' ')} {each.value:.4g} {each.unit}".removesuffix(" 1") for name, each in self.what.items())
+        if self.age is None:
+            return f"{self.unit} never heard {self.about} by {self.source}{lost_text(self.lost)}"
+        return f"{self.unit} knew {self.about} by {self.source}{age}{what}{lost_text(self.lost)}"
+
+
+def lost_text(lost: tuple[Lost, ...]) -> str:
+    """What is missing since."""
+    if not lost:
+        return ""
+    last, count = lost[-1], f"{len(lost)} message{'s' * (len(lost) > 1)}"
+    return f"; lost since: {count}, the last of {last.time:.2f} s ({last.why})"
+
+
+def known(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
+    """Everything that a unit knew about another vehicle at a sample: by its sensors, then by messages."""
+    yield from sensed(record, unit, about, sample)
+    yield from heard(record, unit, about, sample)
+
+
+# -- by sensors ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Target:
+    """One target of a sensor: the name of the sensor, and the probes of its fields."""
+
+    sensor: str
+    fields: dict[str, str]
+
+
+def targets(record: Record, unit: str) -> Iterator[Target]:
+    """All targets that sensors of a unit may have: probes of one place that tell where it is."""
+    places: dict[str, dict[str, str]] = {}
+    for name in record.probes:
+        place, _, part = name.rpartition(".")
+        if place.partition(".")[0] == unit:
+            places.setdefault(place, {})[part] = name
+    for place, fields in places.items():
+        if any(set(pair) <= fields.keys() for pair in SENSED):
+            yield Target(place.split(".")[1], fields)
+
+
+def sensed(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
+    """What sensors say about somebody."""
+    if unit not in record.vehicles or about not in record.vehicles:
+        return
+    for each in targets(record, unit):
+        values = {part: float(record.probes[name].values[sample]) for part, name in each.fields.items()}
+        if not all(np.isfinite(value) for value in values.values()):
+            continue
+        since = measured_at(record, each, sample)
+        if belongs_to(record, place_of(record, unit, values, since), since) == about:
+            what = {part: Number(value, record.probes[each.fields[part]].unit) for part, value in values.items()}
+            yield Known(unit, about, each.sensor, round(float(record.time[sample] - record.time[since]), 6), what)
+
+
+def measured_at(record: Record, target: Target, sample: int) -> int:
+    """The sample since which the numbers of a target have not changed."""
+    values = np.array([record.probes[name].values[: sample + 1] for name in target.fields.values()])
+    changed = np.flatnonzero((values != values[:, -1:]).any(axis=0))
+    return int(changed[-1]) + 1 if changed.size else 0
+
+
+def place_of(record: Record, unit: str, values: dict[str, float], sample: int) -> np.ndarray:
+    """Where a target is in the world [m], as the sensor says; from the middle of the front, or by coordinates."""
+    if {"x", "y"} <= values.keys():
+        return np.array([values["x"], values["y"]])
+    row, front = record.vehicles.index(unit), record.bodies[unit].front
+    x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
+    if {"ahead", "left"} <= values.keys():
+        ahead, left = values["ahead"], values["left"]
+    else:
+        ahead, left = values["range"] * np.cos(values["azimuth"]), values["range"] * np.sin(values["azimuth"])
+    ahead += front
+    return np.array([x + ahead * np.cos(psi) - left * np.sin(psi), y + ahead * np.sin(psi) + left * np.cos(psi)])
+
+
+def belongs_to(record: Record, place: np.ndarray, sample: int) -> str:
+    """The recorded vehicle whose outline is nearest to a place [m] at a sample; "" when none is near."""
+    distances = [outside(record, row, place, sample) for row in range(len(record.vehicles))]
+    nearest = int(np.argmin(distances))
+    return record.vehicles[nearest] if distances[nearest] <= NEAR else ""
+
+
+def outside(record: Record, row: int, place: np.ndarray, sample: int) -> float:
+    """How far a place is outside the outline of a vehicle [m]; infinite when it is not there."""
+    body = record.bodies[record.vehicles[row]]
+    x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
+    if not np.isfinite(x):
+        return float("inf")
+    east, north = place[0] - x, place[1] - y
+    ahead, left = east * np.cos(psi) + north * np.sin(psi), north * np.cos(psi) - east * np.sin(psi)
+    beyond = max(ahead - body.front, body.front - body.length - ahead, 0.0), max(abs(left) - 0.5 * body.width, 0.0)
+    return float(np.hypot(*beyond))
+
+
+# -- by messages ---------------------------------------------------------------------------------------
+
+
+def heard(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
+    """What messages say about somebody: the age of the newest on every link from him."""
+    for link, name in enumerate(record.links):
+        if name == f"{about}→{unit}" and np.isfinite(age := record.ages[link, sample]):
+            yield Known(unit, about, "message", round(float(age), 6))
