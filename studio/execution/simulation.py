@@ -18,7 +18,7 @@ from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED
-from studio.world.tick import environment, gather, look, meet, part, sense, think
+from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
 
@@ -88,6 +88,7 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
+        between(self.world, self.refuse)
         part(self.world)
         self.check_wishes()
         self.check()
