@@ -10,6 +10,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
+from studio.execution.message import Messages, none
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
@@ -49,6 +50,7 @@ class Record:
     chains: tuple[Chain, ...] = ()
     links: dict[str, float] = field(default_factory=dict)
     probes: dict[str, Traced] = field(default_factory=dict)
+    messages: Messages = field(default_factory=none)
 
     @cached_property
     def derived(self) -> "Derived":

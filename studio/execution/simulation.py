@@ -8,6 +8,7 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.happening import Happening, happening
+from studio.execution.message import messages
 from studio.execution.record import Record, Recorder
 from studio.vehicle import broken
 from studio.world.board.host import Fault
@@ -170,6 +171,7 @@ class Simulation:
             chains=chains(case.setting),
             links=self.link_ages(number, count),
             probes=recorder.traced(number, count),
+            messages=messages(self.world, number),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
