@@ -15,7 +15,6 @@ import numpy as np
 
 from studio.world.board.post import Post
 from studio.world.table.cause import RECEIVED
-from studio.world.table.unit import L_FIRST, L_NUMBER, L_SENDER, L_SIZE, L_TIME
 from studio.world.world import World
 
 DTYPES = (np.float64, np.int32, np.uint8, np.int32, np.float32, np.int32, np.int32, np.uint8, np.float32, np.float32)
@@ -95,25 +94,22 @@ def messages(world: World, number: int) -> Messages:
 
 def of_post(world: World, number: int, post: Post, kind: int) -> Messages:
     """Those of one kind, in the order of the log."""
-    units, logged, first = world.units, post.log.joined(), int(world.units.first[number])
-    ends = np.append(logged.message[L_FIRST, 1:], logged.link.size)
-    count = (ends - logged.message[L_FIRST]).astype(np.int32)
-    own = units.world[logged.message[L_SENDER].astype(np.int64)] == number
-    entries, message = np.repeat(own, count), logged.message[:, own]
-    return Messages(
-        kinds=(),
-        units=(),
-        time=message[L_TIME],
-        sender=(message[L_SENDER] - first).astype(np.int32),
-        kind=np.full(message.shape[1], kind, np.uint8),
-        number=message[L_NUMBER].astype(np.int32),
-        size=message[L_SIZE].astype(np.float32),
-        count=count[own],
-        receiver=(post.link_receiver[logged.link[entries]] - first).astype(np.int32),
-        cause=logged.cause[entries],
-        delay=logged.delay[entries],
-        distance=logged.distance[entries],
-    )
+    book, first = post.log.joined(), int(world.units.first[number])
+    own = world.units.world[book.sender] == number
+    entries = np.repeat(own, book.count)
+    columns = {
+        "time": book.time[own],
+        "sender": book.sender[own] - first,
+        "kind": np.full(np.count_nonzero(own), kind),
+        "number": book.number[own],
+        "size": book.size[own],
+        "count": book.count[own],
+        "receiver": post.link_receiver[book.link[entries]] - first,
+        "cause": book.cause[entries],
+        "delay": book.delay[entries],
+        "distance": book.distance[entries],
+    }
+    return Messages((), (), **{name: each.astype(kind) for (name, each), kind in zip(columns.items(), DTYPES, strict=True)})
 
 
 def sorted_by_time(found: Messages) -> Messages:
