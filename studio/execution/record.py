@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
+from studio.execution.message import Messages, none
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
@@ -77,6 +78,7 @@ class Record:
     links: tuple[str, ...] = ()
     ages: np.ndarray = field(default_factory=no_ages)
     probes: dict[str, Traced] = field(default_factory=dict)
+    messages: Messages = field(default_factory=none)
     bodies: dict[str, Body] = field(default_factory=dict)
     called: dict[int, str] = field(default_factory=dict)
 

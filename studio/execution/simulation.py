@@ -8,6 +8,7 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.happening import Happening, happening
+from studio.execution.message import messages
 from studio.execution.record import Body, Record, Recorder
 from studio.vehicle import broken
 from studio.world.board.host import Fault
@@ -18,7 +19,7 @@ from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED
-from studio.world.tick import environment, gather, look, meet, part, sense, think
+from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
 
@@ -88,6 +89,7 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
+        between(self.world, self.refuse)
         part(self.world)
         self.check_wishes()
         self.check()
@@ -171,6 +173,7 @@ class Simulation:
             links=tuple(links.values()),
             ages=recorder.ages(list(links), count),
             probes=recorder.traced(number, count),
+            messages=messages(self.world, number),
             bodies=self.bodies(number),
             called=self.called(number),
         )

@@ -205,6 +205,14 @@ class Application(Part):
         [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
     )
     parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    cycle: float | None = number(
+        None, unit="s", title="Cycle", gt=0, le=0.1,
+        description="how often it decides: a tick, or a whole part of one, for what talks faster than the world moves; left out: the tick",
+    )  # fmt: skip
+    keeps: float | None = number(
+        None, unit="s", title="Keeps messages for", gt=0, le=LONGEST,
+        description="older ones are forgotten; left out: the newest of each sender is kept to the end",
+    )  # fmt: skip
     priority: int = Field(
         0, ge=-100, le=100, title="Priority", description="of several applications that command an actuator, the highest does"
     )
@@ -297,6 +305,15 @@ class Goal(Part):
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
 
 
+class Seeds(Part):
+    """Seeds of single streams of chance; where none is given the scenario's counts. So one of them can be varied while the rest stays."""
+
+    traffic: int | None = Field(None, ge=0, le=2**63 - 1, title="Traffic", description="routes, places and styles of the traffic")
+    sensors: int | None = Field(None, ge=0, le=2**63 - 1, title="Sensors", description="errors of all sensors")
+    satellites: int | None = Field(None, ge=0, le=2**63 - 1, title="Satellites", description="errors of the cars' own positions")
+    radio: int | None = Field(None, ge=0, le=2**63 - 1, title="Radio", description="loss and delay of messages")
+
+
 class Scenario(Part, defer_build=True):
     """A scenario: a place, who drives there, what they run on board, what happens, and what counts."""
 
@@ -306,6 +323,7 @@ class Scenario(Part, defer_build=True):
     map: Map = Field(..., title="Map")
     clock: Clock = Field(default_factory=Clock, title="Clock")
     seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
+    seeds: Seeds = Field(default_factory=Seeds, title="Seeds", description="of single streams")
     routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
     stations: dict[Name, Station] = Field({}, title="Stations", description="units that stand at a place")
@@ -322,6 +340,11 @@ class Scenario(Part, defer_build=True):
         {}, title="Measures", description="metrics with settings of their own, by name; all others are measured as usual"
     )
     goals: dict[Name, Goal] = Field({}, title="Goals", description="per measure or metric")
+
+    def seed_of(self, stream: Literal["traffic", "sensors", "satellites", "radio"]) -> int:
+        """The seed of a stream: its own, or that of everything."""
+        own = getattr(self.seeds, stream)
+        return self.seed if own is None else own
 
 
 WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)

@@ -16,6 +16,7 @@ from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
+from studio.world.board.air import Air
 from studio.world.board.host import Fault, Group, Hosted
 from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
@@ -62,7 +63,9 @@ class Worlds:
     entity: np.ndarray  # per vehicle, as chance tells them apart
     first: np.ndarray  # per world
     count: np.ndarray  # per world
-    seed: np.ndarray  # per world
+    seed: np.ndarray  # per world, of sensors
+    satellite_seed: np.ndarray  # per world
+    radio_seed: np.ndarray  # per world
 
 
 @dataclass
@@ -192,8 +195,10 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    trouble: Moving  # what the script does to their radio, [row, unit]
     mounted: list[Mounted]
     posts: list[Post]
+    airs: list[Air]
 
     def number(self, name: str, world: int = 0) -> int:
         """A unit by its name; raises ValueError."""
@@ -260,14 +265,14 @@ class World:
     def air(self) -> tuple:
         """What radios see of the world, likewise."""
         u, w, r = self.units, self.worlds, self.roads
-        return u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now
+        return u.world, u.first, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
 
     @cached_property
     def carry(self) -> Callable:
         """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
         v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
-        own_ones = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow)
-        return bound(carry, *own_ones, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+        cars = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:
@@ -305,7 +310,8 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
+        units = [u.satellite, u.now, *(each.out for each in u.mounted), *radio, *(part for air in u.airs for part in air.state)]
         happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -328,7 +334,12 @@ class World:
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
-            yield post.inbox[:, u.world[post.link_receiver] == number]
+            yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))
+            yield post.kept[:, u.world[post.sender] == number]
+        for air in u.airs:
+            of_units, cells = air.state[:-1], air.state[-1]
+            yield from (part[..., u.world == number] for part in of_units)
+            yield cells[:, number]
         share = e.hits.shape[1] // e.found.size
         yield e.hits[:, number * share : (number + 1) * share]
         yield s.phase[s.world == number]
