@@ -14,11 +14,13 @@ from typing import Any
 import numpy as np
 
 from studio.execution.happening import Number
+from studio.execution.message import Messages
 from studio.execution.record import Record
+from studio.world.table.cause import CAUSES
 
 NEAR = 3.0  # [m] from an outline, within which a target is taken for that of this vehicle
 SENSED = (("range", "azimuth"), ("ahead", "left"), ("x", "y"))  # pairs of fields that say where a target is, by which they are known
-MOST_LOST = 20  # messages of one link that are listed
+WHY = {number: each.name for number, each in enumerate(CAUSES)}
 
 
 @dataclass(frozen=True)
@@ -150,7 +152,21 @@ def outside(record: Record, row: int, place: np.ndarray, sample: int) -> float:
 
 
 def heard(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
-    """What messages say about somebody: the age of the newest on every link from him."""
-    for link, name in enumerate(record.links):
-        if name == f"{about}→{unit}" and np.isfinite(age := record.ages[link, sample]):
-            yield Known(unit, about, "message", round(float(age), 6))
+    """What messages say about somebody: for every kind the newest that had come, and those that were lost since."""
+    sent, when = record.messages, float(record.time[sample])
+    if not {unit, about} <= set(sent.units):
+        return
+    for kind in sent.kinds:
+        link = sent.link(about, unit, kind)
+        if (link := link[sent.time[sent.of[link]] <= when]).size:
+            yield of_link(sent, link, unit, about, kind, when)
+
+
+def of_link(sent: Messages, link: np.ndarray, unit: str, about: str, kind: str, when: float) -> Known:
+    """The same of one link with the entries of what was sent until then."""
+    times = sent.time[sent.of[link]]
+    had_come = sent.is_received[link] & (sent.came[link] <= when)
+    newest = float(times[had_come].max(initial=-np.inf))
+    missing = link[~sent.is_received[link] & (times > newest)]
+    age = round(when - newest, 6) if had_come.any() else None
+    return Known(unit, about, kind, age, lost=tuple(Lost(round(float(sent.time[sent.of[i]]), 6), WHY[sent.cause[i]]) for i in missing))
