@@ -62,12 +62,11 @@ class Explanation:
 
     def of_knowledge(self) -> Iterator[str]:
         """What was known, and who knew nothing of whom."""
-        units = [each for each in self.event.units if each in self.commanded_by]
-        for one in units:
-            for other in self.event.units:
-                if one != other:
-                    found = [each.text for each in self.known if (each.unit, each.about) == (one, other)]
-                    yield from found or [f"{one} knew nothing of {other}"]
+        for one, other in permutations(self.event.units, 2):
+            found = [each.text for each in self.known if (each.unit, each.about) == (one, other)]
+            if one in self.commanded_by:
+                nothing = f"{one} knew nothing of {other}" if other in self.commanded_by else f"{other} was not recorded, nor who knew it"
+                yield from found or [nothing]
 
     def of_command(self) -> Iterator[str]:
         """Who commanded."""

@@ -19,6 +19,7 @@ from studio.world.table.event import EVENTS, HARD_BRAKE, HIT, NEAR_MISS
 NEAR = 1.5  # [s]
 HARD = 5.0  # [m/s²]
 APART = 1.0  # [s]
+FAR = 100.0  # [m] ahead, from which on nobody is a reason to brake hard
 
 
 def with_dangers(record: Record) -> Record:
@@ -40,10 +41,11 @@ def near_misses(record: Record) -> Iterator[Happening]:
 
 
 def hard_brakes(record: Record) -> Iterator[Happening]:
-    """Those of every vehicle, with what was ahead of it where there was something."""
+    """Those of every vehicle, with what was ahead of it where there was something near."""
     for row, values in enumerate(-record.channel("acceleration")):
         for part in stretches(values > HARD, record.time):
-            ahead = record.ahead(row, part.start)
+            is_near = record.channel("gap")[row, part.start] < FAR
+            ahead = record.ahead(row, part.start) if is_near else ""
             units = (record.vehicles[row], *([ahead] if ahead else []))
             place = place_of(record, row, part.start)
             yield happening(HARD_BRAKE, float(record.time[part.start]), units, place=place, deceleration=float(np.nanmax(values[part])))
