@@ -213,7 +213,11 @@ def radio_parts(module: ModuleType) -> str:
 
 def message_parts(module: ModuleType) -> str:
     """What the parts of a message are together: what is due is a beacon, and remembers what it has sent."""
-    return lacking(module, "Settings", "beacon") or lacking(module, "Memory", "due", "beacon")
+    if what := lacking(module, "Settings", "beacon") or lacking(module, "Memory", "due", "beacon"):
+        return what
+    arguments = ("own", "settings", *(["memory"] if hasattr(module, "Memory") else []))
+    found = getattr(module, "beacon", None)
+    return f"beacon {what}" if found and (what := function(*arguments)(found)) else ""
 
 
 def lacking(module: ModuleType, part: str, partner: str, *others: str) -> str:
@@ -279,14 +283,14 @@ SORTS = {
             Need("Payload", "what it carries, with units", record, "class Payload(NamedTuple): ..."),
             Need("Settings", "what is set for a message that every unit sends by itself", plain, "class Settings(Part): ...",
                  optional=True),
-            Need("beacon", "the payload that every unit sends once per `period` of the settings", function(
-                "own", "settings", compiled=True), "def beacon(own, settings)", optional=True),
+            Need("beacon", "the payload that every unit sends once per `period` of the settings; with a Memory it is given that too",
+                 compiled_function, "def beacon(own, settings)", optional=True),
             Need("Memory", "what a unit remembers of those that it has sent", record, "class Memory(NamedTuple): ...", optional=True),
             Need("due", "once per `period`: whether the beacon is sent now, Memory(...); left out: always",
                  function("own", "settings", "memory", "turn", compiled=True), "def due(own, settings, memory, turn)", optional=True),
             Need("size", "bytes of one message, SIZE at most; left out: SIZE", function("payload", compiled=True), "def size(payload)",
                  optional=True),
-        ), message_parts, "write all of due, Memory and beacon, or beacon alone; Settings with a period for it"),
+        ), message_parts, "write beacon(own, settings) with Settings, or due with Memory and beacon(own, settings, memory)"),
         Sort("driver", "a person at the wheel", (
             TITLE,
             Need("Settings", "what a driver is like", person, "class Settings(Driver): ..."),

@@ -15,6 +15,7 @@ import numpy as np
 
 from studio.compiled import lean
 from studio.kind.quantity import Quantity, width
+from studio.world.board.air import Air
 from studio.world.board.host import Hosted
 from studio.world.board.sensing import Mounted
 from studio.world.world import Units, World
@@ -45,6 +46,7 @@ def probes(world: World) -> list[list[Probe]]:
     for each in (
         *(probe for one in units.mounted for probe in of_sensor(one, units)),
         *(p for one in world.hosted for p in of_log(one, units)),
+        *(p for one in units.airs if one.is_loaded for p in of_air(one, units)),
     ):
         number, probe = each
         found[number].append(probe)
@@ -75,6 +77,13 @@ def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
             yield world, Probe(f"{at}.{part}", unit_of, label, each, "said", i, column)
         if each.shows:
             yield world, Probe(f"{at}.notice", "1", f"Notice of {group}", each, "shown", -1, column)
+
+
+def of_air(each: Air, units: Units) -> Iterator[tuple[int, Probe]]:
+    """How busy the channel is where every unit is, with the number of the world, in worlds with this kind of radio."""
+    for unit, world in enumerate(units.world.tolist()):
+        if world in each.worlds:
+            yield world, Probe(f"{units.name_of(unit)}.channel_load", "1", "Load of the channel", each, "load", -1, unit)
 
 
 def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studio.world.table.cause import RECEIVED
 from studio.workshop.stage import stage
+from studio.world.table.cause import RECEIVED
 
 PAIRS, SECONDS, ROUND, CYCLE = 40, 120.0, 0.8, 0.005
 WAY = 0.015  # [s] of one message

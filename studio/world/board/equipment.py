@@ -102,7 +102,9 @@ def equip(settings: Sequence[Setting], units: Units, number: np.ndarray, tick: f
     """Gives the units their posts: for every kind of message that an application sends or hears, on every kind of radio."""
     names = list(dict.fromkeys(each.scenario.radio.kind for each in settings))
     radios, known = [registry.find("radio", name) for name in names], Known(units.entity, number, units.world)
-    units.airs.extend(air(radio, radios_of(settings, radio.name), units.entity.size) for radio in radios)
+    for radio in radios:
+        worlds = [w for w, each in enumerate(settings) if each.scenario.radio.kind == radio.name]
+        units.airs.append(air(radio, worlds, radios_of(settings, radio.name), units.entity.size))
     for (place, radio), kind in product(enumerate(radios), registry.known("message").values()):
         if any(is_wanted(each, kind, radio.name) for each in settings):
             units.posts.append(post(kind, radio, place, need_of(settings, units, kind, radio), known, tick))

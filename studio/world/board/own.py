@@ -24,6 +24,7 @@ from studio.world.table.unit import (
     OWN_YAW_RATE,
     PRESENT,
     SINE,
+    TRUE_SPEED,
     TRUE_X,
     TRUE_Y,
 )  # fmt: skip
@@ -40,6 +41,7 @@ def carry(vehicle, state, parameter, mind, commands, places, gps_set, world_of, 
             continue
         now[TRUE_X, u], now[TRUE_Y, u], now[HEADING, u] = state[X, v], state[Y, v], state[PSI, v]
         now[COSINE, u], now[SINE, u] = places[COS, v], places[SIN, v]
+        now[TRUE_SPEED, u] = state[V_X, v]
         now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]
         now[OWN_SPEED, u], now[OWN_ACCELERATION, u] = state[V_X, v], state[A_X, v]
         now[OWN_YAW_RATE, u], now[OWN_STEERING, u] = state[YAW_RATE, v], state[DELTA, v]

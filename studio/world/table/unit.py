@@ -9,6 +9,7 @@ from studio.rows import Role, Table
 UNIT = Table("unit", Role.DERIVED, per="unit")
 TRUE_X = UNIT.row("true_x", "m", "where it is; for sensors and radio, not for applications")
 TRUE_Y = UNIT.row("true_y", "m", "where it is; for sensors and radio, not for applications")
+TRUE_SPEED = UNIT.row("true_speed", "m/s", "along its heading; for the radio, not for applications")
 HEADING = UNIT.row("heading", "rad", "that its sensors look along")
 COSINE = UNIT.row("cosine", "1", "of the heading")
 SINE = UNIT.row("sine", "1", "of the heading")
