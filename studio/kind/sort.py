@@ -16,10 +16,12 @@ from pydantic_core import PydanticUndefined
 
 from studio.application import port
 from studio.errors import Problem
+from studio.kind import preset
 from studio.kind.driver import Driver
 from studio.kind.metric import Scope
 from studio.kind.number import unplain
 from studio.kind.quantity import quantities
+from studio.kind.sensor import Sensor
 from studio.kind.settings import named
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
@@ -74,6 +76,15 @@ def person(value: Any) -> str:
         return what
     if not issubclass(value, Driver):
         return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
+    return unplain(value)
+
+
+def watch(value: Any) -> str:
+    """Settings of a sensor: numbers, and those that every sensor has."""
+    if what := settings(value):
+        return what
+    if not issubclass(value, Sensor):
+        return "is no Sensor: write class Settings(Looking), or class Settings(Sensor), from studio.kind.sensor"
     return unplain(value)
 
 
@@ -249,13 +260,14 @@ SORTS = {
     for each in (
         Sort("sensor", "measures what is around a unit", (
             TITLE,
-            Need("Settings", "what is set per sensor, with unit and range", plain, "class Settings(Part): ..."),
+            Need("Settings", "what is set per sensor, with unit and range", watch, "class Settings(Looking): ..."),
+            Need("PRESETS", "named sets of settings, with their sources", preset.wrong, 'PRESETS = {"far": Preset(...)}', optional=True),
             Need("Reading", "what one target, or the one reading, consists of", flat, "class Reading(NamedTuple): ..."),
             Need("CAPACITY", "how many targets it gives at most; 1 when left out", count, "CAPACITY = 4", optional=True),
             Need("Memory", "what it remembers from tick to tick", record, "class Memory(NamedTuple): ...", optional=True),
             Need("measure", "one sensor at one tick: reports its targets, returns how many; with a Memory: how many, Memory(...)",
                  function("view", "me", "settings", "memory", "out", compiled=True), "def measure(view, me, settings, memory, out)"),
-        )),
+        ), preset.unfit, "give values that the Settings take"),
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
             Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
