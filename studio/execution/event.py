@@ -14,10 +14,13 @@ import numpy as np
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Chain
 from studio.scenario.schema import REASONS
+from studio.world.commander import PARTS, commanders, standing
 from studio.world.passes import notice
-from studio.world.passes.notice import Watch
+from studio.world.passes.notice import NUMBERS, Watch
 from studio.world.setting import Setting
 from studio.world.table.event import (
+    COMMAND_GIVEN,
+    COMMAND_TAKEN,
     COMPANY_CAME,
     COMPANY_LEFT,
     EVENTS,
@@ -80,6 +83,7 @@ class Teller:
 
     def __init__(self, settings: Sequence[Setting], world: World) -> None:
         self.world = world
+        self.scenarios = [each.scenario for each in settings]
         self.sites = [site for each in settings for site in each.sites]
         self.followers = followers(settings)
         self.special = {
@@ -88,6 +92,7 @@ class Teller:
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
             TAKES_OVER: self.takes_over,
+            COMMAND_TAKEN: self.changes_hands,
             MESSAGE_LOST: self.lost,
             NOTICE_SHOWN: self.shown,
         }
@@ -130,3 +135,17 @@ class Teller:
         """A driver has begun to overrule the application of his vehicle."""
         reason = REASONS[int(value)].replace("_", " ")
         return happening(kind, when, (self.world.names[world][subject],), place=place, reason=reason)
+
+    def changes_hands(self, _kind, when, world, subject, _other, place, value) -> Happening:
+        """Wheel, brake, drive or gear are another's now: taken by whoever goes before, given back to whoever does not."""
+        rest, which = divmod(int(value), NUMBERS)
+        who, before = divmod(rest, NUMBERS)
+        scenario = self.scenarios[world]
+        names, kind = commanders(scenario), COMMAND_GIVEN if standing(who, scenario) < standing(before, scenario) else COMMAND_TAKEN
+        what = listed([part for i, part in enumerate(PARTS) if which >> i & 1])
+        return happening(kind, when, (self.world.names[world][subject],), place=place, by=names[who], what=what, before=names[before])
+
+
+def listed(words: Sequence[str]) -> str:
+    """Words as one reads them: brake, drive and gear."""
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))

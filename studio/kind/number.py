@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 from pydantic import BaseModel
 
+from studio.kind.preset import FIELD
 from studio.kind.settings import StationOf, marks, named
 
 Find = Callable[[str, str], float]  # what is named, and its name, as a number
@@ -37,7 +38,7 @@ class Shape(NamedTuple):
 
 def shapes(model: type[BaseModel]) -> list[Shape]:
     """The fields of a model; raises TypeError for one that is no number."""
-    return [shape(name, field.annotation, named(field)) for name, field in model.model_fields.items() if name != "kind"]
+    return [shape(name, field.annotation, named(field)) for name, field in model.model_fields.items() if name not in ("kind", FIELD)]
 
 
 def sizes(model: type[BaseModel]) -> list[int]:

@@ -16,10 +16,12 @@ from pydantic_core import PydanticUndefined
 
 from studio.application import port
 from studio.errors import Problem
+from studio.kind import preset
 from studio.kind.driver import Driver
 from studio.kind.metric import Scope
 from studio.kind.number import unplain
 from studio.kind.quantity import quantities
+from studio.kind.sensor import Sensor
 from studio.kind.settings import named
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
@@ -74,6 +76,15 @@ def person(value: Any) -> str:
         return what
     if not issubclass(value, Driver):
         return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
+    return unplain(value)
+
+
+def watch(value: Any) -> str:
+    """Settings of a sensor: numbers, and those that every sensor has."""
+    if what := settings(value):
+        return what
+    if not issubclass(value, Sensor):
+        return "is no Sensor: write class Settings(Looking), or class Settings(Sensor), from studio.kind.sensor"
     return unplain(value)
 
 
@@ -213,7 +224,11 @@ def radio_parts(module: ModuleType) -> str:
 
 def message_parts(module: ModuleType) -> str:
     """What the parts of a message are together: what is due is a beacon, and remembers what it has sent."""
-    return lacking(module, "Settings", "beacon") or lacking(module, "Memory", "due", "beacon")
+    if what := lacking(module, "Settings", "beacon") or lacking(module, "Memory", "due", "beacon"):
+        return what
+    arguments = ("own", "settings", *(["memory"] if hasattr(module, "Memory") else []))
+    found = getattr(module, "beacon", None)
+    return f"beacon {what}" if found and (what := function(*arguments)(found)) else ""
 
 
 def lacking(module: ModuleType, part: str, partner: str, *others: str) -> str:
@@ -245,13 +260,14 @@ SORTS = {
     for each in (
         Sort("sensor", "measures what is around a unit", (
             TITLE,
-            Need("Settings", "what is set per sensor, with unit and range", plain, "class Settings(Part): ..."),
+            Need("Settings", "what is set per sensor, with unit and range", watch, "class Settings(Looking): ..."),
+            Need("PRESETS", "named sets of settings, with their sources", preset.wrong, 'PRESETS = {"far": Preset(...)}', optional=True),
             Need("Reading", "what one target, or the one reading, consists of", flat, "class Reading(NamedTuple): ..."),
             Need("CAPACITY", "how many targets it gives at most; 1 when left out", count, "CAPACITY = 4", optional=True),
             Need("Memory", "what it remembers from tick to tick", record, "class Memory(NamedTuple): ...", optional=True),
             Need("measure", "one sensor at one tick: reports its targets, returns how many; with a Memory: how many, Memory(...)",
                  function("view", "me", "settings", "memory", "out", compiled=True), "def measure(view, me, settings, memory, out)"),
-        )),
+        ), preset.unfit, "give values that the Settings take"),
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
             Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
@@ -279,14 +295,14 @@ SORTS = {
             Need("Payload", "what it carries, with units", record, "class Payload(NamedTuple): ..."),
             Need("Settings", "what is set for a message that every unit sends by itself", plain, "class Settings(Part): ...",
                  optional=True),
-            Need("beacon", "the payload that every unit sends once per `period` of the settings", function(
-                "own", "settings", compiled=True), "def beacon(own, settings)", optional=True),
+            Need("beacon", "the payload that every unit sends once per `period` of the settings; with a Memory it is given that too",
+                 compiled_function, "def beacon(own, settings)", optional=True),
             Need("Memory", "what a unit remembers of those that it has sent", record, "class Memory(NamedTuple): ...", optional=True),
             Need("due", "once per `period`: whether the beacon is sent now, Memory(...); left out: always",
                  function("own", "settings", "memory", "turn", compiled=True), "def due(own, settings, memory, turn)", optional=True),
             Need("size", "bytes of one message, SIZE at most; left out: SIZE", function("payload", compiled=True), "def size(payload)",
                  optional=True),
-        ), message_parts, "write all of due, Memory and beacon, or beacon alone; Settings with a period for it"),
+        ), message_parts, "write beacon(own, settings) with Settings, or due with Memory and beacon(own, settings, memory)"),
         Sort("driver", "a person at the wheel", (
             TITLE,
             Need("Settings", "what a driver is like", person, "class Settings(Driver): ..."),

@@ -118,6 +118,18 @@ class Gps(Part):
     )
 
 
+class Bus(Part):
+    """White noise of what the car's own bus tells its applications; all 0: exact. Standard deviations, at every tick anew.
+
+    Series sensors: speed 0.05 m/s, acceleration 0.1 m/s², yaw rate and steering 0.1 degrees (rounded).
+    """
+
+    speed_noise: float = number(0.0, unit="m/s", title="Noise of the speed", ge=0, le=5)
+    acceleration_noise: float = number(0.0, unit="m/s²", title="Noise of the acceleration", ge=0, le=5)
+    yaw_rate_noise: float = number(0.0, unit="rad/s", title="Noise of the yaw rate", ge=0, le=0.5)
+    steering_noise: float = number(0.0, unit="rad", title="Noise of the steering", ge=0, le=0.5)
+
+
 class UnitClock(Part):
     """The clock of a unit: what its applications and messages take for the time."""
 
@@ -163,6 +175,7 @@ class Vehicle(Part, defer_build=True):
         default_factory=front_radar_only, validate_default=True, title="Sensors", description="by name, as applications ask for them"
     )
     gps: Gps = Field(default_factory=Gps, title="Satellite position")
+    bus: Bus = Field(default_factory=Bus, title="Bus signals")
     clock: UnitClock = Field(default_factory=UnitClock, title="Clock of the unit")
     antenna: Antenna = Field(default_factory=Antenna, title="Antenna")
     colour: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] = Field("#2f6fde", title="Colour")

@@ -20,6 +20,7 @@ from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
 from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world.board.crew import hosts
 from studio.world.board.equipment import units_of
+from studio.world.chart import chart_of
 from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.obstacle import obstacles_of
@@ -35,7 +36,7 @@ from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
 
-MOST_HITS = 64  # collisions that are reported per world
+FIRST_HITS = 64  # collisions of a world that there is room for at first
 
 
 def build(settings: Sequence[Setting]) -> World:
@@ -51,7 +52,7 @@ def build(settings: Sequence[Setting]) -> World:
     known: Zones = {}
     met = conflicts(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
     roads = roads_of(settings, lines, table, stops, met)
-    units = units_of(settings, worlds, cars)
+    units = units_of(settings, worlds, cars, obstacles.standing.size, clock.tick)
     hosted, open_inboxes = hosts(settings, units, clock.tick)
     world = World(
         clock=Clock(clock.tick, clock.step),
@@ -122,7 +123,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
         any_returns=any(car.returns for car in cars),
-        app_command=np.full((len(ACTUATORS), n), np.nan),
+        app_command=np.full((2 * len(ACTUATORS), n), np.nan),
     )
 
 
@@ -162,6 +163,7 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
     raised = [ground.is_raised(car.path) for each in settings for car in each.cars]
     return Roads(
         points=lines.points,
+        chart=chart_of(lines, settings),
         path_first=table[LINE_FIRST, lines.base],
         path_count=table[LINE_COUNT, lines.base],
         raised=np.array(raised, dtype=np.int64),
@@ -226,7 +228,7 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
 
 def events_of(settings: Sequence[Setting]) -> Events:
     """No collisions yet."""
-    return Events(hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
+    return Events(hits=np.zeros((len(COLLISION), FIRST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
 
 
 def settle(world: World) -> None:

@@ -3,7 +3,7 @@
 A sensor's first target is `follower_1.front.range`, its second `follower_1.front.2.range`; where there can be
 several, `follower_1.front.count` says how many.
 What an application logs stands under the name of its group, `follower_1.platoon.spacing_error`; what it shows to the driver
-is `follower_1.platoon.notice`. Where messages keep the channel busy, `follower_1.channel_load` says for which share of the last 0.1 s.
+is `follower_1.platoon.notice`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -19,8 +19,6 @@ from studio.world.board.air import Air
 from studio.world.board.host import Hosted
 from studio.world.board.sensing import Mounted
 from studio.world.world import Units, World
-
-LOAD = "channel_load"
 
 
 class Probe(NamedTuple):
@@ -48,7 +46,7 @@ def probes(world: World) -> list[list[Probe]]:
     for each in (
         *(probe for one in units.mounted for probe in of_sensor(one, units)),
         *(p for one in world.hosted for p in of_log(one, units)),
-        *(p for one in units.airs for p in of_air(one, units)),
+        *(p for one in units.airs if one.is_loaded for p in of_air(one, units)),
     ):
         number, probe = each
         found[number].append(probe)
@@ -82,10 +80,10 @@ def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
 
 
 def of_air(each: Air, units: Units) -> Iterator[tuple[int, Probe]]:
-    """How busy the channel is where each unit is, with the number of its world; of a radio that keeps it busy."""
-    for unit, world in enumerate(units.world.tolist() if each.is_loaded else []):
-        name = f"{units.name_of(unit)}.{LOAD}"
-        yield world, Probe(name, "1", "Load of the radio channel", each, "load", -1, unit)
+    """How busy the channel is where every unit is, with the number of the world, in worlds with this kind of radio."""
+    for unit, world in enumerate(units.world.tolist()):
+        if world in each.worlds:
+            yield world, Probe(f"{units.name_of(unit)}.channel_load", "1", "Load of the channel", each, "load", -1, unit)
 
 
 def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:

@@ -181,12 +181,19 @@ def move(world: World) -> None:
 
 
 def collide(world: World) -> None:
-    """Contacts are found at the end of the tick."""
+    """Contacts are found at the end of the tick; where there is no room for all of them, room is made, and the rest is added."""
+    while contacts(world):
+        world.events.grow()
+
+
+def contacts(world: World) -> int:
+    """Adds the contacts of now that are not known; how many of them found no room."""
     v, w, e, o, g = world.vehicles, world.worlds, world.events, world.obstacles, world.neighbours
     time = world.clock.time + world.clock.tick
-    collision.collide(time, g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found, e.hits, e.found)
+    left = collision.collide(time, g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found, e.hits, e.found)
     if o.standing.size:
-        collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
+        left += collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
+    return left
 
 
 def recirculate(world: World) -> None:

@@ -51,7 +51,7 @@ class Vehicles(Fleet):
     mind: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     any_returns: bool  # at the start
-    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
+    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none; then who commands each
 
 
 @dataclass
@@ -73,6 +73,7 @@ class Roads:
     """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
+    chart: np.ndarray  # of the roads under them
     path_first: Moving
     path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
@@ -196,6 +197,7 @@ class Units:
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
     trouble: Moving  # what the script does to their radio, [row, unit]
+    sight: np.ndarray  # room for what one sensor sees, [row, body]
     mounted: list[Mounted]
     posts: list[Post]
     airs: list[Air]
@@ -217,15 +219,25 @@ class Units:
 
 @dataclass
 class Events:
-    """The collisions found."""
+    """The collisions found. Every world has its share of the columns, which all grow when one of them is full."""
 
-    hits: Moving  # every world has its share of the columns
+    hits: np.ndarray  # [row, collision]; moves, and grows, so that a snapshot keeps it for itself
     found: Moving  # how many collisions each world has had
 
     @property
     def hits_found(self) -> int:
         """Collisions of all worlds."""
         return int(self.found.sum())
+
+    def of(self, number: int) -> np.ndarray:
+        """Those of one world, [row, collision]."""
+        first = number * (self.hits.shape[1] // self.found.size)
+        return self.hits[:, first : first + int(self.found[number])]
+
+    def grow(self) -> None:
+        """Twice the room for every world."""
+        shares = self.hits.reshape(self.hits.shape[0], self.found.size, -1)
+        self.hits = np.concatenate([shares, np.zeros_like(shares)], axis=2).reshape(self.hits.shape[0], -1)
 
 
 @dataclass
@@ -258,7 +270,8 @@ class World:
         v, u, w, o, r, g, tick = self.vehicles, self.units, self.worlds, self.obstacles, self.roads, self.neighbours, self.clock.tick
         return (
             tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
-            o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+            o.table, o.first, o.count, o.standing, r.place_of, r.shadow, v.mind, r.points, r.chart, r.path_first, r.path_count,
+            r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight,
         )  # fmt: skip
 
     @cached_property
@@ -271,8 +284,8 @@ class World:
     def carry(self) -> Callable:
         """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
         v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
-        cars = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
-        return bound(carry, *cars, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+        cars = (u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, w.seed, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:
@@ -311,8 +324,9 @@ class World:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
         radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
-        units = [u.satellite, u.now, *(each.out for each in u.mounted), *radio, *(part for air in u.airs for part in air.state)]
-        happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
+        sensed = [part for each in u.mounted for part in (each.out, each.ring, each.output)]
+        units = [u.satellite, u.now, *sensed, *radio, *(part for air in u.airs for part in air.state)]
+        happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
@@ -330,7 +344,9 @@ class World:
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
         yield u.now[:, u.world == number]
-        yield from (each.out[:, u.world[each.unit] == number] for each in u.mounted)
+        for each in u.mounted:
+            mine = u.world[each.unit] == number
+            yield from (each.out[:, mine], each.ring[:, mine[each.slots]], each.output[:, mine[each.slots]])
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
@@ -340,8 +356,7 @@ class World:
             of_units, cells = air.state[:-1], air.state[-1]
             yield from (part[..., u.world == number] for part in of_units)
             yield cells[:, number]
-        share = e.hits.shape[1] // e.found.size
-        yield e.hits[:, number * share : (number + 1) * share]
+        yield e.of(number)
         yield s.phase[s.world == number]
         yield s.turned[:, s.world == number]
         yield o.standing[self.objects(number)]

@@ -24,7 +24,7 @@ SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
 ROADS, SCRIPT = ("points", "pieces", *(f"conflicts.{each.name}" for each in fields(Conflicts))), ("waiting", "acting")
 FOLLOWS = {*(f"world.roads.{name}" for name in ROADS), *(f"world.script.{name}" for name in SCRIPT)}  # made anew
 SORTED = {f"world.{name}.{each.name}" for name, kind in (("neighbours", Neighbours), ("queues", Queues)) for each in fields(kind)}
-SCRATCH = {"world.roads.near", "world.vehicles.tile", *SORTED}
+SCRATCH = {"world.roads.near", "world.vehicles.tile", "world.units.sight", *SORTED}
 KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and kept: zones of pairs of lines, open sky
 
 
@@ -123,7 +123,7 @@ def test_whatever_changes_is_declared(settings, sample):
 
 def declared(world) -> set[str]:
     """What may change: what is declared as moving, follows from it, or is nobody's concern."""
-    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena"}
+    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena", "world.events.hits"}
 
 
 def test_a_collision_is_declared(sample_setting):

@@ -1,6 +1,8 @@
 """Messages: what every unit sends by itself is of finite numbers, compiled and as Python the same."""
 
 from collections.abc import Iterator
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 
@@ -21,13 +23,13 @@ def checks(kind: Kind) -> Iterator[Check]:
     yield tried("SIZE has a byte for every number at least", lambda: small(kind))
     draws: list[tuple] = []
     if hasattr(module, "beacon"):
-        draws = [(own(seed), draw.settings_tuple(module, draw.settings(module.Settings, seed))) for _ in range(DRAWS)]
+        draws = [(own(seed), chosen(module, seed), *memory(module, seed)) for _ in range(DRAWS)]
         yield tried("Settings have a period, how often every unit sends it", lambda: timeless(kind))
         yield tried("beacon() gives the same compiled and as Python", lambda: twice.agree(module.beacon, draws))
         yield tried("beacon() gives finite numbers", lambda: twice.finite(module.beacon, draws))
         yield tried("beacon() gives the same to the same", lambda: twice.steady(module.beacon, draws))
     if hasattr(module, "due"):
-        asked = [(*given, draw.quantity_tuple(module.Memory, seed), turn(seed)) for given in draws]
+        asked = [(*given, turn(seed)) for given in draws]
         yield tried("due() gives the same compiled and as Python", lambda: twice.agree(module.due, asked))
         yield tried("due() gives finite numbers", lambda: twice.finite(module.due, asked))
         yield tried("due() gives the same to the same", lambda: twice.steady(module.due, asked))
@@ -47,6 +49,16 @@ def timeless(kind: Kind) -> str | None:
     """Without a period nobody knows when."""
     found = kind.module.Settings.model_fields.get("period")
     return None if found and found.annotation is float else 'add it: period: float = number(0.1, unit="s", title="Period", ge=0.01, le=2)'
+
+
+def chosen(module: ModuleType, seed: np.random.Generator) -> Any:
+    """Drawn settings."""
+    return draw.settings_tuple(module, draw.settings(module.Settings, seed))
+
+
+def memory(module: ModuleType, seed: np.random.Generator) -> tuple:
+    """What a unit may remember of what it has sent; nothing for a message of which nothing is remembered."""
+    return (draw.quantity_tuple(module.Memory, seed),) if hasattr(module, "Memory") else ()
 
 
 def sizes(kind: Kind, payloads: list[tuple]) -> str | None:

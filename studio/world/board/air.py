@@ -47,6 +47,7 @@ class Air:
     """What all posts on one kind of radio share. Settings and cells are [row, world], control is [row, unit]."""
 
     radio: Kind
+    worlds: tuple[int, ...]  # that have this kind of radio
     settings: np.ndarray
     reach: np.ndarray  # [m] per world, beyond it nothing is heard
     within: np.ndarray  # [m] per world, beyond it the channel is not busy
@@ -74,14 +75,15 @@ class Air:
             self.assess(self.settings, world_of, self.load, self.control, self.gap)
 
 
-def air(radio: Kind, settings: Sequence[Any], units: int) -> Air:
-    """A channel that nobody has used, for the settings of all worlds."""
+def air(radio: Kind, worlds: Sequence[int], settings: Sequence[Any], units: int) -> Air:
+    """A channel that nobody has used, for the settings of all worlds; some of these have this kind of radio."""
     module = radio.module
     tuple_of(module, module.Settings)
     reach = [float(module.reach(each)) for each in settings]
     within = [float(module.heard_within(each)) for each in settings] if hasattr(module, "heard_within") else reach
     return Air(
         radio=radio,
+        worlds=tuple(worlds),
         settings=np.array([numbers(each) for each in settings]).T.copy(),
         reach=np.array(reach),
         within=np.array(within),

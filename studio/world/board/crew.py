@@ -19,6 +19,7 @@ from studio.world.board import text
 from studio.world.board.equipment import equip, post_of
 from studio.world.board.host import Group, Hosted, Wiring, is_compiled
 from studio.world.board.post import Open, Post
+from studio.world.commander import number_of
 from studio.world.setting import Setting
 from studio.world.world import Units
 
@@ -33,6 +34,7 @@ class Crew(NamedTuple):
     units: tuple[int, ...]
     radio: str
     cycles: int
+    rank: int
 
 
 def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[Hosted], list[Open]]:
@@ -54,7 +56,8 @@ def crews(settings: Sequence[Setting], units: Units) -> Iterator[Crew]:
     for w, each in enumerate(settings):
         for name, group in each.scenario.applications.items():
             members = tuple(units.number(unit, w) for unit in group.units)
-            yield Crew(w, place, name, group, members, each.scenario.radio.kind, cycles(group, each.scenario.clock.tick))
+            often = cycles(group, each.scenario.clock.tick)
+            yield Crew(w, place, name, group, members, each.scenario.radio.kind, often, number_of(name, each.scenario))
             place += 1
 
 
@@ -75,6 +78,7 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
         unit=unit,
         names=tuple(units.name_of(each) for each in unit),
         column=units.vehicle[unit],
+        rank=np.repeat([float(crew.rank) for crew in found], [len(crew.units) for crew in found]),
         parameters=np.concatenate([parameters(application, crew) for crew in found], axis=1),
         memory=np.tile(np.array(first_values(module.Memory))[:, None], unit.size),
         said=np.zeros((logged, unit.size)),
@@ -105,7 +109,7 @@ def to_sensors(one: Port, found: list[Crew], units: Units) -> Wiring:
     """The sensor of every unit: that of the port's name, or the only one of its kind."""
     each = next(each for each in units.mounted if each.kind.name == one.kind)
     columns = [sensor_of(one.name, np.flatnonzero(each.unit == unit).tolist(), each.names) for crew in found for unit in crew.units]
-    return Wiring(one, each, ("out",), (np.array([columns], dtype=np.int64),))
+    return Wiring(one, each, ("out", "health"), (np.array([columns], dtype=np.int64),))
 
 
 def sensor_of(name: str, columns: list[int], names: Sequence[str]) -> int:

@@ -48,7 +48,6 @@ from studio.world.table.unit import (
     HEIGHT,
     OFFSET,
     OWN_FIRST,
-    OWN_SPEED,
     PRESENT,
     S_NUMBER,
     S_SIZE,
@@ -58,6 +57,7 @@ from studio.world.table.unit import (
     S_Y,
     SENT,
     SINE,
+    TRUE_SPEED,
     TRUE_X,
     TRUE_Y,
 )  # fmt: skip
@@ -127,7 +127,7 @@ BEACONS = """    for i in range(sender.size):
         if now[PRESENT, u] > 0.0 and (k + entity[u]) % period[j] == 0{free}:
             own = Own({own})
             chosen = SettingsTuple({settings})
-{due}            payload = beacon(own, chosen)
+{due}            payload = beacon(own, chosen{remembered})
             send(i, u, now_time, fixed, {size}, payload, now, ring, last, fresh)"""
 DUE = """            turn = Turn(now_time * (1.0 + fixed[DRIFT, u]) + fixed[OFFSET, u], gap[u], load[u])
             is_due, remembered = due(own, chosen, Memory({kept}), turn)
@@ -358,6 +358,7 @@ def beacons(module: ModuleType, is_controlled: bool) -> str:
         own=", ".join(f"now[{OWN_FIRST + i}, u]" for i in range(len(Own._fields))),
         settings=spelled([each.size for each in shapes(module.Settings)], "settings"),
         due="" if is_regular else due(module),
+        remembered="" if is_regular else ", remembered",
         size=spelled_size(module, "size_of", "payload"),
     )
 
@@ -411,7 +412,7 @@ def way_of(sender, receiver, column, wait, reach, place, shadow, fixed, now, loa
     if distance <= reach and shadow.grid.frame[COLUMNS, place] > 0.0:
         walls, inside = walls_between(shadow, place, x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver])
     return Way(
-        distance, float(walls), inside, ring[S_SIZE, column], now[OWN_SPEED, receiver],
+        distance, float(walls), inside, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
         approach_of(sender, receiver, x1 - x0, y1 - y0, distance, now), ring[S_TIME, column],
         x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver], load[sender], load[receiver], wait,
     )  # fmt: skip
@@ -420,8 +421,8 @@ def way_of(sender, receiver, column, wait, reach, place, shadow, fixed, now, loa
 @inlined
 def approach_of(sender, receiver, dx, dy, distance, now):
     """How fast two units come nearer to each other [m/s], along the line between them (dx, dy)."""
-    v_x = now[OWN_SPEED, receiver] * now[COSINE, receiver] - now[OWN_SPEED, sender] * now[COSINE, sender]
-    v_y = now[OWN_SPEED, receiver] * now[SINE, receiver] - now[OWN_SPEED, sender] * now[SINE, sender]
+    v_x = now[TRUE_SPEED, receiver] * now[COSINE, receiver] - now[TRUE_SPEED, sender] * now[COSINE, sender]
+    v_y = now[TRUE_SPEED, receiver] * now[SINE, receiver] - now[TRUE_SPEED, sender] * now[SINE, sender]
     return -(dx * v_x + dy * v_y) / max(distance, 1e-3)
 
 
