@@ -17,7 +17,7 @@ from studio.assess.adhesion import WHEELS, used
 from studio.assess.known import Known, known
 from studio.execution.happening import Happening
 from studio.execution.record import Record
-from studio.world.channel import catalogue
+from studio.world.commander import PARTS
 from studio.world.table.event import EVENTS, HARD_BRAKE, HIT, NEAR_MISS
 
 EXPLAINED = tuple(EVENTS[each].name for each in (HIT, NEAR_MISS, HARD_BRAKE))
@@ -104,9 +104,8 @@ def explained(record: Record, event: Happening) -> Explanation:
 def commanded(record: Record, vehicle: str, sample: int) -> dict[str, str]:
     """Who had wheel, brake, drive and gear of a vehicle; what was not recorded is left out."""
     row, found = record.vehicles.index(vehicle), {}
-    for part in ("wheel", "brake", "drive", "gear"):
-        name = f"commands_{part}"
-        number = record.channel(name)[row, sample] if name in catalogue() else np.nan
+    for part in PARTS:
+        number = record.channel(f"commands_{part}")[row, sample]
         if np.isfinite(number) and 0 <= number < len(record.commanders):
             found[part] = record.commanders[int(number)]
     return found

@@ -3,8 +3,6 @@
 A sensor does not say whom it has seen, and an application may not know. The record tells both afterwards: the target belongs to the vehicle
 whose outline is nearest to where the sensor has put it, at the time at which it was measured, if it is not farther away than 3 m.
 Vehicles that were not recorded are nobody here.
-
-How old a reading is: since its numbers last changed, where it does not say so itself.
 """
 
 from collections.abc import Iterator
@@ -15,11 +13,13 @@ import numpy as np
 
 from studio.execution.happening import Number
 from studio.execution.message import Messages
-from studio.execution.record import Record
+from studio.execution.record import SAME_TIME, Mount, Record
 from studio.world.table.cause import CAUSES
 
 NEAR = 3.0  # [m] from an outline, within which a target is taken for that of this vehicle
-SENSED = (("range", "azimuth"), ("ahead", "left"), ("x", "y"))  # pairs of fields that say where a target is, by which they are known
+SENSED = (("range", "azimuth"), ("ahead", "left"))  # fields that say where a target is: from the sensor, or from the middle of the front
+OF_THE_SENSOR = ("count", "measured")  # what is no field of a target
+AT_THE_FRONT = Mount(0.0, 0.0, 0.0)
 WHY = {number: each.name for number, each in enumerate(CAUSES)}
 
 
@@ -76,10 +76,15 @@ def known(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]
 
 @dataclass(frozen=True)
 class Target:
-    """One target of a sensor: the name of the sensor, and the probes of its fields."""
+    """One target of a sensor: the name of the sensor with its unit, and the probes of its fields."""
 
     sensor: str
     fields: dict[str, str]
+
+    @property
+    def name(self) -> str:
+        """That of the sensor on its unit."""
+        return self.sensor.partition(".")[2]
 
 
 def targets(record: Record, unit: str) -> Iterator[Target]:
@@ -91,7 +96,7 @@ def targets(record: Record, unit: str) -> Iterator[Target]:
             places.setdefault(place, {})[part] = name
     for place, fields in places.items():
         if any(set(pair) <= fields.keys() for pair in SENSED):
-            yield Target(place.split(".")[1], fields)
+            yield Target(".".join(place.split(".")[:2]), fields)
 
 
 def sensed(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
@@ -102,29 +107,25 @@ def sensed(record: Record, unit: str, about: str, sample: int) -> Iterator[Known
         values = {part: float(record.probes[name].values[sample]) for part, name in each.fields.items()}
         if not all(np.isfinite(value) for value in values.values()):
             continue
-        since = measured_at(record, each, sample)
-        if belongs_to(record, place_of(record, unit, values, since), since) == about:
-            what = {part: Number(value, record.probes[each.fields[part]].unit) for part, value in values.items()}
-            yield Known(unit, about, each.sensor, round(float(record.time[sample] - record.time[since]), 6), what)
+        since = float(record.probes[f"{each.sensor}.measured"].values[sample])
+        at = int(np.searchsorted(record.time, since - SAME_TIME))
+        if belongs_to(record, place_of(record, unit, each.sensor, values, at), at) == about:
+            what = {
+                part: Number(value, record.probes[each.fields[part]].unit) for part, value in values.items() if part not in OF_THE_SENSOR
+            }
+            yield Known(unit, about, each.name, round(float(record.time[sample]) - since, 6), what)
 
 
-def measured_at(record: Record, target: Target, sample: int) -> int:
-    """The sample since which the numbers of a target have not changed."""
-    values = np.array([record.probes[name].values[: sample + 1] for name in target.fields.values()])
-    changed = np.flatnonzero((values != values[:, -1:]).any(axis=0))
-    return int(changed[-1]) + 1 if changed.size else 0
-
-
-def place_of(record: Record, unit: str, values: dict[str, float], sample: int) -> np.ndarray:
-    """Where a target is in the world [m], as the sensor says; from the middle of the front, or by coordinates."""
-    if {"x", "y"} <= values.keys():
-        return np.array([values["x"], values["y"]])
+def place_of(record: Record, unit: str, sensor: str, values: dict[str, float], sample: int) -> np.ndarray:
+    """Where a target is in the world [m], as the sensor says."""
     row, front = record.vehicles.index(unit), record.bodies[unit].front
     x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
     if {"ahead", "left"} <= values.keys():
         ahead, left = values["ahead"], values["left"]
     else:
-        ahead, left = values["range"] * np.cos(values["azimuth"]), values["range"] * np.sin(values["azimuth"])
+        mount = record.mounts.get(sensor, AT_THE_FRONT)
+        angle = values["azimuth"] + mount.yaw
+        ahead, left = mount.forward + values["range"] * np.cos(angle), mount.left + values["range"] * np.sin(angle)
     ahead += front
     return np.array([x + ahead * np.cos(psi) - left * np.sin(psi), y + ahead * np.sin(psi) + left * np.cos(psi)])
 

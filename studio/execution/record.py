@@ -57,6 +57,14 @@ class Body(NamedTuple):
     radius: float  # [m]
 
 
+class Mount(NamedTuple):
+    """Where a sensor is, from the middle of the front of its vehicle, and where it looks."""
+
+    forward: float  # [m]
+    left: float  # [m]
+    yaw: float  # [rad] to the left
+
+
 def no_ages() -> np.ndarray:
     """Of no links."""
     return np.zeros((0, 0))
@@ -68,7 +76,7 @@ class Record:
 
     `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
     of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channel `ahead` stand for, `commanders`
-    those that the numbers of the channels `commands_` stand for.
+    those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
     """
 
     time: np.ndarray
@@ -83,6 +91,7 @@ class Record:
     bodies: dict[str, Body] = field(default_factory=dict)
     called: dict[int, str] = field(default_factory=dict)
     commanders: tuple[str, ...] = ()
+    mounts: dict[str, Mount] = field(default_factory=dict)
 
     @cached_property
     def derived(self) -> "Derived":

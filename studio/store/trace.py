@@ -13,7 +13,7 @@ from tsdownsample import MinMaxDownsampler
 from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
 from studio.execution.message import Messages
-from studio.execution.record import Body, Chain, Record, Traced
+from studio.execution.record import Body, Chain, Mount, Record, Traced
 from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
@@ -43,6 +43,7 @@ def about(record: Record) -> dict[str, Any]:
         "bodies": record.bodies,
         "called": list(record.called.items()),
         "commanders": record.commanders,
+        "mounts": record.mounts,
     }
 
 
@@ -68,6 +69,7 @@ def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Message
         called={int(number): name for number, name in known["called"]},
         messages=messages,
         commanders=tuple(known["commanders"]),
+        mounts={name: Mount(*each) for name, each in known["mounts"].items()},
     )
 
 

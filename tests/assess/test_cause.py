@@ -9,11 +9,11 @@ import pytest
 from studio import job
 from studio.assess.cause import explain
 from studio.assess.danger import hard_brakes, near_misses, stretches, with_dangers
-from studio.assess.known import belongs_to, known
+from studio.assess.known import belongs_to, known, place_of
 from studio.errors import UnknownError
 from studio.execution.happening import happening
 from studio.execution.message import none
-from studio.execution.record import Traced
+from studio.execution.record import Mount, Traced
 from studio.store.explanation import explanation
 from studio.store.runs import open_runs
 from studio.world.table.cause import FADING, RECEIVED
@@ -53,10 +53,10 @@ def test_stretches_that_are_near_each_other_are_one():
     assert [(part.start, part.stop) for part in stretches(holds, TIME)] == [(10, 52), (300, 301)]
 
 
-def seen(made, values, name="b.front", unit="m"):
-    """The record with a target of a sensor: range over time, straight ahead."""
-    still = np.zeros(TIME.size)
-    return replace(made, probes={f"{name}.range": Traced(values, unit, "Range"), f"{name}.azimuth": Traced(still, "rad", "Azimuth")})
+def seen(made, values, measured=TIME):
+    """The record with a target of a sensor: range [m] over time, straight ahead, measured at these times [s]."""
+    fields = {"measured": (measured, "s"), "range": (values, "m"), "azimuth": (np.zeros(TIME.size), "rad")}
+    return replace(made, probes={f"b.front.{name}": Traced(each, unit, name) for name, (each, unit) in fields.items()})
 
 
 def test_a_target_is_the_vehicle_at_its_place(drive):
@@ -70,11 +70,18 @@ def test_a_target_is_the_vehicle_at_its_place(drive):
     )
 
 
-def test_a_reading_that_stands_still_ages(drive):
+def test_a_sensor_looks_from_where_it_is(drive):
+    """1 m behind the front, 0.5 m to the right and turned: what it has 1 m farther and turned back is at the same place."""
+    mount, gap = Mount(-1.0, -0.5, 0.1), drive.channel("gap")[1]
+    place = place_of(replace(drive, mounts={"b.front": mount}), "b", "b.front", {"range": gap[250] + 1.0, "azimuth": -0.1}, 250)
+    assert place - place_of(drive, "b", "b.front", {"range": gap[250], "azimuth": 0.0}, 250) == pytest.approx([0.0, -0.5])
+
+
+def test_a_reading_ages(drive):
     """A radar that gives every tenth of a second what it saw then: at 5.06 s it is 0.06 s old, and of where a was then."""
     gap = drive.channel("gap")[1]
-    held = gap[np.arange(TIME.size) // 5 * 5]
-    (found,) = known(seen(drive, held), "b", "a", 253)
+    looks = np.arange(TIME.size) // 5 * 5
+    (found,) = known(seen(drive, gap[looks], TIME[looks]), "b", "a", 253)
     assert found.age == pytest.approx(0.06) and found.what["range"].value == gap[250]
 
 
