@@ -10,7 +10,7 @@ from pydantic import Field
 from studio.compiled import compiled
 from studio.kind.settings import Part, number
 from studio.model import radio
-from studio.world.view import Transmission
+from studio.world.view import Transmission, chance
 
 KIND = "radio"
 TITLE = "Ad hoc radio with constant delay and loss"
@@ -65,5 +65,5 @@ def transmit(settings, way, draw):
     """Whether a message is lost on its way, and how long it takes."""
     weakened = radio.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
     distance = radio.felt_distance(way.distance, weakened, settings.path_loss_exponent)
-    lost = radio.is_lost(distance, settings.range, settings.loss, settings.loss_per_metre, draw.first)
-    return Transmission(lost, radio.delay(settings.delay, settings.delay_variation, draw.second) + 8.0 * way.size / settings.bit_rate)
+    lost = radio.is_lost(distance, settings.range, settings.loss, settings.loss_per_metre, chance(draw, 0))
+    return Transmission(lost, radio.delay(settings.delay, settings.delay_variation, chance(draw, 1)) + 8.0 * way.size / settings.bit_rate)
