@@ -1,15 +1,15 @@
 """Ad hoc radio: every message reaches every unit in range, after a delay, or is lost.
 
 Parameters as Massow & Radusch 2018, Table 3: mean delay, variation, loss rate, loss growing with distance, range. How buildings weaken a
-signal stands in studio/model/radio.py. Bit rate and largest message are those of ETSI ITS-G5 (EN 302 663: 6 Mbit/s; TS 102 636-4-1:
-1398 bytes).
+signal stands in studio/model/radio/propagation.py. Bit rate and largest message are those of ETSI ITS-G5 (EN 302 663: 6 Mbit/s;
+TS 102 636-4-1: 1398 bytes).
 """
 
 from pydantic import Field
 
 from studio.compiled import compiled
 from studio.kind.settings import Part, number
-from studio.model import radio
+from studio.model.radio import chance, propagation
 from studio.world.view import Transmission
 
 KIND = "radio"
@@ -63,7 +63,7 @@ def reach(settings):
 @compiled
 def transmit(settings, way, draw):
     """Whether a message is lost on its way, and how long it takes."""
-    weakened = radio.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
-    distance = radio.felt_distance(way.distance, weakened, settings.path_loss_exponent)
-    lost = radio.is_lost(distance, settings.range, settings.loss, settings.loss_per_metre, draw.first)
-    return Transmission(lost, radio.delay(settings.delay, settings.delay_variation, draw.second) + 8.0 * way.size / settings.bit_rate)
+    weakened = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
+    distance = propagation.felt_distance(way.distance, weakened, settings.path_loss_exponent)
+    lost = chance.is_lost(distance, settings.range, settings.loss, settings.loss_per_metre, draw.first)
+    return Transmission(lost, chance.delay(settings.delay, settings.delay_variation, draw.second) + 8.0 * way.size / settings.bit_rate)
