@@ -18,7 +18,7 @@ from studio.world.probe import Reader
 from studio.world.world import World
 
 ROW = {each.name: row for row, each in enumerate(CHANNELS)}
-CHUNK = 128  # samples that room is made for at a time
+CHUNK = 8 << 20  # [bytes] for which room is made at a time: from this size on numpy asks for large pages, which are faster to come by
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ class Derived:
 
 @dataclass(frozen=True)
 class Chunk:
-    """Room for CHUNK samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
+    """Room for some samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
 
     time: np.ndarray
     values: np.ndarray
@@ -161,7 +161,7 @@ class Recorder:
     def take(self, world: World, k: int) -> None:
         """Takes a sample when it is time for one; commands are those of tick k."""
         if world.clock.k % self.every == 0:
-            place = self.count % CHUNK
+            place = self.count % self.room
             if place == 0:
                 self.chunks.append(self.chunk())
             chunk = self.chunks[-1]
@@ -171,10 +171,21 @@ class Recorder:
             self.reader.read(chunk.probes[place])
             self.count += 1
 
+    @cached_property
+    def room(self) -> int:
+        """How many samples a chunk holds."""
+        return max(CHUNK // (8 * sum(self.widths)), 1)
+
+    @cached_property
+    def widths(self) -> tuple[int, ...]:
+        """How many numbers of a sample are its time, values, ages and probes."""
+        return 1, len(CHANNELS) * self.columns.size, self.links, len(self.reader.probes)
+
     def chunk(self) -> Chunk:
-        """An empty one."""
-        values = np.empty((CHUNK, len(CHANNELS), self.columns.size))
-        return Chunk(np.empty(CHUNK), values, np.empty((CHUNK, self.links)), np.empty((CHUNK, len(self.reader.probes))))
+        """An empty one: a sample lies in one piece."""
+        block = np.empty((self.room, sum(self.widths)))
+        time, values, ages, probes = np.split(block, np.cumsum(self.widths)[:-1], axis=1)
+        return Chunk(time[:, 0], values.reshape(self.room, len(CHANNELS), self.columns.size), ages, probes)
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -188,7 +199,7 @@ class Recorder:
 
     def samples(self, numbers: list[int]) -> tuple[np.ndarray, np.ndarray]:
         """Times and values of some samples, of all worlds."""
-        found = [(self.chunks[i // CHUNK], i % CHUNK) for i in numbers]
+        found = [(self.chunks[i // self.room], i % self.room) for i in numbers]
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)
 
@@ -201,7 +212,7 @@ class Recorder:
     def traced_samples(self, world: int, numbers: list[int]) -> dict[str, Traced]:
         """The same of some samples, by their numbers."""
         share = self.probe_share[world]
-        return self.named(share, np.array([self.chunks[i // CHUNK].probes[i % CHUNK, share] for i in numbers]))
+        return self.named(share, np.array([self.chunks[i // self.room].probes[i % self.room, share] for i in numbers]))
 
     def named(self, share: slice, values: np.ndarray) -> dict[str, Traced]:
         """What some probes have read, float64[sample, probe], by their names."""
@@ -214,7 +225,6 @@ class Recorder:
         with np.errstate(invalid="ignore"):
             return np.where(known, ages, 0.0).sum(axis=0) / known.sum(axis=0)
 
-    @staticmethod
-    def joined(parts: list[np.ndarray], none: np.ndarray, count: int) -> np.ndarray:
+    def joined(self, parts: list[np.ndarray], none: np.ndarray, count: int) -> np.ndarray:
         """The first samples of all chunks, one after another."""
-        return np.concatenate([none, *parts])[:count]
+        return np.concatenate([none, *(part[: max(count - i * self.room, 0)] for i, part in enumerate(parts))])

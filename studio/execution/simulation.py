@@ -18,7 +18,7 @@ from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED
-from studio.world.tick import environment, gather, look, meet, part, sense, think
+from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
 
@@ -58,6 +58,10 @@ class Simulation:
     teller: Teller
     ticks: int  # length of the whole run
     started: float = field(default_factory=time.perf_counter)
+    running: int = field(init=False)  # worlds that are not over
+
+    def __post_init__(self) -> None:
+        self.running = len(self.cases)
 
     @property
     def time(self) -> float:
@@ -67,7 +71,7 @@ class Simulation:
     @property
     def is_over(self) -> bool:
         """Whether no world is running any more."""
-        return all(case.is_over for case in self.cases)
+        return self.running == 0
 
     def advance(self, ticks: int = 1) -> None:
         """Some ticks, and what has happened in them. A failing application, or a state that is not finite, ends a world as failed."""
@@ -84,6 +88,7 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
+        between(self.world, self.refuse)
         part(self.world)
         self.check_wishes()
         self.check()
@@ -113,6 +118,7 @@ class Simulation:
     def close(self, number: int, status: str) -> None:
         """A world is over: what is recorded from now on is not its own."""
         case = self.cases[number]
+        self.running -= 1
         case.status, case.time, case.samples, case.state_hash = status, self.time, self.recorder.count, self.world.digest(number)
 
     def stop(self) -> None:

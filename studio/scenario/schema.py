@@ -205,6 +205,14 @@ class Application(Part):
         [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
     )
     parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    cycle: float | None = number(
+        None, unit="s", title="Cycle", gt=0, le=0.1,
+        description="how often it decides: a tick, or a whole part of one, for what talks faster than the world moves; left out: the tick",
+    )  # fmt: skip
+    keeps: float | None = number(
+        None, unit="s", title="Keeps messages for", gt=0, le=LONGEST,
+        description="older ones are forgotten; left out: the newest of each sender is kept to the end",
+    )  # fmt: skip
     priority: int = Field(
         0, ge=-100, le=100, title="Priority", description="of several applications that command an actuator, the highest does"
     )

@@ -16,11 +16,11 @@ from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
 from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
-from studio.world.table.unit import GPS_SET, HEARD, SATELLITE, SENT, UNIT, UNIT_SET
+from studio.world.table.unit import GPS_SET, HEARD, LOGGED, SATELLITE, SENT, TROUBLE, UNIT, UNIT_SET
 
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
-    MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, SATELLITE, GPS_SET, SENT, HEARD,
+    MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENT, HEARD, LOGGED,
     LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"

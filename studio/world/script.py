@@ -57,6 +57,8 @@ def ask(world: World) -> None:
 def act(world: World) -> None:
     """The second pass: maneuvers command their vehicles, and end."""
     s, v, time = world.script, world.vehicles, world.clock.time
+    if not s.acting.size:
+        return
     any_over = False
     for each in (s.maneuvers[i] for i in s.acting):
         any_over |= each.run(time, each.entry, each.vehicle, each.settings, s.phase, s.turned, v.state, v.mind, s.commands, s.come, s.unfit)

@@ -5,13 +5,14 @@ applications and drivers decide, commands go out. Between two ticks every vehicl
 """
 
 from collections.abc import Callable
+from fractions import Fraction
+from functools import cache
 from math import nan
 
 from studio.vehicle import fleet
 from studio.world import script
-from studio.world.board import own
-from studio.world.board.host import Fault
-from studio.world.board.post import Post, freshest
+from studio.world.board.host import Fault, Hosted
+from studio.world.board.post import freshest
 from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.world import World
@@ -27,6 +28,7 @@ def let_through(fault: Fault) -> None:
 def tick(world: World) -> None:
     """Advances the world by one tick. Raises ApplicationError when an application does."""
     meet(world)
+    between(world)
     part(world)
 
 
@@ -41,9 +43,31 @@ def meet(world: World, refuse: Refuse = let_through) -> None:
     think(world)
     sense(world, refuse)
     communicate(world, refuse)
-    applications(world, refuse)
+    world.vehicles.app_command[:] = nan
+    applications(world, world.clock.time, list(world.hosted), refuse)
     dispatch(world, refuse)
     act(world)
+
+
+def between(world: World, refuse: Refuse = let_through) -> None:
+    """Units whose cycle is shorter than the tick hear, decide and send at instants between two ticks.
+
+    They know of themselves and around them what they knew at the tick, and what they command counts at the next one.
+    """
+    clock, hosted, commands = world.clock, list(world.hosted), world.vehicles.app_command.copy()
+    for share, places in instants(tuple(each.cycles for each in hosted)):
+        time = clock.time + share * clock.tick
+        listen(world, time)
+        applications(world, time, [hosted[place] for place in places], refuse)
+        dispatch(world, refuse)
+    world.vehicles.app_command[:] = commands
+
+
+@cache
+def instants(cycles: tuple[int, ...]) -> list[tuple[float, list[int]]]:
+    """When between two ticks somebody decides, as shares of a tick, and who, of several that decide so often within each."""
+    shares = sorted({Fraction(i, count) for count in cycles for i in range(1, count)})
+    return [(float(share), [place for place, count in enumerate(cycles) if (share * count).denominator == 1]) for share in shares]
 
 
 def part(world: World) -> None:
@@ -78,11 +102,12 @@ def look(world: World) -> None:
         v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
         r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
-    queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
-    traffic.meetings(
-        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
-        c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
-    )  # fmt: skip
+    if c.partner.size:
+        queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
+        traffic.meetings(
+            v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
+            c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
+        )  # fmt: skip
     if o.standing.size:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
 
@@ -95,11 +120,8 @@ def think(world: World) -> None:
 
 def sense(world: World, refuse: Refuse = let_through) -> None:
     """Satellites tell where one is; units look at themselves and around."""
-    v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
-    own.carry(
-        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
-        r.shadow, u.satellite, u.now,
-    )  # fmt: skip
+    u, clock = world.units, world.clock
+    world.carry(clock.k, clock.tick)
     for each in u.mounted:
         for i, what in each.ask(clock.k, clock.time, world.view).items():
             refuse(u.blame(each, i, what))
@@ -107,38 +129,40 @@ def sense(world: World, refuse: Refuse = let_through) -> None:
 
 def communicate(world: World, refuse: Refuse = let_through) -> None:
     """Beacons go out; what has come in is taken, and laid before the applications."""
-    clock = world.clock
-    for post in world.units.posts:
-        own = (post.period, post.settings, post.link_sender, post.inbox)
-        with post.answering(refuse):
-            post.exchange(clock.k, clock.tick, *own, *sent(world, post))
+    clock, u = world.clock, world.units
+    for air in u.airs:
+        air.turn(clock.time, u.world)
+    for post in u.posts:
+        for fault in post.exchanged(clock.k, clock.time, u.airs[post.air], world.air):
+            refuse(fault)
+    lay(world, clock.time)
+
+
+def lay(world: World, time: float) -> None:
+    """What everybody has heard is laid before the applications that hear everybody."""
     for each in world.open_inboxes:
-        freshest(each.first, each.count, each.links, each.post.inbox, each.heard, each.slots)
+        freshest(time, each.first, each.count, each.links, each.kept, each.post.inbox, each.heard, each.slots)
+
+
+def listen(world: World, time: float) -> None:
+    """What has come in between two ticks is taken, and laid before the applications."""
+    for post in world.units.posts:
+        post.received(time)
+    lay(world, time)
 
 
 def dispatch(world: World, refuse: Refuse = let_through) -> None:
     """The radio decides about what applications have sent."""
     for post in world.units.posts:
-        if post.is_of_applications and post.fresh.any():
-            with post.answering(refuse):
-                post.dispatch(*sent(world, post))
+        for fault in post.dispatched(world.units.airs[post.air], world.air):
+            refuse(fault)
 
 
-def sent(world: World, post: Post) -> tuple:
-    """What the radio decides about, and what it looks at for that."""
-    u, w, r = world.units, world.worlds, world.roads
-    return (
-        world.clock.time, post.size, post.stream, post.reach, post.air, u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now,
-        post.sender, post.fresh, post.last, post.ring, post.link_first, post.link_receiver, post.arrival, post.lost,
-    )  # fmt: skip
-
-
-def applications(world: World, refuse: Refuse = let_through) -> None:
-    """Every application sees and decides, the highest priority last."""
-    v, u, clock = world.vehicles, world.units, world.clock
-    v.app_command[:] = nan
-    for hosted in list(world.hosted):
-        for fault in hosted.decide(clock.time, clock.tick, u.fixed, u.now, v.app_command):
+def applications(world: World, time: float, which: list[Hosted], refuse: Refuse = let_through) -> None:
+    """Applications see and decide, the highest priority last."""
+    u, tick = world.units, world.clock.tick
+    for hosted in which:
+        for fault in hosted.decide(time, tick, (u.fixed, u.now, world.vehicles.app_command)):
             refuse(fault)
 
 

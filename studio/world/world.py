@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from studio.compiled import bound
 from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
@@ -14,7 +15,9 @@ from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import ACTIVE
+from studio.world.board.air import Air
 from studio.world.board.host import Fault, Group, Hosted
+from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
@@ -189,8 +192,10 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    trouble: Moving  # what the script does to their radio, [row, unit]
     mounted: list[Mounted]
     posts: list[Post]
+    airs: list[Air]
 
     def number(self, name: str, world: int = 0) -> int:
         """A unit by its name; raises ValueError."""
@@ -253,6 +258,19 @@ class World:
             o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
         )  # fmt: skip
 
+    @cached_property
+    def air(self) -> tuple:
+        """What radios see of the world, likewise."""
+        u, w, r = self.units, self.worlds, self.roads
+        return u.world, u.first, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
+
+    @cached_property
+    def carry(self) -> Callable:
+        """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
+        v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
+        own_ones = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow)
+        return bound(carry, *own_ones, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+
     @property
     def size(self) -> int:
         """Number of vehicles in all worlds."""
@@ -281,7 +299,8 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
+        units = [u.satellite, u.now, *(each.out for each in u.mounted), *radio, *(part for air in u.airs for part in air.state)]
         happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -304,7 +323,12 @@ class World:
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
-            yield post.inbox[:, u.world[post.link_receiver] == number]
+            yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))
+            yield post.kept[:, u.world[post.sender] == number]
+        for air in u.airs:
+            of_units, cells = air.state[:-1], air.state[-1]
+            yield from (part[..., u.world == number] for part in of_units)
+            yield cells[:, number]
         share = e.hits.shape[1] // e.found.size
         yield e.hits[:, number * share : (number + 1) * share]
         yield s.phase[s.world == number]

@@ -105,7 +105,7 @@ def test_the_size_of_a_chunk_changes_nothing(monkeypatch, chunk):
     """251 samples in chunks that are filled just so, or not."""
     one = loaded()
     expected = outcomes([one])[0]
-    monkeypatch.setattr(recording, "CHUNK", chunk)
+    monkeypatch.setattr(recording.Recorder, "room", chunk)
     found = outcomes([one])[0]
     same(found, expected)
     assert found.record.time.size == 251

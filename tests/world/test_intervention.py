@@ -91,9 +91,9 @@ class Pushing:
     commands: dict
     groups: tuple = ()
 
-    def decide(self, time, tick, clock, now, commands):
+    def decide(self, time, tick, around):
         for place, value in self.commands.items():
-            commands[place] = value
+            around[-1][place] = value
         return []
 
 

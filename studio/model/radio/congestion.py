@@ -14,7 +14,7 @@ Tables, pinned:
 Both are read in the same way: a ratio that equals a bound belongs to the level above it.
 """
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from studio.compiled import compiled
 
@@ -24,31 +24,28 @@ OSCAR, VANETZA = 0, 1
 
 
 class Control(NamedTuple):
-    """What a unit remembers: its level, for how many samples the ratio has been above (positive) or below, the nearest level of those."""
+    """What a unit remembers of the load of its channel."""
 
-    level: int
-    differs: int
-    nearest: int
-
-
-AT_FIRST = Control(0, 0, 0)
+    level: Annotated[float, "1"] = 0.0
+    differs: Annotated[float, "1"] = 0.0  # samples in a row that call for a higher level, or, negative, for a lower one
+    nearest: Annotated[float, "1"] = 0.0  # the level nearest to the present one among those that they call for
 
 
 @compiled
 def level_of(ratio, table):
     """The level that a ratio calls for."""
     if table == OSCAR:
-        return (ratio >= 0.2) + (ratio >= 0.3) + (ratio >= 0.4) + (ratio >= 0.5)
+        return 1.0 * ((ratio >= 0.2) + (ratio >= 0.3) + (ratio >= 0.4) + (ratio >= 0.5))
     low = (ratio >= 0.19) + (ratio >= 0.27) + (ratio >= 0.35)
-    return low + (ratio >= 0.43) + (ratio >= 0.51) + (ratio >= 0.59)
+    return 1.0 * (low + (ratio >= 0.43) + (ratio >= 0.51) + (ratio >= 0.59))
 
 
 @compiled
 def interval(level, table):
     """The least time [s] between two messages."""
     if table == OSCAR:
-        return 0.1 if level == 0 else 0.2 if level == 1 else 0.4 if level == 2 else 0.5 if level == 3 else 1.0
-    return 0.06 if level == 0 else 0.46 if level == 6 else 0.02 + 0.08 * level
+        return 0.1 if level < 1.0 else 0.2 if level < 2.0 else 0.4 if level < 3.0 else 0.5 if level < 4.0 else 1.0
+    return 0.06 if level < 1.0 else 0.46 if level >= 6.0 else 0.02 + 0.08 * level
 
 
 @compiled
@@ -56,11 +53,9 @@ def sampled(control, ratio, table):
     """A unit's memory after one more sample."""
     level, called = control.level, level_of(ratio, table)
     if called == level:
-        return Control(level, 0, level)
-    if called > level:
-        nearest = min(called, control.nearest) if control.differs > 0 else called
-        differs = max(control.differs, 0) + 1
-        return Control(nearest, 0, nearest) if differs > UP else Control(level, differs, nearest)
-    nearest = max(called, control.nearest) if control.differs < 0 else called
-    differs = min(control.differs, 0) - 1
-    return Control(nearest, 0, nearest) if differs < -DOWN else Control(level, differs, nearest)
+        return Control(level, 0.0, level)
+    side = 1.0 if called > level else -1.0
+    goes_on = control.differs * side > 0.0
+    differs = control.differs + side if goes_on else side
+    nearest = level + side * min(abs(called - level), abs(control.nearest - level)) if goes_on else called
+    return Control(nearest, 0.0, nearest) if differs > UP or differs < -DOWN else Control(level, differs, nearest)

@@ -10,6 +10,7 @@ from studio.kind.quantity import width
 from studio.kind.registry import Kind
 from studio.workshop import draw, twice
 from studio.workshop.check import Check, tried
+from studio.world.view import Turn
 
 DRAWS = 300
 
@@ -24,6 +25,15 @@ def checks(kind: Kind) -> Iterator[Check]:
         yield tried("beacon() gives the same compiled and as Python", lambda: twice.agree(module.beacon, draws))
         yield tried("beacon() gives finite numbers", lambda: twice.finite(module.beacon, draws))
         yield tried("beacon() gives the same to the same", lambda: twice.steady(module.beacon, draws))
+    if hasattr(module, "due"):
+        asked = [(*given, draw.quantity_tuple(module.Memory, seed), turn(seed)) for given in draws]
+        yield tried("due() gives the same compiled and as Python", lambda: twice.agree(module.due, asked))
+        yield tried("due() gives finite numbers", lambda: twice.finite(module.due, asked))
+        yield tried("due() gives the same to the same", lambda: twice.steady(module.due, asked))
+    if hasattr(module, "size"):
+        payloads = [(draw.quantity_tuple(module.Payload, seed),) for _ in range(DRAWS)]
+        yield tried("size() gives the same compiled and as Python", lambda: twice.agree(module.size, payloads))
+        yield tried("no message is larger than SIZE, or empty", lambda: sizes(kind, payloads))
 
 
 def small(kind: Kind) -> str | None:
@@ -36,6 +46,19 @@ def timeless(kind: Kind) -> str | None:
     """Without a period nobody knows when."""
     found = kind.module.Settings.model_fields.get("period")
     return None if found and found.annotation is float else 'add it: period: float = number(0.1, unit="s", title="Period", ge=0.01, le=2)'
+
+
+def sizes(kind: Kind, payloads: list[tuple]) -> str | None:
+    """A size that SIZE does not allow."""
+    found = ((kind.module.size(*given), given) for given in payloads)
+    return next(
+        (f"size() gave {size} of {given}; SIZE is {kind.module.SIZE}" for size, given in found if not 0 < size <= kind.module.SIZE), None
+    )
+
+
+def turn(seed: np.random.Generator) -> Turn:
+    """A moment at which a unit is asked."""
+    return Turn(float(seed.uniform(0.0, 3600.0)), float(seed.choice([0.0, 0.1, 0.4, 1.0])), float(seed.uniform()))
 
 
 def own(seed: np.random.Generator) -> Own:

@@ -32,6 +32,7 @@ class Crew(NamedTuple):
     group: Application
     units: tuple[int, ...]
     radio: str
+    cycles: int
 
 
 def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[Hosted], list[Open]]:
@@ -41,7 +42,7 @@ def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[
     together: dict[tuple, list[Crew]] = {}
     for crew in crews(settings, units):
         own = -1 if is_compiled(registry.find("application", crew.group.application)) else crew.place
-        together.setdefault((crew.group.priority, crew.group.application, crew.radio, own), []).append(crew)
+        together.setdefault((crew.group.priority, crew.group.application, crew.radio, crew.cycles, own), []).append(crew)
     opened: list[Open] = []
     ordered = sorted(together.items(), key=lambda each: each[0][0])
     return [hosted(registry.find("application", key[1]), found, units, opened) for key, found in ordered], opened
@@ -52,8 +53,14 @@ def crews(settings: Sequence[Setting], units: Units) -> Iterator[Crew]:
     place = 0
     for w, each in enumerate(settings):
         for name, group in each.scenario.applications.items():
-            yield Crew(w, place, name, group, tuple(units.number(unit, w) for unit in group.units), each.scenario.radio.kind)
+            members = tuple(units.number(unit, w) for unit in group.units)
+            yield Crew(w, place, name, group, members, each.scenario.radio.kind, cycles(group, each.scenario.clock.tick))
             place += 1
+
+
+def cycles(group: Application, tick: float) -> int:
+    """How often the units of a group decide within a tick."""
+    return round(tick / group.cycle) if group.cycle else 1
 
 
 def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open]) -> Hosted:
@@ -77,6 +84,7 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
         wiring=[wired(each, found, units, opened) for each in (*port.seen(module), *port.done(module)) if each.what in text.WIRES],
         run=text.loop(application),
         checked=text.checked(module),
+        cycles=found[0].cycles,
     )
 
 
@@ -126,15 +134,15 @@ def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -
         slots[: len(named), j], heard[j] = named, len(named)
         everybody.append([] if senders else of_receiver.get(unit, []))
     named_any = [bool(crew.group.senders(i)) for crew, i, _ in members]
+    kept = np.array([crew.group.keeps or np.inf for crew, _, _ in members])
     if not all(named_any):
-        opened.append(to_all(post, everybody, named_any, heard, slots))
-    return Wiring(one, post, ("inbox",), (slots, heard))
+        opened.append(to_all(post, everybody, named_any, heard, slots, kept))
+    return Wiring(one, post, ("inbox",), (slots, heard, kept))
 
 
-def to_all(post: Post, everybody: list[list[int]], named: list[bool], heard: np.ndarray, slots: np.ndarray) -> Open:
+def to_all(post: Post, everybody: list[list[int]], named: list[bool], heard: np.ndarray, slots: np.ndarray, kept: np.ndarray) -> Open:
     """The inboxes that hear everybody; units that have named whom they listen to are left as they are, with a count of -1."""
     sizes = np.array([len(each) for each in everybody], dtype=np.int64)
     count = np.where(named, -1, sizes)
-    return Open(
-        post, np.cumsum(sizes) - sizes, count, np.array([link for each in everybody for link in each], dtype=np.int64), heard, slots
-    )
+    links = np.array([link for each in everybody for link in each], dtype=np.int64)
+    return Open(post, np.cumsum(sizes) - sizes, count, links, heard, slots, kept)

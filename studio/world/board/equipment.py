@@ -5,6 +5,7 @@ units_of(settings, worlds, cars)   →  Units
 
 from collections.abc import Iterator, Sequence
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -13,10 +14,24 @@ from studio.application.port import INBOX, OUTBOX
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.scenario.schema import Application
-from studio.world.board.post import Need, Post, post
+from studio.world.board.air import air
+from studio.world.board.post import Known, Need, Post, post
 from studio.world.board.sensing import Mounted, Sensor, mounted
 from studio.world.setting import Car, Setting
-from studio.world.table.unit import COSINE, GPS_SET, HEADING, OWN_X, OWN_Y, PRESENT, SATELLITE, SINE, TRUE_X, TRUE_Y, UNIT
+from studio.world.table.unit import (
+    COSINE,
+    GPS_SET,
+    HEADING,
+    OWN_X,
+    OWN_Y,
+    PRESENT,
+    SATELLITE,
+    SINE,
+    TROUBLE,
+    TRUE_X,
+    TRUE_Y,
+    UNIT,
+)  # fmt: skip
 from studio.world.world import Units, Worlds
 
 STATIONS = 50_000  # stations are numbered from here on, as chance tells them apart
@@ -37,6 +52,8 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: Sequence[Car]) -
         now=np.zeros((len(UNIT), len(parts))),
         gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
         satellite=np.zeros((len(SATELLITE), len(cars))),
+        trouble=np.zeros((len(TROUBLE), len(parts))),
+        airs=[],
         mounted=list(sensors_of(parts)),
         posts=[],
     )
@@ -83,11 +100,18 @@ def sensors_of(parts: Sequence) -> Iterator[Mounted]:
 
 def equip(settings: Sequence[Setting], units: Units, number: np.ndarray, tick: float) -> None:
     """Gives the units their posts: for every kind of message that an application sends or hears, on every kind of radio."""
-    radios = list(dict.fromkeys(each.scenario.radio.kind for each in settings))
-    for radio, kind in product(radios, registry.known("message").values()):
-        if any(is_wanted(each, kind, radio) for each in settings):
-            need = need_of(settings, units, kind, radio)
-            units.posts.append(post(kind, registry.find("radio", radio), need, units.entity, number, units.world, tick))
+    names = list(dict.fromkeys(each.scenario.radio.kind for each in settings))
+    radios, known = [registry.find("radio", name) for name in names], Known(units.entity, number, units.world)
+    units.airs.extend(air(radio, radios_of(settings, radio.name), units.entity.size) for radio in radios)
+    for (place, radio), kind in product(enumerate(radios), registry.known("message").values()):
+        if any(is_wanted(each, kind, radio.name) for each in settings):
+            units.posts.append(post(kind, radio, place, need_of(settings, units, kind, radio), known, tick))
+
+
+def radios_of(settings: Sequence[Setting], radio: str) -> list[Any]:
+    """The settings of a kind of radio in every world; in one that has another nobody asks for them."""
+    own = next(each.scenario.radio for each in settings if each.scenario.radio.kind == radio)
+    return [each.scenario.radio if each.scenario.radio.kind == radio else own for each in settings]
 
 
 def is_wanted(each: Setting, kind: Kind, radio: str) -> bool:
@@ -97,13 +121,13 @@ def is_wanted(each: Setting, kind: Kind, radio: str) -> bool:
     return any(one.what in (INBOX, OUTBOX) and one.kind == kind.name for one in ports)
 
 
-def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: str) -> Need:
+def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: Kind) -> Need:
     """Who sends and who hears a kind of message, in the worlds with this radio."""
     senders: set[int] = set()
     pairs: list[tuple[int, int]] = []
     most = 0
     for w, each in enumerate(settings):
-        if not is_wanted(each, kind, radio):
+        if not is_wanted(each, kind, radio.name):
             continue
         sending, at_once = senders_of(each, units, w, kind)
         senders |= sending
@@ -111,9 +135,19 @@ def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: str) -
         pairs += [(receiver, sender) for receiver, some in receivers_of(each, units, w, kind) for sender in (some or sending)
                   if sender in sending and sender != receiver]  # fmt: skip
     beacons = [getattr(each.scenario.messages, kind.name, None) for each in settings]
-    own = next(each.scenario.radio for each in settings if each.scenario.radio.kind == radio)
-    airs = [each.scenario.radio if each.scenario.radio.kind == radio else own for each in settings]
-    return Need(sorted(senders), most, pairs, beacons, airs)
+    longest = max(float(radio.module.longest(each)) for each in radios_of(settings, radio.name)) + added_delay(settings)
+    return Need(sorted(senders), most, shortest_cycle(settings), pairs, beacons, longest)
+
+
+def added_delay(settings: Sequence[Setting]) -> float:
+    """The most [s] by which anything in a script delays messages."""
+    return max((getattr(entry.do, "added_delay", 0.0) for each in settings for entry in each.scenario.script.values()), default=0.0)
+
+
+def shortest_cycle(settings: Sequence[Setting]) -> float:
+    """The shortest time [s] between two decisions of an application."""
+    tick = settings[0].scenario.clock.tick
+    return min((group.cycle or tick for each in settings for group in each.scenario.applications.values()), default=tick)
 
 
 def senders_of(each: Setting, units: Units, world: int, kind: Kind) -> tuple[set[int], int]:

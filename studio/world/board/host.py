@@ -11,13 +11,13 @@ fault, and the run of that unit's world fails with it.
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from studio.application import port
 from studio.application.port import ACTUATORS, Port
+from studio.compiled import bound
 from studio.errors import ApplicationError, Problem
 from studio.kind.quantity import quantities
 from studio.kind.registry import Kind
@@ -30,6 +30,9 @@ REMEDIES = {
     OUT_OF_RANGE: "bound it before it is returned",
     NOT_ITS_OWN: "add the actuator to COMMANDS, or leave it out of the mask",
 }
+
+
+EARLY = 1e-6  # [ticks] by which rounding may make an instant too early
 
 
 class Group(NamedTuple):
@@ -72,7 +75,9 @@ class Hosted:
     wrong: np.ndarray  # scratch: the value of that field
     wiring: list[Wiring]
     run: Callable
+    cycles: int = 1  # how often it decides within a tick
     checked: list[str] = field(default_factory=list)  # names of the fields, as faults count them
+    ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
     @property
     def shows(self) -> bool:
@@ -84,16 +89,21 @@ class Hosted:
         """The quantities that it logs."""
         return [each for one in port.done(self.application.module) if one.what == port.LOG for each in quantities(one.type)]
 
-    @cached_property
+    @property
     def arrays(self) -> tuple[np.ndarray, ...]:
-        """What the loop reads and writes, once the world is in one piece: from then on arrays stay where they are."""
+        """What the loop reads and writes of its own."""
         own = (self.unit, self.column, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
         return (*own, *(array for each in self.wiring for array in each.arrays))
 
-    def decide(self, time: float, tick: float, fixed: np.ndarray, now: np.ndarray, commands: np.ndarray) -> Iterator["Fault"]:
-        """All its units decide; their commands go to their vehicles' columns. Returns what went wrong."""
+    def decide(self, time: float, tick: float, around: tuple[np.ndarray, ...]) -> Iterator["Fault"]:
+        """All its units decide at a time [s]; their commands go to their vehicles' columns. Returns what went wrong.
+
+        `around` are the arrays of the world: settings of units, what they know, commands. All arrays stay where they are.
+        """
         try:
-            faults = self.run(time, tick, fixed, now, commands, *self.arrays)
+            if not self.ready:
+                self.ready["run"] = bound(self.run, *around, *self.arrays, then=(time, tick))
+            faults = self.ready["run"](time, tick / self.cycles)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())
@@ -105,7 +115,7 @@ class Hosted:
             name = self.checked[number]
             where = f"{self.application.name} on {self.names[j]}: {name}"
             problem = Problem(where, REASONS[reason], f"{self.wrong[j]:g}", allowed(name), REMEDIES[reason])
-            when = f"at tick {round(time / tick)} ({time:g} s)"
+            when = f"at tick {int(time / tick + EARLY)} ({time:g} s)"
             who = f"The application {self.application.name!r} on {self.names[j]!r}"
             bounds = f" (allowed: {problem.allowed})" if problem.allowed else ""
             text = f"{who} gave {name} = {self.wrong[j]:g} {when}, which {REASONS[reason]}{bounds}; {problem.remedy}"

@@ -5,13 +5,13 @@ mounted(kind, sensors)   →  Mounted        the sensors of one kind of all worl
 
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.compiled import inlined
+from studio.compiled import bound, inlined
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
@@ -29,7 +29,7 @@ from {module} import {imports}
 
 
 @lean
-def run(k, time, {seen}, mounted_on, stream, settings, memory, out, fault):
+def run({seen}, mounted_on, stream, settings, memory, out, fault, k, time):
     view, faults = View(k, time, {seen}), 0
     for i in range(mounted_on.size):
         fault[i] = 0
@@ -85,11 +85,15 @@ class Mounted:
     out: Moving
     fault: np.ndarray  # scratch: what is wrong with the answer of each, as WRONG numbers it
     run: Callable
+    ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
     def ask(self, k: int, time: float, view: tuple) -> dict[int, str]:
         """All of them measure; says what went wrong, by the number of the sensor."""
         try:
-            faults = self.run(k, time, *view, self.unit, self.stream, self.settings, self.memory, self.out, self.fault)
+            if not self.ready:
+                own = (self.unit, self.stream, self.settings, self.memory, self.out, self.fault)
+                self.ready["run"] = bound(self.run, *view, *own, then=(k, time))
+            faults = self.ready["run"](k, time)
         except (Exception, SystemExit):
             return dict.fromkeys(range(self.unit.size), f"cannot be asked:\n{traceback.format_exc()}")
         wrong = np.flatnonzero(self.fault).tolist() if faults else []
@@ -148,11 +152,11 @@ def loop(kind: Kind) -> Callable:
     return written(f"sensor_{kind.name}", source, kind).run
 
 
-def stored(fields: Sequence[Quantity], column: str, indent: str) -> str:
-    """Lines that put what was remembered into the rows of `memory`."""
+def stored(fields: Sequence[Quantity], column: str, indent: str, array: str = "memory") -> str:
+    """Lines that put what was remembered into the rows of an array."""
     lines, row = [], 0
     for each in fields:
         parts = [f"[{i}]" for i in range(each.size)] if each.size > 1 else [""]
-        lines += [f"{indent}memory[{row + i}, {column}] = remembered.{each.name}{part}\n" for i, part in enumerate(parts)]
+        lines += [f"{indent}{array}[{row + i}, {column}] = remembered.{each.name}{part}\n" for i, part in enumerate(parts)]
         row += each.size
     return "".join(lines)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from studio.compiled import compiled
-from studio.model.radio import burst, chance
+from studio.model.radio import arrival, burst
 from studio.model.random import uniform
 
 N = 4_000_000
@@ -15,7 +15,7 @@ T, L = 0.1, 0.02  # [s] period and latency
 def independent(p, n, lost):
     """Which of n messages are lost, each by itself."""
     for k in range(n):
-        lost[k] = chance.is_lost(50.0, 100.0, p, 0.0, uniform(11, 5, 1, k))
+        lost[k] = arrival.is_lost(50.0, 100.0, p, 0.0, uniform(11, 5, 1, k))
 
 
 @compiled

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from studio.compiled import compiled
-from studio.model.radio import cell, chance, channel, congestion, packet
-from studio.model.radio.congestion import AT_FIRST, OSCAR, VANETZA, interval, level_of, sampled
+from studio.model.radio import arrival, cell, channel, congestion, packet
+from studio.model.radio.congestion import OSCAR, VANETZA, Control, interval, level_of, sampled
 from studio.model.random import uniform
 
 
@@ -68,7 +68,7 @@ def test_bounds_belong_to_the_level_above():
 
 def switched(stretches, table=OSCAR):
     """When [s] the interval [ms] changes, with what it is at first; stretches of (ratio, seconds)."""
-    control, told, k = AT_FIRST, [(0.0, 100)], 0
+    control, told, k = Control(), [(0.0, 100)], 0
     for ratio, seconds in stretches:
         for _ in range(round(seconds / congestion.SAMPLE)):
             control = sampled(control, ratio, table)
@@ -119,7 +119,7 @@ def test_circle_and_polygon():
 def test_skewed_delays():
     """Quantiles a - b ln(1 - p) where nothing is cut; none beyond the longest, and the same draws stretched within."""
     for p in (0.05, 0.5, 0.95, 0.99):
-        assert chance.skewed_delay(0.010, 0.009, 10.0, p) == pytest.approx(0.010 - 0.009 * np.log(1.0 - p), abs=1e-12)
-        assert chance.skewed_delay(0.010, 0.009, 0.03, p) < 0.03
-    assert chance.skewed_delay(0.010, 0.009, 0.03, 1.0 - 1e-16) == pytest.approx(0.03)
-    assert chance.skewed_delay(0.010, 0.0, 0.03, 0.7) == 0.010 and chance.skewed_delay(0.040, 0.009, 0.03, 0.5) == 0.03
+        assert arrival.skewed_delay(0.010, 0.009, 10.0, p) == pytest.approx(0.010 - 0.009 * np.log(1.0 - p), abs=1e-12)
+        assert arrival.skewed_delay(0.010, 0.009, 0.03, p) < 0.03
+    assert arrival.skewed_delay(0.010, 0.009, 0.03, 1.0 - 1e-16) == pytest.approx(0.03)
+    assert arrival.skewed_delay(0.010, 0.0, 0.03, 0.7) == 0.010 and arrival.skewed_delay(0.040, 0.009, 0.03, 0.5) == 0.03

@@ -1,4 +1,4 @@
-"""Loss and delay as chance alone, without a signal: the simple form of a radio.
+"""Whether and when a message arrives, as chance alone, without a signal: the simple form of a radio.
 
 Parameters as Massow & Radusch 2018, Table 3: mean delay, variation, delay growing with distance; loss rate, loss growing with distance,
 range.
