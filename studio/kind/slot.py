@@ -24,7 +24,8 @@ def chosen(kind: Kind) -> type[BaseModel]:
     if "Chosen" not in vars(module):
         field = Field(kind.name, title="Kind", description=kind.title)
         named = create_model("Named", __base__=Part, kind=(Literal[kind.name], field), **preset.fields(module))  # pyrefly: ignore[invalid-literal]
-        made = create_model(f"{kind.name}_{kind.sort}", __base__=(module.Settings, named), __module__=module.__name__, __doc__=kind.title)
+        assert kind.settings, f"a {kind.sort} that can be chosen has settings"
+        made = create_model(f"{kind.name}_{kind.sort}", __base__=(kind.settings, named), __module__=module.__name__, __doc__=kind.title)
         made.__qualname__ = made.__name__ = "Chosen"
         vars(module)["Chosen"] = made
     return vars(module)["Chosen"]

@@ -18,6 +18,7 @@ from studio.application import port
 from studio.errors import Problem
 from studio.kind import preset
 from studio.kind.driver import Driver
+from studio.kind.metric import Scope
 from studio.kind.number import unplain
 from studio.kind.quantity import quantities
 from studio.kind.settings import named
@@ -75,6 +76,27 @@ def person(value: Any) -> str:
     if not issubclass(value, Driver):
         return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
     return unplain(value)
+
+
+def scope(value: Any) -> str:
+    """Settings of a metric: those that every metric has, and perhaps more."""
+    if what := settings(value):
+        return what
+    return "" if issubclass(value, Scope) else "is no Scope: write class Settings(Scope), with Scope from studio.kind.metric"
+
+
+def measuring(module: ModuleType) -> str:
+    """A metric with settings of its own is given them."""
+    measure, has = getattr(module, "measure", None), hasattr(module, "Settings")
+    given = len(signature(measure).parameters) if callable(measure) else 0
+    if given == 2 and not has:
+        return "measure(record, settings) has no Settings"
+    return "measure(record) does not take the Settings" if given == 1 and has else ""
+
+
+def either(*choices: Test) -> Test:
+    """One of several; what is wrong is told of the first."""
+    return lambda value: "" if any(not test(value) for test in choices) else choices[0](value)
 
 
 def needy(value: Any) -> str:
@@ -216,6 +238,7 @@ class Sort:
     needs: tuple[Need, ...]
     whole: Test = fits  # what its parts must be together
     remedy: str = ""
+    usual: type[BaseModel] | None = None  # what is set of a kind without Settings
 
 
 SORTS = {
@@ -291,8 +314,11 @@ SORTS = {
             TITLE,
             UNIT,
             Need("BETTER", "which values are better", direction, 'BETTER = "higher"'),
-            Need("measure", "the number, of a record", function("record"), "def measure(record)"),
-        )),
+            Need("ABOUT", "how the vehicles that it is about are told", text, 'ABOUT = "{0} behind {1}"', optional=True),
+            Need("Settings", "what is set of it besides window and vehicles", scope, "class Settings(Scope): ...", optional=True),
+            Need("measure", "the number, of a record; or Found(value, subject, time)",
+                 either(function("record"), function("record", "settings")), "def measure(record)"),
+        ), measuring, "give measure the settings as well: def measure(record, settings), with class Settings(Scope)", Scope),
         Sort("channel", "a quantity over time that follows from others", (
             TITLE,
             UNIT,

@@ -299,10 +299,19 @@ class Recording(Part):
 
 
 class Goal(Part):
-    """What a metric must keep for the run to pass."""
+    """What a measure must keep for the run to pass."""
 
     least: float | None = Field(None, title="At least", allow_inf_nan=False)
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
+
+
+class Seeds(Part):
+    """Seeds of single streams of chance; where none is given the scenario's counts. So one of them can be varied while the rest stays."""
+
+    traffic: int | None = Field(None, ge=0, le=2**63 - 1, title="Traffic", description="routes, places and styles of the traffic")
+    sensors: int | None = Field(None, ge=0, le=2**63 - 1, title="Sensors", description="errors of all sensors")
+    satellites: int | None = Field(None, ge=0, le=2**63 - 1, title="Satellites", description="errors of the cars' own positions")
+    radio: int | None = Field(None, ge=0, le=2**63 - 1, title="Radio", description="loss and delay of messages")
 
 
 class Scenario(Part, defer_build=True):
@@ -314,6 +323,7 @@ class Scenario(Part, defer_build=True):
     map: Map = Field(..., title="Map")
     clock: Clock = Field(default_factory=Clock, title="Clock")
     seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
+    seeds: Seeds = Field(default_factory=Seeds, title="Seeds", description="of single streams")
     routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
     stations: dict[Name, Station] = Field({}, title="Stations", description="units that stand at a place")
@@ -326,7 +336,15 @@ class Scenario(Part, defer_build=True):
         default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
     )
     recording: Recording = Field(default_factory=Recording, title="Recording")
-    goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
+    measures: dict[Name, Annotated[Any, Slot("metric")]] = Field(
+        {}, title="Measures", description="metrics with settings of their own, by name; all others are measured as usual"
+    )
+    goals: dict[Name, Goal] = Field({}, title="Goals", description="per measure or metric")
+
+    def seed_of(self, stream: Literal["traffic", "sensors", "satellites", "radio"]) -> int:
+        """The seed of a stream: its own, or that of everything."""
+        own = getattr(self.seeds, stream)
+        return self.seed if own is None else own
 
 
 WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)

@@ -28,6 +28,7 @@ from studio.store.tables import open_database, reopen_database, unusable
 if TYPE_CHECKING:
     import numpy as np
 
+    from studio.execution.message import Messages
     from studio.execution.record import Record
     from studio.kind.registry import Kind
     from studio.provenance import Provenance
@@ -126,7 +127,7 @@ class Runs:
     def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing."""
-        from studio.store import trace
+        from studio.store import message, trace
 
         ending = {
             "status": status,
@@ -136,12 +137,13 @@ class Runs:
             "wall_time_s": wall_time_s,
             "unmet": json.dumps(unmet, ensure_ascii=False),
         }
-        parquet = trace.write(record, channels)
+        parquet, (sent, entries) = trace.write(record, channels), message.write(record.messages)
         with self.writing():
             self.database.table("runs").update(run, ending)
             self.database.table("metrics").insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
             self.database.table("events").insert_all(event_row(run, each) for each in record.happenings)
             self.database.table("traces").insert({"run": run, "parquet": parquet}, pk="run", replace=True)
+            self.database.table("messages").insert({"run": run, "sent": sent, "entries": entries}, pk="run", replace=True)
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
@@ -193,7 +195,7 @@ class Runs:
         found: dict[int, dict[str, Measured]] = {}
         marks = ", ".join("?" * len(runs))
         for row in self.rows(f"select * from metrics where run in ({marks}) order by rowid", runs):
-            found.setdefault(row["run"], {})[row["name"]] = Measured(row["value"], row["unit"], row["goal"])
+            found.setdefault(row["run"], {})[row["name"]] = measured_of(row)
         return found
 
     def mark_killed(self) -> None:
@@ -226,6 +228,16 @@ class Runs:
         if not found:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
         return found[0]["parquet"]
+
+    def messages(self, run: int) -> "Messages":
+        """What was sent in a run, and what became of it; raises UnknownError when that was not kept."""
+        from studio.store import message
+
+        self.find(run)
+        found = self.rows("select sent, entries from messages where run = ?", [run])
+        if not found:
+            raise UnknownError(f"Run {run} has no log of messages: it did not come to its end, or an older studio ran it.")
+        return message.read(found[0]["sent"], found[0]["entries"])
 
     def channels(self, run: int) -> list[dict[str, str]]:
         """Recorded channels of a run; none when it has no traces."""
@@ -262,21 +274,30 @@ def reopen_runs(path: Path) -> Runs:
 
 def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:
     """Metrics as rows."""
-    return [{"run": run, "name": name, **asdict(each)} for name, each in metrics.items()]
+    return [
+        {"run": run, "name": name, **asdict(each), "subject": json.dumps(each.subject, ensure_ascii=False)}
+        for name, each in metrics.items()
+    ]
+
+
+def measured_of(row: dict[str, Any]) -> Measured:
+    """A metric of the database's row, which tells no more than its value where it was written before there was more to tell."""
+    subject = tuple(json.loads(row["subject"] or "[]"))
+    return Measured(row["value"], row["unit"], row["goal"], subject, row["time"], row["kind"] or "", row["about"] or "")
 
 
 def event_row(run: int, event: Happening) -> dict[str, Any]:
-    """An event as a row; units and numbers as JSON."""
+    """An event as a row; units, numbers and words as JSON."""
     plain = event.as_json()
-    return {"run": run} | plain | {key: json.dumps(plain[key], ensure_ascii=False) for key in ("units", "numbers")}
+    return {"run": run} | plain | {key: json.dumps(plain[key], ensure_ascii=False) for key in ("units", "numbers", "words")}
 
 
 def event_of(row: dict[str, Any]) -> Happening:
     """An event of the database's row, which has no kind where it was written before there were any."""
     numbers = {name: Number(**each) for name, each in json.loads(row["numbers"] or "{}").items()}
-    units = tuple(json.loads(row["units"] or "[]"))
+    units, words = tuple(json.loads(row["units"] or "[]")), json.loads(row["words"] or "{}")
     plain = {key: row[key] for key in ("time", "text", "vehicle", "x", "y")}
-    return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers)
+    return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers, words=words)
 
 
 STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}

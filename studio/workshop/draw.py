@@ -2,13 +2,14 @@
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from studio.execution.record import Chain, Record
+from studio.execution.record import Body, Chain, Record
 from studio.kind.number import numbers, shapes, tuple_of
 from studio.kind.quantity import Quantity, quantities
 from studio.kind.settings import named
@@ -17,6 +18,7 @@ from studio.world.channel import CHANNELS
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
 UNBOUND = 300.0  # how far one is drawn that has no first value either
 TRIES = 50
+NAMES = tuple("abcdefghijklmnopqrstuvwxyz")  # of drawn cars
 STAGE = {"vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway"}
 USUAL = {  # range of a quantity by its unit, wider than any that is met
     "m": (-10.0, 300.0), "m/s": (-10.0, 60.0), "m/s²": (-10.0, 6.0), "rad": (-0.6, 0.6), "rad/s": (-1.0, 1.0), "1/m": (-0.1, 0.1),
@@ -35,7 +37,12 @@ def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
 def given(model: type[BaseModel], draw: np.random.Generator) -> dict[str, Any]:
     """A drawn value for every field, each for itself; names are those of the stage."""
     schema = model.model_json_schema()["properties"]
-    return {name: STAGE.get(named(field)) or value(schema[name], draw, name) for name, field in model.model_fields.items()}
+    return {name: staged(named(field), schema[name]) or value(schema[name], draw, name) for name, field in model.model_fields.items()}
+
+
+def staged(what: str, node: dict[str, Any]) -> Any:
+    """The name of the stage for a field that names something; a list of names stays as it is at first."""
+    return None if node.get("type") == "array" else STAGE.get(what)
 
 
 def settings_tuple(module: ModuleType, settings: BaseModel) -> Any:
@@ -94,10 +101,12 @@ def record(period: float = 0.02, **channels: Any) -> Record:
     vehicles, samples = np.broadcast_shapes((1, 1), *[np.shape(each) for each in channels.values()])
     values = np.zeros((len(CHANNELS), vehicles, samples))
     names = [each.name for each in CHANNELS]
-    values[names.index("gap")] = np.nan
+    values[names.index("gap")], values[names.index("ahead")] = np.nan, -1.0
     for name, each in channels.items():
         values[names.index(name)] = each
-    return Record(period * np.arange(samples), values, tuple("abcdefghijklmnopqrstuvwxyz"[:vehicles]), ())
+    cars: tuple[str, ...] = NAMES[:vehicles]
+    bodies, called = dict.fromkeys(cars, Body(4.5, 1.8, 2.2, 1500.0, 0.3)), dict(enumerate(cars))
+    return Record(period * np.arange(samples), values, cars, (), bodies=bodies, called=called)
 
 
 def drive(draw: np.random.Generator, cars: int, samples: int) -> Record:
@@ -105,5 +114,7 @@ def drive(draw: np.random.Generator, cars: int, samples: int) -> Record:
     made: dict[str, Any] = {each.name: draw.normal(size=(cars, samples)) for each in CHANNELS}
     ahead = draw.random((cars, samples)) < 0.9
     made |= {"speed": draw.uniform(0.0, 40.0, (cars, samples)), "gap": np.where(ahead, draw.uniform(0.5, 100.0, (cars, samples)), np.nan)}
-    found = record(**made)
-    return Record(found.time, found.values, found.vehicles, (), (Chain("chain", "", found.vehicles),), {"a→b": float(draw.uniform(0, 1))})
+    made["ahead"] = np.where(ahead, np.arange(cars)[:, None] - 1.0, -1.0)
+    ages = draw.uniform(0.0, 1.0, (1, samples))
+    chain = Chain("chain", "", NAMES[:cars])
+    return replace(record(**made), chains=(chain,), links=("a→b",), ages=ages)

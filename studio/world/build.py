@@ -4,7 +4,7 @@ build([settings])   →  World         arrays, one column per vehicle, world aft
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -86,8 +86,15 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
         entity=np.concatenate([entities(each) for each in settings]),
         first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
         count=counts,
-        seed=np.array([each.scenario.seed for each in settings], dtype=np.uint64),
+        seed=seeds_of(settings, "sensors"),
+        satellite_seed=seeds_of(settings, "satellites"),
+        radio_seed=seeds_of(settings, "radio"),
     )
+
+
+def seeds_of(settings: Sequence[Setting], stream: Literal["sensors", "satellites", "radio"]) -> np.ndarray:
+    """The seed of a stream in each world."""
+    return np.array([each.scenario.seed_of(stream) for each in settings], dtype=np.uint64)
 
 
 def entities(each: Setting) -> np.ndarray:

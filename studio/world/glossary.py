@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from studio.rows import Row, Table
+from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND
 from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.parameter import GEARBOX, PARAMETER
@@ -19,7 +20,7 @@ from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
 from studio.world.table.unit import GPS_SET, HEARD, LOGGED, SATELLITE, SENT, TROUBLE, UNIT, UNIT_SET
 
 TABLES = (
-    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
+    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
     MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENT, HEARD, LOGGED,
     LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
 )  # fmt: skip

@@ -14,6 +14,7 @@ from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
+from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
 from studio.world.board.air import Air
 from studio.world.board.host import Fault, Group, Hosted
@@ -62,7 +63,9 @@ class Worlds:
     entity: np.ndarray  # per vehicle, as chance tells them apart
     first: np.ndarray  # per world
     count: np.ndarray  # per world
-    seed: np.ndarray  # per world
+    seed: np.ndarray  # per world, of sensors
+    satellite_seed: np.ndarray  # per world
+    radio_seed: np.ndarray  # per world
 
 
 @dataclass
@@ -262,14 +265,14 @@ class World:
     def air(self) -> tuple:
         """What radios see of the world, likewise."""
         u, w, r = self.units, self.worlds, self.roads
-        return u.world, u.first, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
+        return u.world, u.first, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
 
     @cached_property
     def carry(self) -> Callable:
         """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
         v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
-        own_ones = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of, r.shadow)
-        return bound(carry, *own_ones, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
+        cars = (u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:
@@ -285,6 +288,14 @@ class World:
         if number <= OBJECT:
             return self.obstacles.names[self.objects(world)][OBJECT - number]
         return self.names[world][number]
+
+    def bodies(self, world: int = 0) -> np.ndarray:
+        """Length, width, centre of gravity to front [m], mass [kg] and wheel radius [m] of one world's vehicles, float64[5, vehicle]."""
+        return self.vehicles.parameter[[LENGTH, WIDTH, FRONT, MASS, RADIUS], self.columns(world)]
+
+    def object_numbers(self, world: int = 0) -> list[int]:
+        """The numbers that stand for the objects of one world where those of vehicles may."""
+        return [OBJECT - i for i in range(int(self.obstacles.count[world]))]
 
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""

@@ -19,6 +19,7 @@ def checks(kind: Kind) -> Iterator[Check]:
     """All of them, on drawn cars."""
     module, seed = kind.module, np.random.default_rng(1)
     yield tried("SIZE has a byte for every number at least", lambda: small(kind))
+    draws: list[tuple] = []
     if hasattr(module, "beacon"):
         draws = [(own(seed), draw.settings_tuple(module, draw.settings(module.Settings, seed))) for _ in range(DRAWS)]
         yield tried("Settings have a period, how often every unit sends it", lambda: timeless(kind))

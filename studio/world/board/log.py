@@ -25,6 +25,20 @@ class Logged(NamedTuple):
     distance: np.ndarray
 
 
+class Book(NamedTuple):
+    """All of a log: time [s], sender (a unit), number and size [bytes] of every message, how many entries it has, and these."""
+
+    time: np.ndarray
+    sender: np.ndarray
+    number: np.ndarray
+    size: np.ndarray
+    count: np.ndarray
+    link: np.ndarray
+    cause: np.ndarray
+    delay: np.ndarray
+    distance: np.ndarray
+
+
 def room(messages: int, entries: int) -> Logged:
     """For so many messages and entries."""
     entry = np.empty(entries, np.int32), np.empty(entries, np.uint8), np.empty(entries, np.float32), np.empty(entries, np.float32)
@@ -56,14 +70,13 @@ class Log:
         messages, entries = self.count.tolist()
         return Logged(self.now.message[:, :messages].copy(), *(each[:entries].copy() for each in self.now[1:]))
 
-    def joined(self) -> Logged:
-        """All of it; `first` counts the entries of all."""
+    def joined(self) -> Book:
+        """All of it."""
         parts = [*self.full, self.written()]
-        before = np.cumsum([0, *(each.link.size for each in parts)])
-        messages = [each.message.copy() for each in parts]
-        for each, start in zip(messages, before, strict=False):
-            each[L_FIRST] += start
-        return Logged(np.concatenate(messages, axis=1), *(np.concatenate(each) for each in zip(*(each[1:] for each in parts), strict=True)))
+        message, *entries = [np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)]
+        count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])
+        units = message[L_SENDER].astype(np.int64)
+        return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], count.astype(np.int32), *entries)
 
 
 @inlined

@@ -99,7 +99,8 @@ def dispatch({given}):
                 if cause == RECEIVED:
                     {found} = transmit(radio, way, Draw(seed[j], entity[u], entity[s], stream, number, common){memory})
 {store}                    cause, delay = int(found.lost), found.delay + trouble[ADDED, s]
-                settle(slot, link, time, cause, delay, way.distance, arrival, lost, log_links, log_causes, log_delays, log_distances, log_count)
+                settle(slot, link, time, cause, delay, way.distance, arrival, lost, log_links, log_causes, log_delays, log_distances,
+                       log_count)
             trouble[DROPS, s] = max(trouble[DROPS, s] - 1.0, 0.0)
         fresh[i] = 0
 
