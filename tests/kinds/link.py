@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from studio.compiled import compiled
-from studio.kind.number import numbers, tuple_of
 from studio.kinds.radio import wlan
+from studio.workshop import draw
 from studio.world.table.cause import RECEIVED
 from studio.world.view import Draw, Way
 
@@ -14,7 +14,6 @@ PAIRS, MESSAGES, SEED = 400, 500, 1
 COMMON = 50_000  # first stream of the radio
 APART = 10_000.0  # [m] from pair to pair
 HEIGHT = 1.5  # [m]
-tuple_of(wlan, wlan.Settings)
 
 
 class Journey(NamedTuple):
@@ -32,7 +31,7 @@ JOURNEYS = {"motorway": Journey(32.0, 0.2), "suburban": Journey(20.6, 0.2), "urb
 def settings(preset: str = "", **changes: Any) -> Any:
     """Of a preset, with some changed, as compiled code gets them."""
     values = wlan.PRESETS[preset].values if preset else {}
-    return tuple_of(wlan, wlan.Settings)(*numbers(wlan.Settings(**(values | changes))))
+    return draw.settings_tuple(wlan, wlan.Settings(**(values | changes)))
 
 
 def heard(settings: Any, distance: float, journey: Journey, pairs: int = PAIRS, messages: int = MESSAGES) -> tuple[np.ndarray, np.ndarray]:
