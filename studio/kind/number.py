@@ -1,7 +1,8 @@
 """Settings as numbers: what compiled code gets of a pydantic model, and how it is spelled in a loop that is written for it.
 
-A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one, a name (VehicleName and its
-like) is the column or number of what it names, and what is left empty is not a number.
+A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one, points (list[tuple[float,
+float]] with a max_length) stand one after another, a name (VehicleName and its like) is the column or number of what it names, and what is
+left empty is not a number.
 
     numbers(settings)                  →  [60.0, 1.0, 2.0]
     tuple_of(module, Settings)         →  a NamedTuple with the same fields, which belongs to the module
@@ -14,7 +15,9 @@ from math import nan
 from types import ModuleType, NoneType, UnionType
 from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin
 
+import numpy as np
 from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from studio.kind.preset import FIELD
 from studio.kind.settings import StationOf, marks, named
@@ -38,7 +41,8 @@ class Shape(NamedTuple):
 
 def shapes(model: type[BaseModel]) -> list[Shape]:
     """The fields of a model; raises TypeError for one that is no number."""
-    return [shape(name, field.annotation, named(field)) for name, field in model.model_fields.items() if name not in ("kind", FIELD)]
+    fields = {name: field for name, field in model.model_fields.items() if name not in ("kind", FIELD)}
+    return [shape(name, field.annotation, named(field), longest(field)) for name, field in fields.items()]
 
 
 def sizes(model: type[BaseModel]) -> list[int]:
@@ -46,9 +50,16 @@ def sizes(model: type[BaseModel]) -> list[int]:
     return [each.size for each in shapes(model)]
 
 
-def shape(name: str, kind: Any, names: str) -> Shape:
-    """One field."""
+def longest(field: FieldInfo) -> int:
+    """How many entries a list holds at most; 0 where nothing is said."""
+    return next((each.max_length for each in field.metadata if hasattr(each, "max_length")), 0)
+
+
+def shape(name: str, kind: Any, names: str, most: int = 0) -> Shape:
+    """One field, which holds so many entries at most where it is a list."""
     kind = plain(kind)
+    if kind == list[tuple[float, float]] and most:
+        return Shape(name, 2 * most)
     if names and kind is str:
         return Shape(name, 1, names=names)
     if get_origin(kind) is Literal:
@@ -57,7 +68,7 @@ def shape(name: str, kind: Any, names: str) -> Shape:
         return Shape(name, len(get_args(kind)))
     if kind in (float, int, bool):
         return Shape(name, 1)
-    allowed = "float, int, bool, Literal[...], tuple[float, float], and names such as VehicleName"
+    allowed = "float, int, bool, Literal[...], tuple[float, float], list[tuple[float, float]] with max_length, names such as VehicleName"
     raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")
 
 
@@ -92,7 +103,8 @@ def values(of: Shape, value: Any, find: Find = nothing) -> list[float]:
         return [find(of.names, value)]
     if of.choices:
         return [float(of.choices.index(value))]
-    return [float(each) for each in value] if of.size > 1 else [float(value)]
+    given = [float(each) for each in np.ravel(value)]
+    return given + [nan] * (of.size - len(given))
 
 
 def stations(model: type[BaseModel]) -> list[tuple[str, str]]:

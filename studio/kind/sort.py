@@ -215,7 +215,7 @@ def compiled_function(value: Any) -> str:
 
 def radio_parts(module: ModuleType) -> str:
     """What the parts of a radio are together: what remembers, and what it remembers."""
-    if what := lacking(module, "Control", "control", "airtime") or lacking(module, "Cell", "admit"):
+    if what := lacking(module, "Control", "control", "airtime") or lacking(module, "Cell", "admit") or preset.unfit(module):
         return what
     arguments = ("settings", "way", "draw", *(["memory"] if hasattr(module, "Memory") else []))
     found = getattr(module, "transmit", None)
@@ -271,6 +271,7 @@ SORTS = {
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
             Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
+            Need("PRESETS", "named sets of settings, with their sources", preset.wrong, 'PRESETS = {"urban": Preset(...)}', optional=True),
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
             Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
             Need("largest", "the largest message [bytes]", function("settings"), "def largest(settings)"),
