@@ -75,6 +75,13 @@ class Messages:
         s, r, k = self.units.index(sender), self.units.index(receiver), self.kinds.index(kind)
         return np.flatnonzero((self.receiver == r) & (self.sender[self.of] == s) & (self.kind[self.of] == k))
 
+    def part(self, messages: np.ndarray, entries: np.ndarray) -> "Messages":
+        """Some messages, bool[message], and of their entries some, bool[entry]."""
+        kept = entries & messages[self.of]
+        count = np.bincount(self.of[kept], minlength=self.time.size)[messages]
+        parts = {each.name: getattr(self, each.name)[kept if each.name in OF_ENTRIES else messages] for each in fields(Messages)[2:]}
+        return Messages(self.kinds, self.units, **parts | {"count": count.astype(self.count.dtype)})
+
 
 def none(kinds: tuple[str, ...] = (), units: tuple[str, ...] = ()) -> Messages:
     """No messages."""

@@ -9,10 +9,13 @@ from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.message import messages
-from studio.execution.record import Body, Record, Recorder
+from studio.execution.record import Body, Mount, Record, Recorder
+from studio.kind.sensor import Looking
+from studio.scenario.schema import Scenario
 from studio.vehicle import broken
 from studio.world.board.host import Fault
 from studio.world.build import build
+from studio.world.commander import commanders
 from studio.world.line import starts
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
@@ -176,6 +179,8 @@ class Simulation:
             messages=messages(self.world, number),
             bodies=self.bodies(number),
             called=self.called(number),
+            commanders=commanders(case.setting.scenario),
+            mounts=mounts(case.setting.scenario),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
@@ -208,6 +213,12 @@ class Simulation:
     def bodies(self, number: int) -> dict[str, Body]:
         """The bodies of all vehicles of one world."""
         return {name: Body(*each) for name, each in zip(self.world.names[number], self.world.bodies(number).T.tolist(), strict=True)}
+
+
+def mounts(scenario: Scenario) -> dict[str, Mount]:
+    """Where the sensors of vehicles are that look around."""
+    sensors = {f"{name}.{sensor}": each for name, vehicle in scenario.vehicles.items() for sensor, each in vehicle.sensors.items()}
+    return {name: Mount(each.forward, each.left, each.yaw) for name, each in sensors.items() if isinstance(each, Looking)}
 
 
 def simulation(*settings: Setting) -> Simulation:

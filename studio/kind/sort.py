@@ -341,13 +341,14 @@ SORTS = {
         Sort("application", "what a developer invents", (
             TITLE,
             Need("Parameters", "what its developer tunes, with unit and range", plain, "class Parameters(Part): ..."),
+            Need("PRESETS", "named sets of parameters, with their sources", preset.wrong, 'PRESETS = {"calm": Preset(...)}', optional=True),
             Need("Memory", "what it remembers from tick to tick", remembered, "class Memory(NamedTuple): ..."),
             Need("Sees", "its ports: what it sees", bundle, "class Sees(NamedTuple): ..."),
             Need("Does", "its ports: what it does", bundle, "class Does(NamedTuple): ..."),
             Need("COMMANDS", "the actuators that it may command", mask, "COMMANDS = ACCELERATION | STEERING", optional=True),
             Need("NOTICES", "the sentences that it may show to the driver", sentences, 'NOTICES = ("Brake!",)', optional=True),
             Need("decide", "one tick", function("parameters", "memory", "sees"), "def decide(parameters, memory, sees)"),
-        )),
+        ), preset.unfit, "give values that the Parameters take"),
     )
 }  # fmt: skip
 

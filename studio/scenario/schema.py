@@ -217,7 +217,10 @@ class Application(Part):
     listens_to: list[UnitName | list[UnitName]] = Field(
         [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
     )
-    parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    preset: str | None = Field(None, title="Preset", description="a set of parameters that the application has a name for")
+    parameters: dict = Field(
+        {}, title="Parameters", description="of the application; what is not given is the preset's, or has its default"
+    )
     cycle: float | None = number(
         None, unit="s", title="Cycle", gt=0, le=0.1,
         description="how often it decides: a tick, or a whole part of one, for what talks faster than the world moves; left out: the tick",

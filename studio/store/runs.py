@@ -229,6 +229,12 @@ class Runs:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
         return found[0]["parquet"]
 
+    def record(self, run: int) -> "Record":
+        """All that is kept of a run in one piece, but for the ages of links; raises UnknownError when there is none."""
+        from studio.store import trace
+
+        return trace.record_of(self.parquet(run), self.events(run), self.messages(run))
+
     def messages(self, run: int) -> "Messages":
         """What was sent in a run, and what became of it; raises UnknownError when that was not kept."""
         from studio.store import message

@@ -1,7 +1,7 @@
 """Probes: what the sensors and applications of units give to be recorded, besides the channels that every vehicle has.
 
 A sensor's first target is `follower_1.front.range`, its second `follower_1.front.2.range`; where there can be
-several, `follower_1.front.count` says how many.
+several, `follower_1.front.count` says how many. `follower_1.front.measured` is the time at which all of this was so.
 What an application logs stands under the name of its group, `follower_1.platoon.spacing_error`; what it shows to the driver
 is `follower_1.platoon.notice`.
 """
@@ -18,6 +18,7 @@ from studio.kind.quantity import Quantity, width
 from studio.world.board.air import Air
 from studio.world.board.host import Hosted
 from studio.world.board.sensing import Mounted
+from studio.world.table.unit import MEASURED
 from studio.world.world import Units, World
 
 
@@ -57,6 +58,7 @@ def of_sensor(each: Mounted, units: Units) -> Iterator[tuple[int, Probe]]:
     """Those of the sensors of a kind, with the number of their world."""
     for column, (name, unit) in enumerate(zip(each.names, each.unit.tolist(), strict=True)):
         at, world = f"{units.name_of(unit)}.{name}", int(units.world[unit])
+        yield world, Probe(f"{at}.measured", "s", f"Time at which {name} measured", each, "health", MEASURED, column)
         if each.capacity > 1:
             yield world, Probe(f"{at}.count", "1", f"Targets of {name}", each, "out", 0, column)
         for slot in range(each.capacity):
