@@ -3,10 +3,7 @@
 PRESETS = {"long_range": Preset("Long range radar", "3GPP TR 22.837", {"range": 250.0})}
 
 sensors: {front: {kind: front_radar, preset: long_range, range: 200}}
-<<<<<<< HEAD
 applications: {pair: {application: acc, preset: series, parameters: {headway: 1.4}, units: [behind]}}
-=======
->>>>>>> waves
 """
 
 from types import ModuleType
@@ -54,7 +51,6 @@ def wrong(value: Any) -> str:
 
 
 def unfit(module: ModuleType) -> str:
-<<<<<<< HEAD
     """Which preset the Settings, or Parameters, of a kind do not take; "" when they take all."""
     taken = next((each for each in ("Settings", "Parameters") if hasattr(module, each)), "")
     if wrong(presets(module) or None) or not taken:
@@ -65,15 +61,4 @@ def unfit(module: ModuleType) -> str:
         except ValidationError as error:
             first = error.errors()[0]
             return f"the preset {name!r} does not fit the {taken}: {'.'.join(map(str, first['loc']))}: {first['msg']}"
-=======
-    """Which preset the Settings of a kind do not take; "" when they take all."""
-    if wrong(presets(module) or None) or not hasattr(module, "Settings"):
-        return ""
-    for name, each in presets(module).items():
-        try:
-            module.Settings.model_validate(each.values)
-        except ValidationError as error:
-            first = error.errors()[0]
-            return f"the preset {name!r} does not fit the Settings: {'.'.join(map(str, first['loc']))}: {first['msg']}"
->>>>>>> waves
     return ""

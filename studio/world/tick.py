@@ -1,7 +1,8 @@
 """One tick of the world: the table of contents of the simulator.
 
 At a tick everybody meets: the script goes on, lights change, drivers look around, sensors measure, messages arrive,
-applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps.
+applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps; units that talk
+faster than that hear, decide and send once or several times before.
 """
 
 from collections.abc import Callable
@@ -54,8 +55,12 @@ def between(world: World, refuse: Refuse = let_through) -> None:
 
     They know of themselves and around them what they knew at the tick, and what they command counts at the next one.
     """
-    clock, hosted, commands = world.clock, list(world.hosted), world.vehicles.app_command.copy()
-    for share, places in instants(tuple(each.cycles for each in hosted)):
+    clock, hosted = world.clock, list(world.hosted)
+    moments = instants(tuple(each.cycles for each in hosted))
+    if not moments:
+        return
+    commands = world.vehicles.app_command.copy()
+    for share, places in moments:
         time = clock.time + share * clock.tick
         listen(world, time)
         applications(world, time, [hosted[place] for place in places], refuse)

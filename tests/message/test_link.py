@@ -7,6 +7,7 @@ import pytest
 
 from studio import job
 from studio.errors import ScenarioError
+from studio.execution.message import messages
 from studio.execution.simulation import simulation
 from studio.vehicle.state import ACTIVE
 from studio.workshop.stage import stage
@@ -206,12 +207,15 @@ def test_a_snapshot_knows_what_links_remember():
     """Back to a moment, and on again: the same state, with what the radio remembers of links, units and cells."""
     current = batch([7])
     current.advance(50)
-    kept, digests = snapshot(current.world), []
+    kept, found = snapshot(current.world), []
     for _ in range(2):
         restore(current.world, kept)
         current.advance(40)
-        digests.append(current.world.digest())
-    assert digests[0] == digests[1]
+        found.append((current.world.digest(), told(messages(current.world, 0))))
+    assert found[0] == found[1]
+    straight = batch([7])
+    straight.advance(90)
+    assert found[0] == (straight.world.digest(), told(straight.record().messages))
 
 
 @pytest.mark.parametrize(("change", "where", "what"), [

@@ -65,6 +65,11 @@ class Log:
             self.full.append(self.written())
             self.count[:] = 0
 
+    def forget(self, time: float) -> None:
+        """What was sent from a time [s] on, for a world that has gone back to it."""
+        kept = [before(each, time) for each in (*self.full, self.written())]
+        self.full, self.count[:] = [each for each in kept if each.message.size], 0
+
     def written(self) -> Logged:
         """What stands in `now`."""
         messages, entries = self.count.tolist()
@@ -77,6 +82,13 @@ class Log:
         count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])
         units = message[L_SENDER].astype(np.int64)
         return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], count.astype(np.int32), *entries)
+
+
+def before(part: Logged, time: float) -> Logged:
+    """The messages of a part that were sent before a time [s]."""
+    count = int(np.searchsorted(part.message[L_TIME], time))
+    last = int(part.message[L_FIRST, count]) if count < part.message.shape[1] else part.link.size
+    return Logged(part.message[:, :count], *(each[:last] for each in part[1:]))
 
 
 @inlined
