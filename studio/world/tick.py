@@ -44,8 +44,7 @@ def meet(world: World, refuse: Refuse = let_through) -> None:
     think(world)
     sense(world, refuse)
     communicate(world, refuse)
-    world.vehicles.app_command[:] = nan
-    applications(world, world.clock.time, list(world.hosted), refuse)
+    applications(world, refuse)
     dispatch(world, refuse)
     act(world)
 
@@ -63,7 +62,7 @@ def between(world: World, refuse: Refuse = let_through) -> None:
     for share, places in moments:
         time = clock.time + share * clock.tick
         listen(world, time)
-        applications(world, time, [hosted[place] for place in places], refuse)
+        decide(world, time, [hosted[place] for place in places], refuse)
         dispatch(world, refuse)
     world.vehicles.app_command[:] = commands
 
@@ -163,8 +162,14 @@ def dispatch(world: World, refuse: Refuse = let_through) -> None:
             refuse(fault)
 
 
-def applications(world: World, time: float, which: list[Hosted], refuse: Refuse = let_through) -> None:
-    """Applications see and decide, the highest priority last."""
+def applications(world: World, refuse: Refuse = let_through) -> None:
+    """Every application sees and decides."""
+    world.vehicles.app_command[:] = nan
+    decide(world, world.clock.time, list(world.hosted), refuse)
+
+
+def decide(world: World, time: float, which: list[Hosted], refuse: Refuse) -> None:
+    """Some applications see and decide, the highest priority last."""
     u, tick = world.units, world.clock.tick
     for hosted in which:
         for fault in hosted.decide(time, tick, (u.fixed, u.now, world.vehicles.app_command)):
