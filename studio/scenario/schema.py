@@ -348,6 +348,9 @@ class Scenario(Part, defer_build=True):
     weather: Weather = Field(default_factory=Weather, title="Weather")
     script: dict[Name, Entry] = Field({}, title="Script", description="what happens, to vehicles and to the road")
     radio: Annotated[Any, Slot("radio", usual="ad_hoc")] = Field(default_factory=dict, validate_default=True, title="Radio")
+    radios: dict[Name, Annotated[Any, Slot("radio")]] = Field(
+        {}, title="Radios of messages", description="by the kind of message that goes over another radio, a cellular one for instance"
+    )
     messages: Annotated[Any, Every("message")] = Field(
         default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
     )
@@ -361,6 +364,10 @@ class Scenario(Part, defer_build=True):
         """The seed of a stream: its own, or that of everything."""
         own = getattr(self.seeds, stream)
         return self.seed if own is None else own
+
+    def radio_of(self, message: str) -> Any:
+        """The radio that a kind of message goes over."""
+        return self.radios.get(message, self.radio)
 
 
 WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)

@@ -1,6 +1,7 @@
 """Awareness messages by the standard's rules: exact sequences for exact drives."""
 
 from math import radians
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -73,10 +74,9 @@ def test_congestion_control_makes_them_wait():
     np.testing.assert_allclose(np.diff(sent(10.0, 0.0, gap=0.4)), 1.0, atol=1e-9)
 
 
-def test_in_the_world(own_kinds, tmp_path):
+def test_in_the_world(own_kinds):
     """A car at 50 km/h whose satellite makes no error is heard every 0.3 s, a station every second; every half second it is larger."""
-    (tmp_path / "listener.py").write_text(LISTENER)
-    own_kinds(tmp_path)
+    own_kinds(Path(__file__).parent)
     exact = {"drift": 0.0, "noise": 0.0}
     current = stage(
         vehicles={"far": {"speed": 50 / 3.6, "gps": exact}},
@@ -93,41 +93,3 @@ def test_in_the_world(own_kinds, tmp_path):
     assert np.mean(np.isclose(gaps, 0.3)) > 0.95 and car.size == pytest.approx(33, abs=1)
     sizes = found.size[found.of[car]]
     assert set(sizes) == {CAM.SMALL, CAM.SIZE} and np.mean(sizes == CAM.SIZE) == pytest.approx(0.5, abs=0.1)
-
-
-LISTENER = '''
-"""Hears awareness messages. Source: made up."""
-from typing import Annotated, NamedTuple
-from studio.application.contract import Inbox
-from studio.compiled import compiled
-from studio.kind.settings import Part
-
-KIND = "application"
-TITLE = "Listener"
-
-class Parameters(Part):
-    """Nothing."""
-
-class Memory(NamedTuple):
-    """Nothing."""
-
-class Sees(NamedTuple):
-    """What is said."""
-    heard: Annotated[Inbox, "cam", 4]
-
-class Log(NamedTuple):
-    """How many are known, and how fast the first is."""
-    count: Annotated[float, "1"] = 0.0
-    speed: Annotated[float, "m/s"] = 0.0
-    received: Annotated[float, "1"] = 0.0
-
-class Does(NamedTuple):
-    """What is kept."""
-    log: Log
-
-@compiled
-def decide(parameters, memory, sees):
-    """One tick."""
-    first = sees.heard.message[0]
-    return Memory(), Does(Log(float(sees.heard.count), first.payload.speed, 1.0 if first.received else 0.0))
-'''

@@ -230,3 +230,22 @@ def test_bad_input_is_refused_with_its_place(sample, change, where, what):
         job.prepare(job.load(sample, change))
     problem = next(each for each in error.value.problems if where in each.where)
     assert what in f"{problem.what} {problem.allowed}" and problem.value != ""
+
+
+def test_messages_may_go_over_another_radio():
+    """Awareness over a network without distance, the others over the usual radio: a far station hears the cars, each has its own log."""
+    groups = {"hears": {"application": "ear", "units": ["far_post"]}, "listens": {"application": "listener", "units": ["far_post"]}}
+    current = stage(stations={"far_post": {"position": {"x": 9e4, "y": 0.0}}}, applications=groups, radios={"awareness": {"kind": "patchy",
+                    "range": 5000.0}}, radio={"kind": "ad_hoc"})  # fmt: skip
+    assert [(each.kind.name, each.radio.name) for each in current.world.units.posts] == [("cam", "ad_hoc"), ("awareness", "patchy")]
+    current.advance(20)
+    found = current.record().messages
+    assert set(found.kinds) == {"cam", "awareness"} and found.cause.size == 0  # 90 km are out of reach of both
+
+
+def test_radios_of_messages_that_do_not_fit_are_refused(sample):
+    for radios, what in (({"gossip": {"kind": "patchy"}}, "names no kind of message"),
+                         ({"awareness": {"kind": "ad_hoc", "loss": 0.5}}, "is set differently from radio")):  # fmt: skip
+        with pytest.raises(ScenarioError, match="valid") as error:
+            job.prepare(job.load(sample, {"radios": radios}))
+        assert any(what in each.what for each in error.value.problems)

@@ -14,7 +14,7 @@ from studio.kind import registry
 from studio.kind.number import numbers
 from studio.kind.quantity import first_values, width
 from studio.kind.registry import Kind
-from studio.scenario.schema import Application
+from studio.scenario.schema import Application, Scenario
 from studio.world.board import text
 from studio.world.board.equipment import equip, post_of
 from studio.world.board.host import Group, Hosted, Wiring, is_compiled
@@ -32,7 +32,7 @@ class Crew(NamedTuple):
     name: str
     group: Application
     units: tuple[int, ...]
-    radio: str
+    radios: tuple[tuple[str, str], ...]  # of every kind of message at a port of it
     cycles: int
     rank: int
 
@@ -44,7 +44,7 @@ def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[
     together: dict[tuple, list[Crew]] = {}
     for crew in crews(settings, units):
         own = -1 if is_compiled(registry.find("application", crew.group.application)) else crew.place
-        together.setdefault((crew.group.priority, crew.group.application, crew.radio, crew.cycles, own), []).append(crew)
+        together.setdefault((crew.group.priority, crew.group.application, crew.radios, crew.cycles, own), []).append(crew)
     opened: list[Open] = []
     ordered = sorted(together.items(), key=lambda each: each[0][0])
     return [hosted(registry.find("application", key[1]), found, units, opened) for key, found in ordered], opened
@@ -57,8 +57,15 @@ def crews(settings: Sequence[Setting], units: Units) -> Iterator[Crew]:
         for name, group in each.scenario.applications.items():
             members = tuple(units.number(unit, w) for unit in group.units)
             often = cycles(group, each.scenario.clock.tick)
-            yield Crew(w, place, name, group, members, each.scenario.radio.kind, often, number_of(name, each.scenario))
+            yield Crew(w, place, name, group, members, radios(group, each.scenario), often, number_of(name, each.scenario))
             place += 1
+
+
+def radios(group: Application, scenario: Scenario) -> tuple[tuple[str, str], ...]:
+    """Over which kind of radio the messages at the ports of an application go."""
+    module = registry.find("application", group.application).module
+    kinds = sorted({one.kind for one in (*port.seen(module), *port.done(module)) if one.what in (port.INBOX, port.OUTBOX)})
+    return tuple((kind, scenario.radio_of(kind).kind) for kind in kinds)
 
 
 def cycles(group: Application, tick: float) -> int:
@@ -119,7 +126,7 @@ def sensor_of(name: str, columns: list[int], names: Sequence[str]) -> int:
 
 def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
     """The place of every unit among the senders."""
-    post = post_of(units.posts, one.kind, found[0].radio)
+    post = post_of(units.posts, one.kind, dict(found[0].radios)[one.kind])
     senders = post.senders
     index = np.array([senders[unit] for crew in found for unit in crew.units], dtype=np.int64)
     return Wiring(one, post, ("ring", "last", "fresh"), (index,))
@@ -127,7 +134,7 @@ def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
 
 def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -> Wiring:
     """The links of every unit: those of `listens_to` in its order, or the freshest of all."""
-    post = post_of(units.posts, one.kind, found[0].radio)
+    post = post_of(units.posts, one.kind, dict(found[0].radios)[one.kind])
     links, of_receiver = post.links, post.links_by_receiver
     members = [(crew, i, unit) for crew in found for i, unit in enumerate(crew.units)]
     slots, heard = np.full((one.most, len(members)), -1, dtype=np.int64), np.zeros(len(members), dtype=np.int64)

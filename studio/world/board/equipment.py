@@ -110,25 +110,32 @@ def sensors_of(parts: Sequence, tick: float) -> Iterator[Mounted]:
 
 def equip(settings: Sequence[Setting], units: Units, number: np.ndarray, tick: float) -> None:
     """Gives the units their posts: for every kind of message that an application sends or hears, on every kind of radio."""
-    names = list(dict.fromkeys(each.scenario.radio.kind for each in settings))
+    names = sorted({one.kind for each in settings for one in radios_in(each)})
     radios, known = [registry.find("radio", name) for name in names], Known(units.entity, number, units.world)
     for radio in radios:
-        worlds = [w for w, each in enumerate(settings) if each.scenario.radio.kind == radio.name]
+        worlds = [w for w, each in enumerate(settings) if any(one.kind == radio.name for one in radios_in(each))]
         units.airs.append(air(radio, worlds, radios_of(settings, radio.name), units.entity.size))
     for (place, radio), kind in product(enumerate(radios), registry.known("message").values()):
         if any(is_wanted(each, kind, radio.name) for each in settings):
             units.posts.append(post(kind, radio, place, need_of(settings, units, kind, radio), known, tick))
 
 
+def radios_in(each: Setting) -> list[Any]:
+    """The radios of a world: the usual one, and those of some messages."""
+    return [each.scenario.radio, *each.scenario.radios.values()]
+
+
 def radios_of(settings: Sequence[Setting], radio: str) -> list[Any]:
-    """The settings of a kind of radio in every world; in one that has another nobody asks for them."""
-    own = next(each.scenario.radio for each in settings if each.scenario.radio.kind == radio)
-    return [each.scenario.radio if each.scenario.radio.kind == radio else own for each in settings]
+    """The settings of a kind of radio in every world; in one that has none of it nobody asks for them."""
+    found = [next((one for one in radios_in(each) if one.kind == radio), None) for each in settings]
+    own = next(one for one in found if one is not None)
+    return [one or own for one in found]
 
 
 def is_wanted(each: Setting, kind: Kind, radio: str) -> bool:
-    """Whether a world has this radio, and an application with a port for a kind of message; else nobody sends it."""
-    modules = [module_of(group) for group in each.scenario.applications.values()] if each.scenario.radio.kind == radio else []
+    """Whether a kind of message goes over this radio in a world, and an application has a port for it; else nobody sends it."""
+    goes = each.scenario.radio_of(kind.name).kind == radio
+    modules = [module_of(group) for group in each.scenario.applications.values()] if goes else []
     ports = [one for module in modules for one in (*port.seen(module), *port.done(module))]
     return any(one.what in (INBOX, OUTBOX) and one.kind == kind.name for one in ports)
 
