@@ -1,7 +1,9 @@
 """Settings as numbers: what compiled code gets of a pydantic model, and how it is spelled in a loop that is written for it.
 
 A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one, a name (VehicleName and its
-like) is the column or number of what it names, and what is left empty is not a number.
+like) is the column or number of what it names, and what is left empty is not a number. A list of pairs is where it begins in the pool of
+the script and how many there are; an area is x, y and radius of its circle, then the same of its corners. Kinds within kinds are no numbers
+of the outer one.
 
     numbers(settings)                  →  [60.0, 1.0, 2.0]
     tuple_of(module, Settings)         →  a NamedTuple with the same fields, which belongs to the module
@@ -16,9 +18,12 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 from pydantic import BaseModel
 
-from studio.kind.settings import StationOf, marks, named
+from studio.kind.area import Area
+from studio.kind.settings import Nested, StationOf, marks, named
 
-Find = Callable[[str, str], float]  # what is named, and its name, as a number
+Find = Callable[[str, Any], Any]  # what is named, and its name, as a number; of pairs and areas as many as they have
+POINTS, AREA = "points", "area"
+WIDE = {POINTS: 2, AREA: 5}  # numbers that stand for one
 
 
 def nothing(what: str, name: str) -> float:
@@ -37,7 +42,8 @@ class Shape(NamedTuple):
 
 def shapes(model: type[BaseModel]) -> list[Shape]:
     """The fields of a model; raises TypeError for one that is no number."""
-    return [shape(name, field.annotation, named(field)) for name, field in model.model_fields.items() if name != "kind"]
+    plain_fields = {name: field for name, field in model.model_fields.items() if name != "kind" and not marks(field, Nested)}
+    return [shape(name, field.annotation, named(field)) for name, field in plain_fields.items()]
 
 
 def sizes(model: type[BaseModel]) -> list[int]:
@@ -56,6 +62,10 @@ def shape(name: str, kind: Any, names: str) -> Shape:
         return Shape(name, len(get_args(kind)))
     if kind in (float, int, bool):
         return Shape(name, 1)
+    if kind is Area:
+        return Shape(name, WIDE[AREA], names=AREA)
+    if get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float]:
+        return Shape(name, WIDE[POINTS], names=POINTS)
     allowed = "float, int, bool, Literal[...], tuple[float, float], and names such as VehicleName"
     raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")
 
@@ -88,7 +98,7 @@ def values(of: Shape, value: Any, find: Find = nothing) -> list[float]:
     if value is None:
         return [nan] * of.size
     if of.names:
-        return [find(of.names, value)]
+        return list(find(of.names, value)) if of.names in WIDE else [find(of.names, value)]
     if of.choices:
         return [float(of.choices.index(value))]
     return [float(each) for each in value] if of.size > 1 else [float(value)]

@@ -6,7 +6,7 @@ passed.
 """
 
 from dataclasses import dataclass
-from math import inf, nan
+from math import inf, isnan, nan
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from studio.world.table.event import (
     RED_PASSED,
     ROLLED_OVER,
     SCRIPT_BEGUN,
+    SCRIPT_CUT,
     SCRIPT_ENDED,
     TAKES_OVER,
     WAITS,
@@ -66,7 +67,7 @@ class Watch:
     member_first: np.ndarray  # of its chain, per follower
     member_count: np.ndarray
     member: np.ndarray  # numbers of the chains' vehicles in their world
-    script_told: np.ndarray  # [begun or over, entry]
+    script_told: np.ndarray  # [s] float64[begun or over, entry]: when the turn that was told last came, not a number before
     hits_told: np.ndarray  # per world
     vehicles_told: np.ndarray  # [rolled over or arrived, vehicle]
     waiting: np.ndarray  # int64[vehicle], 1 while it stands at a red light
@@ -107,7 +108,7 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         member_first=np.cumsum(sizes) - sizes,
         member_count=sizes,
         member=np.array([number for _, members in followers for number in members], dtype=np.int64),
-        script_told=np.zeros((2, s.phase.size), dtype=np.int64),
+        script_told=np.full((2, s.phase.size), nan),
         hits_told=np.zeros(w.first.size, dtype=np.int64),
         vehicles_told=np.zeros((2, n), dtype=np.int64),
         waiting=np.zeros(n, dtype=np.int64),
@@ -129,7 +130,7 @@ def notice(world: World, at: Watch) -> None:
     v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
     at.make_room(e.hits.shape[1])
     notice_events(
-        s.phase, s.turned, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, v.state, at.table, at.count
+        s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, v.state, at.table, at.count
     )
     notice_vehicles(time, v.state, w.of, w.number, at.named, at.vehicles_told, at.table, at.count)
     u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
@@ -180,22 +181,25 @@ def is_news(true, told, i):
 
 
 @lean
-def notice_events(phase, turned, vehicle, script_world, script_told, found, hits, first, hits_told, state, table, count):
+def notice_events(turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, state, table, count):
     """What the script and collisions have brought."""
-    notice_script(phase, turned, vehicle, state, script_world, script_told, table, count)
+    notice_script(turned, cut, vehicle, state, script_world, script_told, table, count)
     notice_hits(found, hits, first, state, hits_told, table, count)
 
 
 @lean
-def notice_script(phase, turned, vehicle, state, script_world, told, table, count):
-    """Entries of the script that have begun or ended."""
-    for i in range(phase.size):
+def notice_script(turned, cut, vehicle, state, script_world, told, table, count):
+    """Entries of the script that have begun or ended, and who has ended them."""
+    for i in range(cut.size):
         v = vehicle[i]
         x, y = (state[X, v], state[Y, v]) if v >= 0 else (nan, nan)
-        if is_news(phase[i] > 0, told[0], i):
-            note(turned[0, i], SCRIPT_BEGUN, script_world[i], i, -1, x, y, nan, table, count)
-        if is_news(phase[i] > 1, told[1], i):
-            note(turned[1, i], SCRIPT_ENDED, script_world[i], i, -1, x, y, nan, table, count)
+        for turn in range(2):
+            when = turned[turn, i]
+            if when == told[turn, i] or isnan(when):
+                continue
+            told[turn, i] = when
+            kind = SCRIPT_BEGUN if turn == 0 else SCRIPT_CUT if cut[i] >= 0 else SCRIPT_ENDED
+            note(when, kind, script_world[i], i, cut[i], x, y, nan, table, count)
 
 
 @lean
