@@ -8,7 +8,8 @@ from math import sqrt
 from typing import Annotated, NamedTuple
 
 from studio.compiled import compiled
-from studio.kind.settings import Part, number
+from studio.kind.sensor import Sensor
+from studio.kind.settings import number
 from studio.vehicle.state import V_X
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.view import around, draw_normal, report
@@ -18,7 +19,7 @@ TITLE = "Side radar"
 CAPACITY = 4
 
 
-class Settings(Part):
+class Settings(Sensor):
     """How far it sees along the car, and to the sides."""
 
     reach: float = number(40.0, unit="m", title="Reach along the car", description="to the front and to the rear", ge=1, le=80)

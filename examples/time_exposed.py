@@ -6,7 +6,7 @@ M. M. Minderhoud, P. H. L. Bovy, Extended time-to-collision measures for road tr
 
 import numpy as np
 
-from studio.assess.safety import ttc
+from studio.assess.following import ttc
 
 KIND = "metric"
 TITLE = "Time exposed to a short time to collision"

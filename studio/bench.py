@@ -71,6 +71,8 @@ PLATOON, GAP, EVERY = 5, 25.0, 200.0  # cars of a platoon, [m] from one to the n
 LANES, MARGIN = 3, 1000.0  # of each direction; [m] of road before the last car and ahead of the first
 ROADS = {"eastbound": "motorway", "westbound": "-motorway"}
 MEASURED, LEAST_TICKS, MOST_TICKS = 20_000, 10, 60  # vehicle ticks that one repeat takes; ticks at least and at most
+WARM = 100  # ticks before the first repeat: until then everything that is compiled has been loaded, and the first car brakes
+OFTEN = 25  # repeats of an advance, which are short
 DEVICE_FLEETS = (1000, 10_000, 100_000)
 REPEATS = 5
 SPAN = 0.2  # [s] of real time that one repeat takes at least
@@ -159,10 +161,10 @@ def advance(count: int) -> dict[str, Any]:
     """
     running = simulation(crowd(count))
     ticks = min(max(MEASURED // count, LEAST_TICKS), MOST_TICKS)
-    touch_memory(running, (REPEATS + 2) * ticks)
-    running.advance(LEAST_TICKS)
+    touch_memory(running, WARM + (OFTEN + 2) * ticks)
+    running.advance(WARM)
     whole, alone = [], []
-    for _ in range(REPEATS):
+    for _ in range(OFTEN):
         whole.append(seconds(lambda: running.advance(ticks)))
         alone.append(seconds(integration(running, ticks)))
     one = statistics.median(alone) / ticks

@@ -10,7 +10,7 @@ The command line, Python, REST and live runs all go through these functions; the
 
 import hashlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ import numpy as np
 
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
-from studio.errors import Problem, ScenarioError, UnknownError
+from studio.errors import Problem, ScenarioError, UnknownError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
@@ -32,6 +32,7 @@ from studio.scenario.text.source import Source
 from studio.store.runs import Row, Runs
 from studio.vehicle.fleet import rows_of
 from studio.world.setting import Setting, check_names, setting
+from studio.world.table.event import EVENTS
 
 LARGEST_SEED = 2**63 - 1
 
@@ -111,15 +112,38 @@ def loaded(source: Source, path: Path, changes: dict[str, Any] | None = None) ->
 
 
 def check_goals(loaded: Loaded) -> None:
-    """Goals must be about metrics that exist; raises ScenarioError."""
-    where, wrong = loaded.path.name, []
-    for name in loaded.scenario.goals:
+    """Goals must be about measures that exist, and measures about events that do; raises ScenarioError."""
+    wrong = [*unknown_goals(loaded.scenario), *misnamed(loaded.scenario), *unknown_events(loaded.scenario)]
+    if wrong:
+        where = loaded.path.name
+        found = [replace(each, where=f"{where}: {each.where}") for each in wrong]
+        raise ScenarioError(f"{where} is not a valid scenario.", found)
+
+
+def unknown_goals(scenario: Scenario) -> Iterator[Problem]:
+    """Goals about measures that are neither listed nor measured as usual."""
+    for name in scenario.goals.keys() - scenario.measures.keys():
         try:
             registry.find("metric", name)
         except UnknownError as error:
-            wrong.append(Problem(f"{where}: goals.{name}", error.message))
-    if wrong:
-        raise ScenarioError(f"{where} is not a valid scenario.", wrong)
+            yield Problem(f"goals.{name}", error.message)
+
+
+def misnamed(scenario: Scenario) -> Iterator[Problem]:
+    """Measures with the name of another metric than theirs: nobody would know what the value is."""
+    for name, each in scenario.measures.items():
+        if name in registry.known("metric") and name != each.kind:
+            yield Problem(f"measures.{name}", "is the name of another metric", each.kind, remedy="choose another name")
+
+
+def unknown_events(scenario: Scenario) -> Iterator[Problem]:
+    """Windows that begin or end with events that cannot be."""
+    kinds = [each.name for each in EVENTS]
+    for name, each in scenario.measures.items():
+        for part in ("begin", "end"):
+            event = getattr(getattr(each, part), "event", None)
+            if event is not None and event not in kinds:
+                yield Problem(f"measures.{name}.{part}.event", "is no kind of event", repr(event), ", ".join(kinds), nearest(event, kinds))
 
 
 def check(loaded: Loaded) -> None:
@@ -180,7 +204,7 @@ def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
     case, record = finished.cases[number], finished.record(number)
     told: list[str] = [case.error] if case.error else []
     record.derived.make(told.append)
-    metrics = measure_all(record, told.append)
+    metrics = measure_all(record, loaded.scenario.measures, told.append)
     return Run(
         record=record,
         metrics=metrics,

@@ -47,7 +47,8 @@ FLAWLESS = '''
 from typing import Annotated, NamedTuple
 
 from studio.compiled import compiled
-from studio.kind.settings import Part, number
+from studio.kind.sensor import Looking
+from studio.kind.settings import number
 from studio.kinds.sensor.front_radar import nearest_car
 from studio.model.sensor import own_curvature
 from studio.world.view import report
@@ -56,7 +57,7 @@ KIND = "sensor"
 TITLE = "Radar without noise"
 
 
-class Settings(Part):
+class Settings(Looking):
     """How far it sees."""
 
     range: float = number(80.0, unit="m", title="Reach", ge=0, le=300)
@@ -74,9 +75,12 @@ class Reading(NamedTuple):
 @compiled
 def measure(view, me, settings, memory, out):
     """One look."""
-    other, forward, left = nearest_car(view, me, settings, own_curvature(me.speed, me.yaw_rate))
+    other, distance = nearest_car(view, me, settings, own_curvature(me.speed, me.yaw_rate), -1.0)
     if other == -1:
         return 0
-    report(out, me, 0, Reading(forward, 0.0))
+    report(out, me, 0, Reading(distance, 0.0))
     return 1
 '''
+
+# What every sensor has, and one that looks, when nothing is given.
+EVERY = {"delay": 0.0, "delay_variation": 0.0, "period": 0.0, "drop_out": 0.0, "forward": 0.0, "left": 0.0, "yaw": 0.0}

@@ -34,6 +34,16 @@ def sample_setting():
     return job.prepare(job.load(SAMPLE, {"clock.duration": 10}))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def same_kinds():
+    """What the tests of a file load stays in it: whichever come next in this process know the built-in kinds only."""
+    from studio.kind import registry
+
+    kept = list(registry.every())
+    yield
+    registry.restore(kept)
+
+
 @pytest.fixture
 def own_kinds():
     """Loads a folder of kinds as `--kinds` does; they are gone again when the test is over."""

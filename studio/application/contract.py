@@ -61,7 +61,6 @@ class Own(NamedTuple):
     yaw_rate: Annotated[float, "rad/s", "to the left"]
     steering: Annotated[float, "rad", "road wheel angle, to the left"]
     set_speed: Annotated[float, "m/s", "that the driver has set for this stretch"]
-    driver_acceleration: Annotated[float, "m/s²", "that the driver's pedals ask for"]
     request: Annotated[float, "m/s²", "that was asked of the actuators at the last tick, by whomever"]
     gps_x: Annotated[float, "m", "east position of the centre of gravity by satellite, with its errors"]
     gps_y: Annotated[float, "m", "north position, likewise"]
@@ -72,6 +71,7 @@ class Targets(NamedTuple):
 
     count: int
     target: tuple[Any, ...]
+    age: float = 0.0  # [s] by the own clock, since it was measured; the own time while nothing has been given
 
 
 class Heard(NamedTuple):

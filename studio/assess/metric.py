@@ -8,8 +8,16 @@ Direction = Literal["higher", "lower"] | None
 
 @dataclass(frozen=True)
 class Measured:
-    """The value of a metric in a run; None when there was nothing to measure. `goal` says which direction is better."""
+    """The value of a metric in a run; None when there was nothing to measure. `goal` says which direction is better.
+
+    `subject` are the vehicles that it is about, `time` [s] is when; None when it is about the whole run. `kind` names the metric, and
+    `about` tells subject and time in words.
+    """
 
     value: float | None
     unit: str
     goal: Direction
+    subject: tuple[str, ...] = ()
+    time: float | None = None
+    kind: str = ""
+    about: str = ""

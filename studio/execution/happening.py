@@ -18,7 +18,7 @@ class Number(NamedTuple):
 
 @dataclass(frozen=True)
 class Happening:
-    """An event: when [s], of which kind, which units it is about, where [m], its numbers; and all of it in words.
+    """An event: when [s], of which kind, which units it is about, where [m], its numbers and words; and all of it as a sentence.
 
     `vehicle` is the first of the units. `kind` is empty where a run was saved before events had kinds.
     """
@@ -31,6 +31,7 @@ class Happening:
     x: float | None = None
     y: float | None = None
     numbers: dict[str, Number] = field(default_factory=dict)
+    words: dict[str, str] = field(default_factory=dict)
 
     def as_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -52,4 +53,5 @@ def happening(
         x=x,
         y=y,
         numbers={name: Number(float(values[name]), unit) for name, unit in about.numbers.items()},
+        words={name: str(values[name]) for name in about.words},
     )

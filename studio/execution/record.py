@@ -1,9 +1,10 @@
 """The record of a run: channels of the recorded vehicles over time, and what happened."""
 
 import traceback
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import groupby
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +19,8 @@ from studio.world.probe import Reader
 from studio.world.world import World
 
 ROW = {each.name: row for row, each in enumerate(CHANNELS)}
-CHUNK = 128  # samples that room is made for at a time
+CHUNK = 8 << 20  # [bytes] for which room is made at a time: from this size on numpy asks for large pages, which are faster to come by
+SAME_TIME = 1e-6  # [s] times that differ by less are the same
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,12 @@ class Chain:
     application: str
     vehicles: tuple[str, ...]
 
+    def parts(self, wanted: Collection[str]) -> Iterator["Chain"]:
+        """What is left of it with some vehicles only: parts whose vehicles are still neighbours."""
+        for is_wanted, run in groupby(self.vehicles, key=lambda each: each in wanted):
+            if is_wanted:
+                yield replace(self, vehicles=tuple(run))
+
 
 class Traced(NamedTuple):
     """What a probe has read over time, its unit and label."""
@@ -38,17 +46,39 @@ class Traced(NamedTuple):
     label: str
 
 
+class Body(NamedTuple):
+    """What a vehicle is that drives: its size, how far its front is before its centre of gravity, its mass, its wheels' radius."""
+
+    length: float  # [m]
+    width: float  # [m]
+    front: float  # [m]
+    mass: float  # [kg]
+    radius: float  # [m]
+
+
+def no_ages() -> np.ndarray:
+    """Of no links."""
+    return np.zeros((0, 0))
+
+
 @dataclass(frozen=True)
 class Record:
-    """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings."""
+    """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings.
+
+    `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
+    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channel `ahead` stand for.
+    """
 
     time: np.ndarray
     values: np.ndarray
     vehicles: tuple[str, ...]
     happenings: tuple[Happening, ...]
     chains: tuple[Chain, ...] = ()
-    links: dict[str, float] = field(default_factory=dict)
+    links: tuple[str, ...] = ()
+    ages: np.ndarray = field(default_factory=no_ages)
     probes: dict[str, Traced] = field(default_factory=dict)
+    bodies: dict[str, Body] = field(default_factory=dict)
+    called: dict[int, str] = field(default_factory=dict)
 
     @cached_property
     def derived(self) -> "Derived":
@@ -65,9 +95,13 @@ class Record:
 
     def of_followers(self, name: str) -> np.ndarray:
         """One quantity of the vehicles that follow in a chain, float64[vehicle, n]; of all when there is no chain."""
+        return self.channel(name)[[self.vehicles.index(each) for each in self.followers]]
+
+    @cached_property
+    def followers(self) -> list[str]:
+        """The vehicles that follow in a chain; all when there is no chain."""
         following = {vehicle for chain in self.chains for vehicle in chain.vehicles[1:]}
-        rows = [i for i, vehicle in enumerate(self.vehicles) if vehicle in following]
-        return self.channel(name)[rows] if rows else self.channel(name)
+        return [each for each in self.vehicles if each in following] or list(self.vehicles)
 
     def trace(self, name: str) -> np.ndarray:
         """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""
@@ -77,6 +111,38 @@ class Record:
         if vehicle not in self.vehicles:
             raise UnknownError(f"No vehicle {vehicle!r} was recorded; {nearest(vehicle, self.vehicles)}")
         return self.channel(quantity)[self.vehicles.index(vehicle)]
+
+    def ahead(self, vehicle: int, sample: int) -> str:
+        """The name of the vehicle or object ahead of the vehicle in a row at a sample; "" when there is none."""
+        number = self.channel("ahead")[vehicle, sample]
+        return self.called.get(int(number), "") if np.isfinite(number) else ""
+
+    def between(self, begin: float, end: float | None) -> "Record":
+        """The samples and happenings from a time to a time [s], both included."""
+        end = float("inf") if end is None else end
+        where = slice(*np.searchsorted(self.time, [begin - SAME_TIME, end + SAME_TIME]).tolist())
+        return replace(
+            self,
+            time=self.time[where],
+            values=self.values[:, :, where],
+            happenings=tuple(event for event in self.happenings if begin <= event.time <= end),
+            ages=self.ages[:, where],
+            probes={name: each._replace(values=each.values[where]) for name, each in self.probes.items()},
+        )
+
+    def of(self, vehicles: Collection[str]) -> "Record":
+        """Some vehicles only: their channels, what happened to them or to nobody, chains and links between them."""
+        rows = [i for i, name in enumerate(self.vehicles) if name in vehicles]
+        links = [i for i, name in enumerate(self.links) if name.partition("→")[2] in vehicles]
+        return replace(
+            self,
+            values=self.values[:, rows],
+            vehicles=tuple(self.vehicles[i] for i in rows),
+            happenings=tuple(event for event in self.happenings if not event.units or set(event.units) & set(vehicles)),
+            chains=tuple(part for chain in self.chains for part in chain.parts(vehicles)),
+            links=tuple(self.links[i] for i in links),
+            ages=self.ages[links],
+        )
 
     def names(self) -> list[str]:
         """All `vehicle.quantity`."""
@@ -134,7 +200,7 @@ class Derived:
 
 @dataclass(frozen=True)
 class Chunk:
-    """Room for CHUNK samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
+    """Room for some samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
 
     time: np.ndarray
     values: np.ndarray
@@ -161,7 +227,7 @@ class Recorder:
     def take(self, world: World, k: int) -> None:
         """Takes a sample when it is time for one; commands are those of tick k."""
         if world.clock.k % self.every == 0:
-            place = self.count % CHUNK
+            place = self.count % self.room
             if place == 0:
                 self.chunks.append(self.chunk())
             chunk = self.chunks[-1]
@@ -171,10 +237,21 @@ class Recorder:
             self.reader.read(chunk.probes[place])
             self.count += 1
 
+    @cached_property
+    def room(self) -> int:
+        """How many samples a chunk holds."""
+        return max(CHUNK // (8 * sum(self.widths)), 1)
+
+    @cached_property
+    def widths(self) -> tuple[int, ...]:
+        """How many numbers of a sample are its time, values, ages and probes."""
+        return 1, len(CHANNELS) * self.columns.size, self.links, len(self.reader.probes)
+
     def chunk(self) -> Chunk:
-        """An empty one."""
-        values = np.empty((CHUNK, len(CHANNELS), self.columns.size))
-        return Chunk(np.empty(CHUNK), values, np.empty((CHUNK, self.links)), np.empty((CHUNK, len(self.reader.probes))))
+        """An empty one: a sample lies in one piece."""
+        block = np.empty((self.room, sum(self.widths)))
+        time, values, ages, probes = np.split(block, np.cumsum(self.widths)[:-1], axis=1)
+        return Chunk(time[:, 0], values.reshape(self.room, len(CHANNELS), self.columns.size), ages, probes)
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -188,7 +265,7 @@ class Recorder:
 
     def samples(self, numbers: list[int]) -> tuple[np.ndarray, np.ndarray]:
         """Times and values of some samples, of all worlds."""
-        found = [(self.chunks[i // CHUNK], i % CHUNK) for i in numbers]
+        found = [(self.chunks[i // self.room], i % self.room) for i in numbers]
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)
 
@@ -201,20 +278,17 @@ class Recorder:
     def traced_samples(self, world: int, numbers: list[int]) -> dict[str, Traced]:
         """The same of some samples, by their numbers."""
         share = self.probe_share[world]
-        return self.named(share, np.array([self.chunks[i // CHUNK].probes[i % CHUNK, share] for i in numbers]))
+        return self.named(share, np.array([self.chunks[i // self.room].probes[i % self.room, share] for i in numbers]))
 
     def named(self, share: slice, values: np.ndarray) -> dict[str, Traced]:
         """What some probes have read, float64[sample, probe], by their names."""
         return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.reader.probes[share])}
 
-    def mean_ages(self, count: int) -> np.ndarray:
-        """Mean age [s] of the newest message on every link; not a number for a link that never had both ends."""
-        ages = self.joined([chunk.ages for chunk in self.chunks], np.zeros((0, self.links)), count)
-        known = np.isfinite(ages)
-        with np.errstate(invalid="ignore"):
-            return np.where(known, ages, 0.0).sum(axis=0) / known.sum(axis=0)
+    def ages(self, links: list[int], count: int) -> np.ndarray:
+        """Ages [s] of the newest message on some links, float64[link, sample]; the first samples."""
+        none = np.zeros((0, len(links)))
+        return self.joined([chunk.ages[:, links] for chunk in self.chunks], none, count).T
 
-    @staticmethod
-    def joined(parts: list[np.ndarray], none: np.ndarray, count: int) -> np.ndarray:
+    def joined(self, parts: list[np.ndarray], none: np.ndarray, count: int) -> np.ndarray:
         """The first samples of all chunks, one after another."""
-        return np.concatenate([none, *parts])[:count]
+        return np.concatenate([none, *(part[: max(count - i * self.room, 0)] for i, part in enumerate(parts))])

@@ -8,7 +8,7 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
-from studio.execution.record import Record, Recorder
+from studio.execution.record import Body, Record, Recorder
 from studio.vehicle import broken
 from studio.world.board.host import Fault
 from studio.world.build import build
@@ -58,6 +58,10 @@ class Simulation:
     teller: Teller
     ticks: int  # length of the whole run
     started: float = field(default_factory=time.perf_counter)
+    running: int = field(init=False)  # worlds that are not over
+
+    def __post_init__(self) -> None:
+        self.running = len(self.cases)
 
     @property
     def time(self) -> float:
@@ -67,7 +71,7 @@ class Simulation:
     @property
     def is_over(self) -> bool:
         """Whether no world is running any more."""
-        return all(case.is_over for case in self.cases)
+        return self.running == 0
 
     def advance(self, ticks: int = 1) -> None:
         """Some ticks, and what has happened in them. A failing application, or a state that is not finite, ends a world as failed."""
@@ -127,6 +131,7 @@ class Simulation:
     def close(self, number: int, status: str) -> None:
         """A world is over: what is recorded from now on is not its own."""
         case = self.cases[number]
+        self.running -= 1
         case.status, case.time, case.samples, case.state_hash = status, self.time, self.recorder.count, self.world.digest(number)
 
     def stop(self) -> None:
@@ -170,14 +175,18 @@ class Simulation:
         """What has been recorded so far of one world."""
         case, recorder = self.cases[number], self.recorder
         count = case.samples if case.is_over else recorder.count
+        links = self.links(number)
         return Record(
             time=recorder.times(count),
             values=recorder.values(number, count),
             vehicles=self.recorded(number),
             happenings=tuple(case.happenings),
             chains=chains(case.setting),
-            links=self.link_ages(number, count),
+            links=tuple(links.values()),
+            ages=recorder.ages(list(links), count),
             probes=recorder.traced(number, count),
+            bodies=self.bodies(number),
+            called=self.called(number),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
@@ -192,15 +201,24 @@ class Simulation:
         probes = self.recorder.traced_samples(0, samples)
         return Record(time=time, values=shown, vehicles=self.recorded(), happenings=(), probes=probes)
 
-    def link_ages(self, number: int, count: int) -> dict[str, float]:
-        """Mean age [s] of the newest message on each link of one world, named sender→receiver."""
-        units, means = self.world.units, self.recorder.mean_ages(count) if count else np.zeros(0)
+    def links(self, number: int) -> dict[int, str]:
+        """The links of one world, named sender→receiver, by their places among all."""
+        units = self.world.units
         ends = [(s, r) for post in units.posts for s, r in zip(post.sender[post.link_sender], post.link_receiver, strict=True)]
         return {
-            f"{units.name_of(sender)}→{units.name_of(receiver)}": float(mean)
-            for (sender, receiver), mean in zip(ends, means, strict=False)
-            if units.world[receiver] == number and np.isfinite(mean)
+            i: f"{units.name_of(sender)}→{units.name_of(receiver)}"
+            for i, (sender, receiver) in enumerate(ends)
+            if units.world[receiver] == number
         }
+
+    def called(self, number: int) -> dict[int, str]:
+        """Names of the vehicles and objects of one world by the numbers that the channel `ahead` has for them."""
+        objects = self.world.object_numbers(number)
+        return dict(enumerate(self.world.names[number])) | {each: self.world.name_of(each, number) for each in objects}
+
+    def bodies(self, number: int) -> dict[str, Body]:
+        """The bodies of all vehicles of one world."""
+        return {name: Body(*each) for name, each in zip(self.world.names[number], self.world.bodies(number).T.tolist(), strict=True)}
 
 
 def simulation(*settings: Setting) -> Simulation:

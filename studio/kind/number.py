@@ -19,6 +19,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 from pydantic import BaseModel
 
 from studio.kind.area import Area
+from studio.kind.preset import FIELD
 from studio.kind.settings import Nested, StationOf, marks, named
 
 Find = Callable[[str, Any], Any]  # what is named, and its name, as a number; of pairs and areas as many as they have
@@ -42,7 +43,7 @@ class Shape(NamedTuple):
 
 def shapes(model: type[BaseModel]) -> list[Shape]:
     """The fields of a model; raises TypeError for one that is no number."""
-    plain_fields = {name: field for name, field in model.model_fields.items() if name != "kind" and not marks(field, Nested)}
+    plain_fields = {name: field for name, field in model.model_fields.items() if name not in ("kind", FIELD) and not marks(field, Nested)}
     return [shape(name, field.annotation, named(field)) for name, field in plain_fields.items()]
 
 

@@ -60,7 +60,7 @@ class Kind:
     @property
     def settings(self) -> type[BaseModel] | None:
         """What is set of it in a scenario; None when there is nothing to set."""
-        return getattr(self.module, "Parameters" if self.sort == "application" else "Settings", None)
+        return getattr(self.module, "Parameters" if self.sort == "application" else "Settings", SORTS[self.sort].usual)
 
     @property
     def is_built_in(self) -> bool:

@@ -13,7 +13,7 @@ from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandle
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from studio.errors import UnknownError
-from studio.kind import registry
+from studio.kind import preset, registry
 from studio.kind.registry import Kind
 from studio.kind.settings import Nested, Part
 
@@ -23,8 +23,9 @@ def chosen(kind: Kind) -> type[BaseModel]:
     module = kind.module
     if "Chosen" not in vars(module):
         field = Field(kind.name, title="Kind", description=kind.title)
-        named = create_model("Named", __base__=Part, kind=(Literal[kind.name], field))  # pyrefly: ignore[invalid-literal]
-        made = create_model(f"{kind.name}_{kind.sort}", __base__=(module.Settings, named), __module__=module.__name__, __doc__=kind.title)
+        named = create_model("Named", __base__=Part, kind=(Literal[kind.name], field), **preset.fields(module))  # pyrefly: ignore[invalid-literal]
+        assert kind.settings, f"a {kind.sort} that can be chosen has settings"
+        made = create_model(f"{kind.name}_{kind.sort}", __base__=(kind.settings, named), __module__=module.__name__, __doc__=kind.title)
         made.__qualname__ = made.__name__ = "Chosen"
         vars(module)["Chosen"] = made
     return vars(module)["Chosen"]
@@ -46,17 +47,17 @@ class Slot(Nested):
         return handler(schema) | {"sort": self.sort}
 
     def named(self, given: Any) -> Any:
-        """With the usual kind where none is named; raises PydanticCustomError for a kind that there is not."""
+        """With the usual kind where none is named, and the values of a preset; raises PydanticCustomError for a kind that there is not."""
         if not isinstance(given, dict):
             return given
         named = {"kind": self.usual} | given if self.usual else given
         if "kind" not in named:
             return named
         try:
-            registry.find(self.sort, str(named["kind"]))
+            found = registry.find(self.sort, str(named["kind"]))
         except UnknownError as error:
             raise PydanticCustomError("unknown_kind", "{what}", {"what": error.message}) from None
-        return named
+        return preset.filled(found.module, named)
 
 
 AnyCondition = Annotated[Any, Slot("condition")]  # within another: a class that has one is declared with defer_build=True

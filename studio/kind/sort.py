@@ -16,9 +16,12 @@ from pydantic_core import PydanticUndefined
 
 from studio.application import port
 from studio.errors import Problem
+from studio.kind import preset
 from studio.kind.driver import Driver
+from studio.kind.metric import Scope
 from studio.kind.number import unplain
 from studio.kind.quantity import quantities
+from studio.kind.sensor import Sensor
 from studio.kind.settings import Nested, marks, named
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
@@ -74,6 +77,36 @@ def person(value: Any) -> str:
     if not issubclass(value, Driver):
         return "is no Driver: write class Settings(Driver), with Driver from studio.kind.driver"
     return unplain(value)
+
+
+def watch(value: Any) -> str:
+    """Settings of a sensor: numbers, and those that every sensor has."""
+    if what := settings(value):
+        return what
+    if not issubclass(value, Sensor):
+        return "is no Sensor: write class Settings(Looking), or class Settings(Sensor), from studio.kind.sensor"
+    return unplain(value)
+
+
+def scope(value: Any) -> str:
+    """Settings of a metric: those that every metric has, and perhaps more."""
+    if what := settings(value):
+        return what
+    return "" if issubclass(value, Scope) else "is no Scope: write class Settings(Scope), with Scope from studio.kind.metric"
+
+
+def measuring(module: ModuleType) -> str:
+    """A metric with settings of its own is given them."""
+    measure, has = getattr(module, "measure", None), hasattr(module, "Settings")
+    given = len(signature(measure).parameters) if callable(measure) else 0
+    if given == 2 and not has:
+        return "measure(record, settings) has no Settings"
+    return "measure(record) does not take the Settings" if given == 1 and has else ""
+
+
+def either(*choices: Test) -> Test:
+    """One of several; what is wrong is told of the first."""
+    return lambda value: "" if any(not test(value) for test in choices) else choices[0](value)
 
 
 def needy(value: Any) -> str:
@@ -207,6 +240,7 @@ class Sort:
     needs: tuple[Need, ...]
     whole: Test = fits  # what its parts must be together
     remedy: str = ""
+    usual: type[BaseModel] | None = None  # what is set of a kind without Settings
 
 
 SORTS = {
@@ -214,13 +248,14 @@ SORTS = {
     for each in (
         Sort("sensor", "measures what is around a unit", (
             TITLE,
-            Need("Settings", "what is set per sensor, with unit and range", plain, "class Settings(Part): ..."),
+            Need("Settings", "what is set per sensor, with unit and range", watch, "class Settings(Looking): ..."),
+            Need("PRESETS", "named sets of settings, with their sources", preset.wrong, 'PRESETS = {"far": Preset(...)}', optional=True),
             Need("Reading", "what one target, or the one reading, consists of", flat, "class Reading(NamedTuple): ..."),
             Need("CAPACITY", "how many targets it gives at most; 1 when left out", count, "CAPACITY = 4", optional=True),
             Need("Memory", "what it remembers from tick to tick", record, "class Memory(NamedTuple): ...", optional=True),
             Need("measure", "one sensor at one tick: reports its targets, returns how many; with a Memory: how many, Memory(...)",
                  function("view", "me", "settings", "memory", "out", compiled=True), "def measure(view, me, settings, memory, out)"),
-        )),
+        ), preset.unfit, "give values that the Settings take"),
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
             Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
@@ -271,8 +306,11 @@ SORTS = {
             TITLE,
             UNIT,
             Need("BETTER", "which values are better", direction, 'BETTER = "higher"'),
-            Need("measure", "the number, of a record", function("record"), "def measure(record)"),
-        )),
+            Need("ABOUT", "how the vehicles that it is about are told", text, 'ABOUT = "{0} behind {1}"', optional=True),
+            Need("Settings", "what is set of it besides window and vehicles", scope, "class Settings(Scope): ...", optional=True),
+            Need("measure", "the number, of a record; or Found(value, subject, time)",
+                 either(function("record"), function("record", "settings")), "def measure(record)"),
+        ), measuring, "give measure the settings as well: def measure(record, settings), with class Settings(Scope)", Scope),
         Sort("channel", "a quantity over time that follows from others", (
             TITLE,
             UNIT,

@@ -18,7 +18,8 @@ LOW, HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
 # Streams: one per purpose, so that switching noise on in one place changes nothing elsewhere.
 (
     RANGE_NOISE, RATE_NOISE, MESSAGE_LOSS, MESSAGE_DELAY, TRAFFIC_ROUTE, TRAFFIC_PLACE, TRAFFIC_STYLE, GPS_DRIFT, GPS_NOISE, TRIP,
-) = range(10)  # fmt: skip
+    BUS_NOISE,
+) = range(11)  # fmt: skip
 
 
 @compiled
@@ -43,16 +44,16 @@ def unit(high, low):
 
 
 @compiled
-def uniform(seed, entity, stream, tick):
-    """A number in (0, 1)."""
-    a, b, _, _ = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+def uniform(seed, entity, stream, tick, about=0):
+    """A number in (0, 1); `about` tells draws for several things apart."""
+    a, b, _, _ = philox(tick, entity, stream, about, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
     return unit(a, b)
 
 
 @compiled
-def normal(seed, entity, stream, tick):
-    """A number of the standard normal distribution (Box & Muller 1958)."""
-    a, b, c, d = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+def normal(seed, entity, stream, tick, about=0):
+    """A number of the standard normal distribution (Box & Muller 1958); `about` tells draws for several things apart."""
+    a, b, c, d = philox(tick, entity, stream, about, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
     return sqrt(-2.0 * log(unit(a, b))) * cos(2.0 * pi * unit(c, d))
 
 

@@ -118,6 +118,18 @@ class Gps(Part):
     )
 
 
+class Bus(Part):
+    """White noise of what the car's own bus tells its applications; all 0: exact. Standard deviations, at every tick anew.
+
+    Series sensors: speed 0.05 m/s, acceleration 0.1 m/s², yaw rate and steering 0.1 degrees (rounded).
+    """
+
+    speed_noise: float = number(0.0, unit="m/s", title="Noise of the speed", ge=0, le=5)
+    acceleration_noise: float = number(0.0, unit="m/s²", title="Noise of the acceleration", ge=0, le=5)
+    yaw_rate_noise: float = number(0.0, unit="rad/s", title="Noise of the yaw rate", ge=0, le=0.5)
+    steering_noise: float = number(0.0, unit="rad", title="Noise of the steering", ge=0, le=0.5)
+
+
 class UnitClock(Part):
     """The clock of a unit: what its applications and messages take for the time."""
 
@@ -163,6 +175,7 @@ class Vehicle(Part, defer_build=True):
         default_factory=front_radar_only, validate_default=True, title="Sensors", description="by name, as applications ask for them"
     )
     gps: Gps = Field(default_factory=Gps, title="Satellite position")
+    bus: Bus = Field(default_factory=Bus, title="Bus signals")
     clock: UnitClock = Field(default_factory=UnitClock, title="Clock of the unit")
     antenna: Antenna = Field(default_factory=Antenna, title="Antenna")
     colour: Annotated[str, Field(pattern=r"^#[0-9a-fA-F]{6}$")] = Field("#2f6fde", title="Colour")
@@ -294,10 +307,19 @@ class Recording(Part):
 
 
 class Goal(Part):
-    """What a metric must keep for the run to pass."""
+    """What a measure must keep for the run to pass."""
 
     least: float | None = Field(None, title="At least", allow_inf_nan=False)
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
+
+
+class Seeds(Part):
+    """Seeds of single streams of chance; where none is given the scenario's counts. So one of them can be varied while the rest stays."""
+
+    traffic: int | None = Field(None, ge=0, le=2**63 - 1, title="Traffic", description="routes, places and styles of the traffic")
+    sensors: int | None = Field(None, ge=0, le=2**63 - 1, title="Sensors", description="errors of all sensors")
+    satellites: int | None = Field(None, ge=0, le=2**63 - 1, title="Satellites", description="errors of the cars' own positions")
+    radio: int | None = Field(None, ge=0, le=2**63 - 1, title="Radio", description="loss and delay of messages")
 
 
 class Scenario(Part, defer_build=True):
@@ -309,6 +331,7 @@ class Scenario(Part, defer_build=True):
     map: Map = Field(..., title="Map")
     clock: Clock = Field(default_factory=Clock, title="Clock")
     seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
+    seeds: Seeds = Field(default_factory=Seeds, title="Seeds", description="of single streams")
     routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
     stations: dict[Name, Station] = Field({}, title="Stations", description="units that stand at a place")
@@ -321,7 +344,15 @@ class Scenario(Part, defer_build=True):
         default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
     )
     recording: Recording = Field(default_factory=Recording, title="Recording")
-    goals: dict[Name, Goal] = Field({}, title="Goals", description="per metric")
+    measures: dict[Name, Annotated[Any, Slot("metric")]] = Field(
+        {}, title="Measures", description="metrics with settings of their own, by name; all others are measured as usual"
+    )
+    goals: dict[Name, Goal] = Field({}, title="Goals", description="per measure or metric")
+
+    def seed_of(self, stream: Literal["traffic", "sensors", "satellites", "radio"]) -> int:
+        """The seed of a stream: its own, or that of everything."""
+        own = getattr(self.seeds, stream)
+        return self.seed if own is None else own
 
 
 WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)

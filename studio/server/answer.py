@@ -191,11 +191,15 @@ class Glossary(BaseModel):
 
 
 class Metric(BaseModel):
-    """A metric of a run; `goal` says which direction is better."""
+    """A measure of a run; `goal` says which direction is better."""
 
     value: float | None
     unit: str
     goal: Goal
+    subject: list[str] = Field(description="the vehicles that it is about; empty when it is about all of them")
+    time: float | None = Field(description="[s] when it was so; null when it is about the whole run")
+    kind: str = Field(description="the metric; empty in runs that were saved before measures had names of their own")
+    about: str = Field(description="subject and time in words")
 
 
 class Run(BaseModel):
@@ -244,6 +248,7 @@ class Event(BaseModel):
     x: float | None = Field(description="[m] to the east")
     y: float | None = Field(description="[m] to the north")
     numbers: dict[str, Number]
+    words: dict[str, str] = Field(description="the entry of the script that begins, for instance")
 
 
 def event(happened: Happening) -> Event:

@@ -193,7 +193,7 @@ class Runs:
         found: dict[int, dict[str, Measured]] = {}
         marks = ", ".join("?" * len(runs))
         for row in self.rows(f"select * from metrics where run in ({marks}) order by rowid", runs):
-            found.setdefault(row["run"], {})[row["name"]] = Measured(row["value"], row["unit"], row["goal"])
+            found.setdefault(row["run"], {})[row["name"]] = measured_of(row)
         return found
 
     def mark_killed(self) -> None:
@@ -262,21 +262,30 @@ def reopen_runs(path: Path) -> Runs:
 
 def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:
     """Metrics as rows."""
-    return [{"run": run, "name": name, **asdict(each)} for name, each in metrics.items()]
+    return [
+        {"run": run, "name": name, **asdict(each), "subject": json.dumps(each.subject, ensure_ascii=False)}
+        for name, each in metrics.items()
+    ]
+
+
+def measured_of(row: dict[str, Any]) -> Measured:
+    """A metric of the database's row, which tells no more than its value where it was written before there was more to tell."""
+    subject = tuple(json.loads(row["subject"] or "[]"))
+    return Measured(row["value"], row["unit"], row["goal"], subject, row["time"], row["kind"] or "", row["about"] or "")
 
 
 def event_row(run: int, event: Happening) -> dict[str, Any]:
-    """An event as a row; units and numbers as JSON."""
+    """An event as a row; units, numbers and words as JSON."""
     plain = event.as_json()
-    return {"run": run} | plain | {key: json.dumps(plain[key], ensure_ascii=False) for key in ("units", "numbers")}
+    return {"run": run} | plain | {key: json.dumps(plain[key], ensure_ascii=False) for key in ("units", "numbers", "words")}
 
 
 def event_of(row: dict[str, Any]) -> Happening:
     """An event of the database's row, which has no kind where it was written before there were any."""
     numbers = {name: Number(**each) for name, each in json.loads(row["numbers"] or "{}").items()}
-    units = tuple(json.loads(row["units"] or "[]"))
+    units, words = tuple(json.loads(row["units"] or "[]")), json.loads(row["words"] or "{}")
     plain = {key: row[key] for key in ("time", "text", "vehicle", "x", "y")}
-    return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers)
+    return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers, words=words)
 
 
 STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}

@@ -2,8 +2,8 @@
 
     scenarios   hash → document            what was run, by content
     runs        run → scenario, parent, seed, status, ...
-    metrics     run, name → value, unit, goal
-    events      run → time, kind, text, vehicle, units, x, y, numbers
+    metrics     run, name → value, unit, goal, subject, time, kind, about
+    events      run → time, kind, text, vehicle, units, x, y, numbers, words
     traces      run → one Parquet file with a column per channel
     kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
     texts       digest → text                  files of kinds, and patches; equal ones stand once
@@ -20,7 +20,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 2
+LAYOUT = 3
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -51,7 +51,21 @@ TABLES = {
         "run",
         (("scenario_hash", "scenarios", "hash"), ("parent", "runs", "run")),
     ),
-    "metrics": ({"run": int, "name": str, "value": float, "unit": str, "goal": str}, ("run", "name"), (("run", "runs", "run"),)),
+    "metrics": (
+        {
+            "run": int,
+            "name": str,
+            "value": float,
+            "unit": str,
+            "goal": str,
+            "subject": str,
+            "time": float,
+            "kind": str,
+            "about": str,
+        },
+        ("run", "name"),
+        (("run", "runs", "run"),),
+    ),
     "events": (
         {
             "run": int,
@@ -63,6 +77,7 @@ TABLES = {
             "x": float,
             "y": float,
             "numbers": str,
+            "words": str,
         },
         None,
         (("run", "runs", "run"),),

@@ -5,7 +5,7 @@ advance(fleet, k, tick, step)                      one tick of gearboxes and mot
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -53,6 +53,14 @@ class Fleet:
     def size(self) -> int:
         """Number of vehicles."""
         return self.state.shape[1]
+
+    @cached_property
+    def tyres_of(self) -> np.ndarray:
+        """Which of the tyres every vehicle has, int64[2, n], front and rear."""
+        found = np.zeros((2, self.order.size), dtype=np.int64)
+        for start, count, front, rear in self.blocks.T:
+            found[:, self.order[start : start + count]] = [[front], [rear]]
+        return found
 
 
 def fleet(starts: list[Start], *, ground: np.ndarray | None = None) -> Fleet:

@@ -2,6 +2,7 @@
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 from types import ModuleType
 from typing import Any, get_args, get_origin
 
@@ -9,7 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from studio.execution.record import Chain, Record
+from studio.execution.record import Body, Chain, Record
 from studio.kind.area import Area
 from studio.kind.number import AREA, POINTS, numbers, plain, shapes, tuple_of
 from studio.kind.quantity import Quantity, quantities
@@ -19,6 +20,7 @@ from studio.world.channel import CHANNELS
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
 UNBOUND = 300.0  # how far one is drawn that has no first value either
 TRIES = 50
+NAMES = tuple("abcdefghijklmnopqrstuvwxyz")  # of drawn cars
 STAGE: dict[str, Any] = {
     "vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway", "body": "ahead", "value": "own.speed",
 }  # fmt: skip
@@ -41,7 +43,8 @@ def given(model: type[BaseModel], draw: np.random.Generator) -> dict[str, Any]:
     """A drawn value for every field, each for itself; names are those of the stage."""
     schema = model.model_json_schema()["properties"]
     return {
-        name: STAGE.get(named(field)) or whole(field, draw) or value(schema[name], draw, name) for name, field in model.model_fields.items()
+        name: staged(named(field), schema[name]) or whole(field, draw) or value(schema[name], draw, name)
+        for name, field in model.model_fields.items()
     }
 
 
@@ -55,6 +58,11 @@ def whole(field: FieldInfo, draw: np.random.Generator) -> Any:
         return {"x": float(draw.uniform(200.0, 500.0)), "y": 0.0, "radius": float(draw.uniform(1.0, 200.0))}
     is_pairs = get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float]
     return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if is_pairs else None
+
+
+def staged(what: str, node: dict[str, Any]) -> Any:
+    """The name of the stage for a field that names something; a list of names stays as it is at first."""
+    return None if node.get("type") == "array" else STAGE.get(what)
 
 
 def settings_tuple(module: ModuleType, settings: BaseModel) -> Any:
@@ -116,10 +124,12 @@ def record(period: float = 0.02, **channels: Any) -> Record:
     vehicles, samples = np.broadcast_shapes((1, 1), *[np.shape(each) for each in channels.values()])
     values = np.zeros((len(CHANNELS), vehicles, samples))
     names = [each.name for each in CHANNELS]
-    values[names.index("gap")] = np.nan
+    values[names.index("gap")], values[names.index("ahead")] = np.nan, -1.0
     for name, each in channels.items():
         values[names.index(name)] = each
-    return Record(period * np.arange(samples), values, tuple("abcdefghijklmnopqrstuvwxyz"[:vehicles]), ())
+    cars: tuple[str, ...] = NAMES[:vehicles]
+    bodies, called = dict.fromkeys(cars, Body(4.5, 1.8, 2.2, 1500.0, 0.3)), dict(enumerate(cars))
+    return Record(period * np.arange(samples), values, cars, (), bodies=bodies, called=called)
 
 
 def drive(draw: np.random.Generator, cars: int, samples: int) -> Record:
@@ -127,5 +137,7 @@ def drive(draw: np.random.Generator, cars: int, samples: int) -> Record:
     made: dict[str, Any] = {each.name: draw.normal(size=(cars, samples)) for each in CHANNELS}
     ahead = draw.random((cars, samples)) < 0.9
     made |= {"speed": draw.uniform(0.0, 40.0, (cars, samples)), "gap": np.where(ahead, draw.uniform(0.5, 100.0, (cars, samples)), np.nan)}
-    found = record(**made)
-    return Record(found.time, found.values, found.vehicles, (), (Chain("chain", "", found.vehicles),), {"a→b": float(draw.uniform(0, 1))})
+    made["ahead"] = np.where(ahead, np.arange(cars)[:, None] - 1.0, -1.0)
+    ages = draw.uniform(0.0, 1.0, (1, samples))
+    chain = Chain("chain", "", NAMES[:cars])
+    return replace(record(**made), chains=(chain,), links=("a→b",), ages=ages)

@@ -4,7 +4,7 @@ build([settings])   →  World         arrays, one column per vehicle, world aft
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
 from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world.board.crew import hosts
 from studio.world.board.equipment import units_of
+from studio.world.chart import chart_of
 from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.obstacle import movers, obstacles_of
@@ -52,7 +53,7 @@ def build(settings: Sequence[Setting]) -> World:
     known: Zones = {}
     met = conflicts(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
     roads = roads_of(settings, lines, table, stops, met)
-    units = units_of(settings, worlds, cars)
+    units = units_of(settings, worlds, cars, obstacles.standing.size, clock.tick)
     hosted, open_inboxes = hosts(settings, units, clock.tick)
     world = World(
         clock=Clock(clock.tick, clock.step),
@@ -88,8 +89,15 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
         entity=np.concatenate([entities(each) for each in settings]),
         first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
         count=counts,
-        seed=np.array([each.scenario.seed for each in settings], dtype=np.uint64),
+        seed=seeds_of(settings, "sensors"),
+        satellite_seed=seeds_of(settings, "satellites"),
+        radio_seed=seeds_of(settings, "radio"),
     )
+
+
+def seeds_of(settings: Sequence[Setting], stream: Literal["sensors", "satellites", "radio"]) -> np.ndarray:
+    """The seed of a stream in each world."""
+    return np.array([each.scenario.seed_of(stream) for each in settings], dtype=np.uint64)
 
 
 def entities(each: Setting) -> np.ndarray:
@@ -157,6 +165,7 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
     raised = [ground.is_raised(car.path) for each in settings for car in each.cars]
     return Roads(
         points=lines.points,
+        chart=chart_of(lines, settings),
         path_first=table[LINE_FIRST, lines.base],
         path_count=table[LINE_COUNT, lines.base],
         raised=np.array(raised, dtype=np.int64),

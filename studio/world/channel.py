@@ -10,6 +10,8 @@ from studio.compiled import lean
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.rows import Table
+from studio.vehicle import adhesion
+from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
 from studio.world.table.mind import MIND
@@ -34,9 +36,10 @@ def channels_of(table: Table) -> list[Channel]:
 
 
 RECORDED = (VEHICLE, MIND, COMMAND, SATELLITE)
-CHANNELS = tuple(channel for table in RECORDED for channel in channels_of(table))
-TABLE_OF = np.array([[table.name for table in RECORDED].index(channel.table) for channel in CHANNELS])
-ROW_OF = np.array([channel.row for channel in CHANNELS])
+KEPT = tuple(channel for table in RECORDED for channel in channels_of(table))  # in arrays that are there
+CHANNELS = (*KEPT, *channels_of(ADHESION))  # made when they are recorded
+TABLE_OF = np.array([[table.name for table in RECORDED].index(channel.table) for channel in KEPT])
+ROW_OF = np.array([channel.row for channel in KEPT])
 
 
 @cache
@@ -60,6 +63,7 @@ def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> Non
     A vehicle that has arrived has no values any more.
     """
     v = world.vehicles
+    adhesion.sample(v, columns, values[len(KEPT) :])
     gather(columns, (k % RING) * world.size, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values)
 
 

@@ -8,20 +8,23 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from studio.rows import Row, Table
+from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND
 from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
+from studio.world.chart import CHART
 from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
+from studio.world.passes.sight import SIGHT
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
 from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
-from studio.world.table.unit import GPS_SET, HEARD, SATELLITE, SENT, UNIT, UNIT_SET
+from studio.world.table.unit import GPS_SET, HEARD, OUTPUT, SATELLITE, SENSOR, SENT, UNIT, UNIT_SET
 
 TABLES = (
-    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT,
-    MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, SATELLITE, GPS_SET, SENT, HEARD,
-    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE,
+    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
+    MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD,
+    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE, SIGHT, CHART,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 

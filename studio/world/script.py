@@ -86,6 +86,8 @@ def decide(root, node_entry, again, held, phase, since, met, come):
 def act(world: World) -> None:
     """The second pass: maneuvers command their vehicles, and end."""
     s, v, time = world.script, world.vehicles, world.clock.time
+    if not s.acting.size:
+        return
     any_over = False
     for each in (s.maneuvers[i] for i in s.acting):
         any_over |= each.run(

@@ -337,7 +337,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
         path, station = found
         taken.append(position(path, station))
         bodies.append(footprint(f"traffic_{i + 1:02d}", models[wanted.model], path, station))
-        style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed, i, TRAFFIC_STYLE, 0) - 1.0)
+        style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed_of("traffic"), i, TRAFFIC_STYLE, 0) - 1.0)
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
         name = f"traffic_{i + 1:02d}"
@@ -422,8 +422,8 @@ def free_place(i: int, scenario: Scenario, ways, taken, bodies, model, works: Wo
     if not usable:
         return None
     for attempt in range(TRIES):
-        way = usable[int(uniform(scenario.seed, i, TRAFFIC_ROUTE, attempt) * len(usable))]
-        station = uniform(scenario.seed, i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
+        way = usable[int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * len(usable))]
+        station = uniform(scenario.seed_of("traffic"), i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
         in_works = works.way(way).is_touched(station, CAR_LENGTH, works.first)

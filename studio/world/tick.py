@@ -9,9 +9,8 @@ from math import nan
 
 from studio.vehicle import fleet
 from studio.world import script
-from studio.world.board import own
 from studio.world.board.host import Fault
-from studio.world.board.post import Post, freshest
+from studio.world.board.post import freshest
 from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.world import World
@@ -78,11 +77,12 @@ def look(world: World) -> None:
         v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
         r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
-    queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
-    traffic.meetings(
-        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
-        c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
-    )  # fmt: skip
+    if c.partner.size:
+        queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
+        traffic.meetings(
+            v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
+            c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
+        )  # fmt: skip
     if o.standing.size:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
 
@@ -95,11 +95,8 @@ def think(world: World) -> None:
 
 def sense(world: World, refuse: Refuse = let_through) -> None:
     """Satellites tell where one is; units look at themselves and around."""
-    v, u, w, r, g, clock = world.vehicles, world.units, world.worlds, world.roads, world.neighbours, world.clock
-    own.carry(
-        clock.k, clock.tick, u.vehicle, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.seed, r.place_of,
-        r.shadow, u.satellite, u.now,
-    )  # fmt: skip
+    u, clock = world.units, world.clock
+    world.carry(clock.k, clock.tick)
     for each in u.mounted:
         for i, what in each.ask(clock.k, clock.time, world.view).items():
             refuse(u.blame(each, i, what))
@@ -109,9 +106,8 @@ def communicate(world: World, refuse: Refuse = let_through) -> None:
     """Beacons go out; what has come in is taken, and laid before the applications."""
     clock = world.clock
     for post in world.units.posts:
-        own = (post.period, post.settings, post.link_sender, post.inbox)
-        with post.answering(refuse):
-            post.exchange(clock.k, clock.tick, *own, *sent(world, post))
+        for fault in post.exchanged(clock.k, clock.time, clock.tick, world.air):
+            refuse(fault)
     for each in world.open_inboxes:
         freshest(each.first, each.count, each.links, each.post.inbox, each.heard, each.slots)
 
@@ -119,18 +115,8 @@ def communicate(world: World, refuse: Refuse = let_through) -> None:
 def dispatch(world: World, refuse: Refuse = let_through) -> None:
     """The radio decides about what applications have sent."""
     for post in world.units.posts:
-        if post.is_of_applications and post.fresh.any():
-            with post.answering(refuse):
-                post.dispatch(*sent(world, post))
-
-
-def sent(world: World, post: Post) -> tuple:
-    """What the radio decides about, and what it looks at for that."""
-    u, w, r = world.units, world.worlds, world.roads
-    return (
-        world.clock.time, post.size, post.stream, post.reach, post.air, u.world, u.entity, w.seed, r.place_of, r.shadow, u.fixed, u.now,
-        post.sender, post.fresh, post.last, post.ring, post.link_first, post.link_receiver, post.arrival, post.lost,
-    )  # fmt: skip
+        for fault in post.dispatched(world.clock.time, world.air):
+            refuse(fault)
 
 
 def applications(world: World, refuse: Refuse = let_through) -> None:
@@ -138,7 +124,7 @@ def applications(world: World, refuse: Refuse = let_through) -> None:
     v, u, clock = world.vehicles, world.units, world.clock
     v.app_command[:] = nan
     for hosted in list(world.hosted):
-        for fault in hosted.decide(clock.time, clock.tick, u.fixed, u.now, v.app_command):
+        for fault in hosted.decide(clock.time, clock.tick, (u.fixed, u.now, v.app_command)):
             refuse(fault)
 
 

@@ -1,19 +1,27 @@
 """What kinds are given: the world as a sensor sees it, the way of a message, and the words they answer with.
 
-A sensor looks at the true world and makes its own errors. `around` finds who is near; `report` writes a target down; random numbers come
-from `draw` and `draw_normal`, each with a number of its own, 0 to 15.
+A sensor looks at the true world and makes its own errors. `around` finds who is near; `look` and `glimpse` tell which bodies can be seen,
+and what of them; `report` writes a target down; random numbers come from `draw` and `draw_normal`, each with a number of its own, 0 to 15,
+and one that tells the targets apart.
 """
 
+from math import cos, sin
 from typing import Any, NamedTuple
 
 from numba import literal_unroll
 
 from studio.compiled import inlined
 from studio.model.random import normal, uniform
+from studio.vehicle.state import V_X, YAW_RATE
 from studio.world.passes.neighbour import within
-from studio.world.table.unit import BUMPER, COSINE, HEADING, OWN_SPEED, OWN_YAW_RATE, SINE, TRUE_X, TRUE_Y
+from studio.world.passes.sight import glimpse as glimpse
+from studio.world.passes.sight import look as look
+from studio.world.passes.sight import target as target
+from studio.world.table.unit import BUMPER, COSINE, HEADING, SINE, TRUE_X, TRUE_Y
 
 MISSHAPEN = -1.0  # in place of a count
+LATE, LOST = range(2)  # draws of the studio for a sensor: its delay, whether a look fails
+OF_THE_STUDIO = 2**32 - 1  # tells them from those of a kind
 
 
 class View(NamedTuple):
@@ -46,6 +54,17 @@ class View(NamedTuple):
     standing: Any  # per object, 1 while it stands there
     place_of: Any  # per world, number of its map
     shadow: Any  # the buildings
+    mind: Any  # what drivers know, [row, vehicle]: of the own vehicle's lane and path, for sensors that see these
+    points: Any  # of all paths, [row, point]
+    chart: Any  # of the roads under these points, [row, point]
+    path_first: Any  # per vehicle
+    path_count: Any
+    stop_first: Any  # stop lines of each vehicle's path
+    stop_count: Any
+    stop_station: Any  # [m] on the path
+    stop_link: Any
+    shown: Any  # what each light shows
+    sight: Any  # bodies that `look` has seen
 
 
 class Me(NamedTuple):
@@ -65,6 +84,12 @@ class Me(NamedTuple):
     yaw_rate: float  # [rad/s]
     stream: int  # of its random numbers
     width: int  # numbers of one Reading
+    noise: float  # factor on its noise, 1 when it is well
+    eye_x: float  # [m] where it is mounted
+    eye_y: float
+    eye_heading: float  # [rad] that it looks along
+    eye_cosine: float
+    eye_sine: float
 
 
 class Way(NamedTuple):
@@ -92,12 +117,37 @@ class Transmission(NamedTuple):
 
 
 @inlined
-def about(view, unit, sensor, stream, width):
-    """Who is asked."""
+def about(view, unit, sensor, stream, width, noise):
+    """Who is asked; its eye is where its unit is."""
     u, v, w = view.unit, view.unit_vehicle[unit], view.unit_world[unit]
+    x, y, c, s = u[TRUE_X, unit], u[TRUE_Y, unit], u[COSINE, unit], u[SINE, unit]
+    speed, yaw_rate = (view.state[V_X, v], view.state[YAW_RATE, v]) if v >= 0 else (0.0, 0.0)
     return Me(
-        sensor, unit, v, w, u[TRUE_X, unit], u[TRUE_Y, unit], u[HEADING, unit], u[COSINE, unit], u[SINE, unit], u[BUMPER, unit],
-        u[OWN_SPEED, unit], u[OWN_YAW_RATE, unit], stream, width,
+        sensor, unit, v, w, x, y, u[HEADING, unit], c, s, u[BUMPER, unit], speed, yaw_rate, stream, width, noise,
+        x, y, u[HEADING, unit], c, s,
+    )  # fmt: skip
+
+
+@inlined
+def placed(me, sensor, settings):
+    """The sensor with the column that it writes into."""
+    return Me(
+        sensor, me.unit, me.vehicle, me.world, me.x, me.y, me.heading, me.cosine, me.sine, me.front, me.speed, me.yaw_rate, me.stream,
+        me.width, me.noise, me.eye_x, me.eye_y, me.eye_heading, me.eye_cosine, me.eye_sine,
+    )  # fmt: skip
+
+
+@inlined
+def looking(me, sensor, settings):
+    """The same with its eye where it is mounted, and turned as it is."""
+    ahead, left, c, s = me.front + settings.forward, settings.left, me.cosine, me.sine
+    if settings.yaw != 0.0:
+        a, b = cos(settings.yaw), sin(settings.yaw)
+        c, s = me.cosine * a - me.sine * b, me.sine * a + me.cosine * b
+    return Me(
+        sensor, me.unit, me.vehicle, me.world, me.x, me.y, me.heading, me.cosine, me.sine, me.front, me.speed, me.yaw_rate, me.stream,
+        me.width, me.noise, me.x + ahead * me.cosine - left * me.sine, me.y + ahead * me.sine + left * me.cosine,
+        me.heading + settings.yaw, c, s,
     )  # fmt: skip
 
 
@@ -112,15 +162,15 @@ def around(view, me, back, ahead, right, left):
 
 
 @inlined
-def draw(view, me, number):
-    """A number in (0, 1); `number`, 0 to 15, tells the draws of one tick apart."""
-    return uniform(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k)
+def draw(view, me, number, about=0):
+    """A number in (0, 1); `number`, 0 to 15, tells the draws of one tick apart, and `about` those for several targets."""
+    return uniform(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k, about)
 
 
 @inlined
-def draw_normal(view, me, number):
-    """A number of the standard normal distribution; `number`, 0 to 15, tells the draws of one tick apart."""
-    return normal(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k)
+def draw_normal(view, me, number, about=0):
+    """Noise: a number of the standard normal distribution, times a factor when the sensor is not well; numbered like those of `draw`."""
+    return me.noise * normal(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k, about)
 
 
 @inlined

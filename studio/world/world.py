@@ -8,14 +8,17 @@ from typing import Protocol
 
 import numpy as np
 
+from studio.compiled import bound
 from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
 from studio.rows import Moving
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
+from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
 from studio.world.board.host import Fault, Group, Hosted
+from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
@@ -60,7 +63,9 @@ class Worlds:
     entity: np.ndarray  # per vehicle, as chance tells them apart
     first: np.ndarray  # per world
     count: np.ndarray  # per world
-    seed: np.ndarray  # per world
+    seed: np.ndarray  # per world, of sensors
+    satellite_seed: np.ndarray  # per world
+    radio_seed: np.ndarray  # per world
 
 
 @dataclass
@@ -68,6 +73,7 @@ class Roads:
     """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
 
     points: np.ndarray
+    chart: np.ndarray  # of the roads under them
     path_first: Moving
     path_count: Moving
     raised: np.ndarray  # 1 for a vehicle whose path has height
@@ -214,6 +220,7 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    sight: np.ndarray  # room for what one sensor sees, [row, body]
     mounted: list[Mounted]
     posts: list[Post]
 
@@ -285,8 +292,22 @@ class World:
         v, u, w, o, r, g, tick = self.vehicles, self.units, self.worlds, self.obstacles, self.roads, self.neighbours, self.clock.tick
         return (
             tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
-            o.table, o.first, o.count, o.standing, r.place_of, r.shadow,
+            o.table, o.first, o.count, o.standing, r.place_of, r.shadow, v.mind, r.points, r.chart, r.path_first, r.path_count,
+            r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight,
         )  # fmt: skip
+
+    @cached_property
+    def air(self) -> tuple:
+        """What radios see of the world, likewise."""
+        u, w, r = self.units, self.worlds, self.roads
+        return u.world, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now
+
+    @cached_property
+    def carry(self) -> Callable:
+        """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
+        v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
+        cars = (u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+        return bound(carry, *cars, w.seed, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
 
     @property
     def size(self) -> int:
@@ -303,6 +324,14 @@ class World:
             return self.obstacles.names[self.objects(world)][OBJECT - number]
         return self.names[world][number]
 
+    def bodies(self, world: int = 0) -> np.ndarray:
+        """Length, width, centre of gravity to front [m], mass [kg] and wheel radius [m] of one world's vehicles, float64[5, vehicle]."""
+        return self.vehicles.parameter[[LENGTH, WIDTH, FRONT, MASS, RADIUS], self.columns(world)]
+
+    def object_numbers(self, world: int = 0) -> list[int]:
+        """The numbers that stand for the objects of one world where those of vehicles may."""
+        return [OBJECT - i for i in range(int(self.obstacles.count[world]))]
+
     def columns(self, world: int = 0) -> slice:
         """Columns of one world."""
         first = int(self.worlds.first[world])
@@ -316,7 +345,12 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [u.satellite, u.now, *(each.out for each in u.mounted), *(part for post in u.posts for part in (post.ring, post.inbox))]
+        units = [
+            u.satellite,
+            u.now,
+            *(part for each in u.mounted for part in (each.out, each.ring, each.output)),
+            *(part for post in u.posts for part in (post.ring, post.inbox)),
+        ]
         happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, s.since, s.met, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -335,7 +369,9 @@ class World:
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
         yield u.now[:, u.world == number]
-        yield from (each.out[:, u.world[each.unit] == number] for each in u.mounted)
+        for each in u.mounted:
+            mine = u.world[each.unit] == number
+            yield from (each.out[:, mine], each.ring[:, mine[each.slots]], each.output[:, mine[each.slots]])
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]

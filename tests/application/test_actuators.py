@@ -46,7 +46,7 @@ def decide(parameters, memory, sees):
 def always(hosted, command):
     """Has an application command the same at every tick."""
 
-    def run(time, tick, fixed, now, commands, unit, column, *rest):
+    def run(fixed, now, commands, unit, column, *rest):
         for i, value in enumerate(command[1:]):
             if int(command.mask) >> i & 1:
                 commands[i, column] = value

@@ -24,12 +24,17 @@ def parameters(name, **given):
 
 def own(v, a):
     """What the bus tells; only speed and acceleration count here."""
-    return Own(v, a, 0.0, 0.0, 60.0, 0.0, 0.0, 0.0, 0.0)
+    return Own(v, a, 0.0, 0.0, 60.0, 0.0, 0.0, 0.0)
 
 
 def sees(module, time, tick, v, a, gap, rate, heard):
     """What an application sees behind one car, from which it may hear something."""
-    ports = {"clock": Clock(time, tick), "own": own(v, a), "front": Targets(1, (Reading(gap, rate, 0.0),)), "heard": Inbox(1, (heard,))}
+    ports = {
+        "clock": Clock(time, tick),
+        "own": own(v, a),
+        "front": Targets(1, (Reading(gap, rate, 0.0),), 0.0),
+        "heard": Inbox(1, (heard,)),
+    }
     return module.Sees(**{name: ports[name] for name in module.Sees._fields})
 
 

@@ -10,14 +10,15 @@ SENSOR = '''
 """Something around. Source: made up."""
 from typing import Annotated, NamedTuple
 from studio.compiled import compiled
-from studio.kind.settings import Part, number
+from studio.kind.sensor import Sensor
+from studio.kind.settings import number
 from studio.world.view import report
 
 KIND = "sensor"
 TITLE = "Tried"
 CAPACITY = 2
 
-class Settings(Part):
+class Settings(Sensor):
     gain: float = number(1.0, unit="1", title="Gain", ge=0, le=10)
 
 class Reading(NamedTuple):
@@ -52,7 +53,7 @@ def test_a_sensor_that_goes_wrong_fails_the_run_and_is_named(made, body):  # noq
 
 def test_settings_that_are_no_numbers_are_told_at_once(made):  # noqa: F811
     with pytest.raises(KindError, match="name is str"):
-        made(odd=SENSOR.format(body="return 0").replace("class Reading", 'class Settings(Part):\n    name: str = "x"\n\nclass Reading'))
+        made(odd=SENSOR.format(body="return 0").replace("class Reading", 'class Settings(Sensor):\n    name: str = "x"\n\nclass Reading'))
 
 
 def test_a_radio_that_goes_wrong_fails_the_run(made):  # noqa: F811

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from studio.assess import compare
+from studio.assess.following import time_to_collision
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
-from studio.assess.safety import time_to_collision
 from studio.execution.happening import happening
-from studio.execution.record import Chain, Record
+from studio.execution.record import Body, Chain, Record
 from studio.scenario.schema import Goal
 from studio.world.channel import CHANNELS
 from studio.world.table.event import ARRIVED, HIT
@@ -19,10 +19,11 @@ NAMES = [channel.name for channel in CHANNELS]
 def record(vehicles=("a", "b"), n=501, chains=(), happenings=(), **channels):
     """A record of 10 s with constant or given channels; the gap is not a number unless given."""
     values = np.zeros((len(NAMES), len(vehicles), n))
-    values[NAMES.index("gap")] = np.nan
+    values[NAMES.index("gap")], values[NAMES.index("ahead")] = np.nan, -1.0
     for name, value in channels.items():
         values[NAMES.index(name)] = value
-    return Record(np.linspace(0, 10, n), values, vehicles, happenings, chains)
+    bodies, called = dict.fromkeys(vehicles, Body(4.5, 1.8, 2.2, 1500.0, 0.3)), dict(enumerate(vehicles))
+    return Record(np.linspace(0, 10, n), values, vehicles, happenings, chains, bodies=bodies, called=called)
 
 
 def test_ttc_of_the_textbook():

@@ -31,7 +31,11 @@ def outcomes(each):
 def same(one, other):
     """Whether two runs are the same in all that is kept of them."""
     assert one.state_hash == other.state_hash and (one.status, one.error) == (other.status, other.error)
-    assert one.record.happenings == other.record.happenings and one.record.links == other.record.links
+    assert (
+        one.record.happenings == other.record.happenings
+        and one.record.links == other.record.links
+        and np.array_equal(one.record.ages, other.record.ages, equal_nan=True)
+    )
     assert one.record.vehicles == other.record.vehicles and one.record.chains == other.record.chains
     assert one.record.time.tobytes() == other.record.time.tobytes()
     np.testing.assert_array_equal(one.record.values, other.record.values)
@@ -105,7 +109,7 @@ def test_the_size_of_a_chunk_changes_nothing(monkeypatch, chunk):
     """251 samples in chunks that are filled just so, or not."""
     one = loaded()
     expected = outcomes([one])[0]
-    monkeypatch.setattr(recording, "CHUNK", chunk)
+    monkeypatch.setattr(recording.Recorder, "room", chunk)
     found = outcomes([one])[0]
     same(found, expected)
     assert found.record.time.size == 251

@@ -7,6 +7,7 @@ import pytest
 from studio import job
 from studio.kind.sort import SORTS
 from studio.store.runs import open_runs
+from tests.broken import EVERY
 from tests.patience import until
 
 SCENARIO = "grosser_stern_platoon"
@@ -85,7 +86,7 @@ def test_a_slot_is_exchanged(client):
     assert "sensors" not in given["vehicles"]["follower_1"]
     changes = {f"{front}.kind": "flawless", f"{front}.patience": 3.0, "clock.duration": 1, "applications": {}}
     checked = client.post(f"/api/scenarios/{SCENARIO}/check", json={"set": changes}).json()
-    sensor = {"kind": "flawless", "range": 80.0, "opening_angle": 0.5, "patience": 3.0}
+    sensor = EVERY | {"kind": "flawless", "range": 80.0, "opening_angle": 0.5, "patience": 3.0}
     assert checked["problems"] == [] and checked["document"]["vehicles"]["follower_1"]["sensors"]["front"] == sensor
     run = client.post("/api/runs", json={"scenario": SCENARIO, "set": changes}).json()["run"]
     detail = finished(client, run)

@@ -92,7 +92,8 @@ class Pushing:
     commands: dict
     groups: tuple = ()
 
-    def decide(self, time, tick, clock, now, commands):
+    def decide(self, time, tick, around):
+        commands = around[-1]
         for (row, column), value in self.commands.items():
             commands[row, column], commands[AUTHORS + row, column] = value, APPLICATION
         return []

@@ -6,7 +6,7 @@ acceleration itself.
 
 import numpy as np
 
-from studio.assess.comfort import WINDOW, jerk
+from studio.assess.comfort import WINDOW, is_long_enough, jerk
 
 KIND = "metric"
 TITLE = "Jerk of the followers, root mean square"
@@ -16,6 +16,6 @@ BETTER = "lower"
 
 def measure(record):
     """Jerk [m/s³]; nothing when the record is shorter than the window."""
-    if record.time.size < 2 or record.time[-1] - record.time[0] < WINDOW + record.time[1] - record.time[0]:
+    if not is_long_enough(record.time, WINDOW):
         return float("nan")
     return np.sqrt(np.nanmean(jerk(record.of_followers("acceleration"), record.time) ** 2))

@@ -1,6 +1,6 @@
 """Strongest deceleration of a follower: how hard the cars had to brake that were not told to by the script."""
 
-from studio.assess.safety import smallest
+from studio.assess.search import greatest
 
 KIND = "metric"
 TITLE = "Strongest deceleration of a follower"
@@ -10,4 +10,4 @@ BETTER = "lower"
 
 def measure(record):
     """Deceleration [m/s²]."""
-    return -smallest(record.of_followers("acceleration"))
+    return greatest(record, -record.of_followers("acceleration"), record.followers)

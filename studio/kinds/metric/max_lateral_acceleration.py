@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from studio.assess.search import greatest
+
 KIND = "metric"
 TITLE = "Strongest lateral acceleration"
 UNIT = "m/s²"
@@ -10,4 +12,4 @@ BETTER = "lower"
 
 def measure(record):
     """Acceleration [m/s²]."""
-    return np.nanmax(np.abs(record.channel("lateral_acceleration")))
+    return greatest(record, np.abs(record.channel("lateral_acceleration")))

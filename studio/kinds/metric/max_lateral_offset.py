@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from studio.assess.search import greatest
+
 KIND = "metric"
 TITLE = "Greatest offset from the path"
 UNIT = "m"
@@ -10,4 +12,4 @@ BETTER = "lower"
 
 def measure(record):
     """Offset [m]."""
-    return np.nanmax(np.abs(record.channel("lateral_offset")))
+    return greatest(record, np.abs(record.channel("lateral_offset")))

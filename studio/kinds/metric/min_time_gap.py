@@ -1,13 +1,14 @@
-"""Least time gap of a follower: the gap over its own speed, while it rolls."""
+"""Least time gap of a follower: the gap over its own speed, while it rolls. Also called time headway, of the gap."""
 
-from studio.assess.safety import smallest
+from studio.assess.search import least_behind
 
 KIND = "metric"
 TITLE = "Least time gap of a follower"
 UNIT = "s"
 BETTER = "higher"
+ABOUT = "{0} behind {1}"
 
 
 def measure(record):
     """Time gap [s]; nothing when nobody followed anybody."""
-    return smallest(record.of_followers("time_gap"))
+    return least_behind(record, record.of_followers("time_gap"), record.followers)

@@ -5,18 +5,19 @@
     spans    int64[6, b]     first wall and count; columns and rows of the grid that the building reaches over
     grid                     which buildings lie in a cell
     sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within the grid
+    mass     uint8[c]        of the same cells what stands there at the height of an eye: OPEN, PARTLY or wholly FULL of a building
 
 A line is looked at from its western end, so that both directions give the same bits. Several maps are joined like those of
 an `Index`. Maps without buildings have no cells.
 """
 
 from collections.abc import Sequence
-from math import cos, inf, pi, sin, sqrt
+from math import cos, floor, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import compiled, lean
 from studio.road.network import Building, Network, grid
 from studio.road.network.grid import CELLS, COLUMNS, ROWS, SOUTH, WEST, Grid, columns_passed, rows_passed
 from studio.road.network.index import once
@@ -29,7 +30,8 @@ SKY_CELL = 4.0  # [m]
 FINER = int(CELL / SKY_CELL)
 SKY_REACH = 200.0  # [m] farther buildings hardly rise over nearer ones
 AZIMUTHS = 24
-EYE = 1.5  # [m] antennas of cars above the road
+EYE = 1.5  # [m] antennas and eyes of cars above the road
+OPEN, PARTLY, FULL = range(3)
 
 
 class Shadow(NamedTuple):
@@ -41,6 +43,7 @@ class Shadow(NamedTuple):
     grid: Grid
     sky_first: np.ndarray  # per map
     sky: np.ndarray
+    mass: np.ndarray
 
 
 @once
@@ -61,14 +64,18 @@ def shadow(buildings: Sequence[Building]) -> Shadow:
         low = grid.place(frame, 0, own[0].min() - grid.MARGIN, own[1].min() - grid.MARGIN)
         high = grid.place(frame, 0, own[0].max() + grid.MARGIN, own[1].max() + grid.MARGIN)
         spans[[COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH], b] = low[0], high[0], low[1], high[1]
-    return Shadow(
+    cells = int(frame[COLUMNS, 0] * frame[ROWS, 0]) * FINER**2
+    made = Shadow(
         walls=flat,
         bodies=np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T.copy(),
         spans=spans,
         grid=grid.over_boxes(frame, spans[COLUMN_LOW:]),
         sky_first=np.zeros(1, dtype=np.int64),
-        sky=np.zeros(int(frame[COLUMNS, 0] * frame[ROWS, 0]) * FINER**2),
+        sky=np.zeros(cells),
+        mass=np.zeros(cells, dtype=np.uint8),
     )
+    fill(made)
+    return made
 
 
 def walls_of(building: Building) -> np.ndarray:
@@ -100,6 +107,7 @@ def joined(shadows: Sequence[Shadow]) -> Shadow:
         grid=grid.joined([each.grid for each in shadows], bodies.tolist()),
         sky_first=skies,
         sky=np.concatenate([each.sky for each in shadows]),
+        mass=np.concatenate([each.mass for each in shadows]),
     )
 
 
@@ -255,3 +263,75 @@ def rise_of(shadow, b, x0, y0, x1, y1):
     if starts_inside:
         return inf
     return height / max(nearest * SKY_REACH, 1e-9) if nearest < 1.0 else 0.0
+
+
+# -- at the height of an eye -----------------------------------------------------------------------
+
+
+@lean
+def is_at_eye(shadow, b):
+    """Whether building b stands at the height of an eye."""
+    return shadow.bodies[BASE, b] < EYE < shadow.bodies[TOP, b]
+
+
+@lean
+def fill(shadow):
+    """Notes of the cells of one map what stands there: first the cells within buildings, then those that walls pass."""
+    frame = shadow.grid.frame
+    for b in range(shadow.bodies.shape[1]):
+        if is_at_eye(shadow, b):
+            fill_within(shadow, b, frame[WEST, 0], frame[SOUTH, 0], int(frame[COLUMNS, 0]) * FINER)
+    for b in range(shadow.bodies.shape[1]):
+        if is_at_eye(shadow, b):
+            for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+                walk(shadow, 0, shadow.walls[0, i], shadow.walls[1, i], shadow.walls[2, i], shadow.walls[3, i], True)
+
+
+@lean
+def fill_within(shadow, b, west, south, columns):
+    """Marks the cells whose middle lies in building b as full of it."""
+    for j in range(shadow.spans[ROW_LOW, b] * FINER, (shadow.spans[ROW_HIGH, b] + 1) * FINER):
+        for i in range(shadow.spans[COLUMN_LOW, b] * FINER, (shadow.spans[COLUMN_HIGH, b] + 1) * FINER):
+            if is_within(shadow, b, west + (i + 0.5) * SKY_CELL, south + (j + 0.5) * SKY_CELL):
+                shadow.mass[j * columns + i] = FULL
+
+
+@lean
+def is_within(shadow, b, x, y):
+    """Whether a place lies in building b: a line from it to the east crosses an odd number of walls."""
+    inside = False
+    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x, shadow.walls[1, i] - y, shadow.walls[2, i] - x, shadow.walls[3, i] - y
+        if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
+            inside = not inside
+    return inside
+
+
+@lean
+def walk(shadow, m, x0, y0, x1, y1, marks):
+    """Goes along a line on map m from cell to cell: what stands in the fullest of them; `marks` them as PARTLY full instead.
+
+    From cell to cell as in J. Amanatides, A. Woo, A fast voxel traversal algorithm for ray tracing, Eurographics 1987.
+    """
+    frame = shadow.grid.frame
+    columns, rows = int(frame[COLUMNS, m]) * FINER, int(frame[ROWS, m]) * FINER
+    u, v = (x0 - frame[WEST, m]) / SKY_CELL, (y0 - frame[SOUTH, m]) / SKY_CELL
+    du, dv = (x1 - x0) / SKY_CELL, (y1 - y0) / SKY_CELL
+    i, j = int(floor(u)), int(floor(v))
+    steps = abs(int(floor(u + du)) - i) + abs(int(floor(v + dv)) - j)
+    next_u = (i + (1.0 if du > 0.0 else 0.0) - u) / du if du != 0.0 else inf
+    next_v = (j + (1.0 if dv > 0.0 else 0.0) - v) / dv if dv != 0.0 else inf
+    most = OPEN
+    for k in range(steps + 1):
+        if 0 <= i < columns and 0 <= j < rows:
+            cell = shadow.sky_first[m] + j * columns + i
+            if marks:
+                shadow.mass[cell] = PARTLY
+            most = max(most, int(shadow.mass[cell]))
+        if most == FULL or k == steps:
+            return most
+        if next_u < next_v:
+            i, next_u = i + (1 if du > 0.0 else -1), next_u + abs(1.0 / du)
+        else:
+            j, next_v = j + (1 if dv > 0.0 else -1), next_v + abs(1.0 / dv)
+    return most

@@ -52,7 +52,8 @@ def at_port(each: Port, time: float, seed: np.random.Generator) -> Any:
     """What might come in at one port."""
     if each.what == TARGETS:
         reading = registry.find("sensor", each.kind).module.Reading
-        return Targets(int(seed.integers(0, each.most + 1)), tuple(draw.quantity_tuple(reading, seed) for _ in range(each.most)))
+        targets = tuple(draw.quantity_tuple(reading, seed) for _ in range(each.most))
+        return Targets(int(seed.integers(0, each.most + 1)), targets, float(seed.uniform(0.0, 0.2)))
     if each.what == INBOX:
         return Inbox(int(seed.integers(0, each.most + 1)), tuple(heard(each, time, seed) for _ in range(each.most)))
     return Clock(time, TICK) if each.what == "clock" else own(seed)

@@ -1,18 +1,22 @@
 """Sensors: mounted on a car among others they give finite readings, compiled and as Python the same."""
 
 from collections.abc import Iterator
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 
 from studio.execution.simulation import Simulation
+from studio.kind.preset import FIELD
 from studio.kind.quantity import quantities
 from studio.kind.registry import Kind
+from studio.kind.sensor import Looking
 from studio.workshop import draw, twice
 from studio.workshop.check import Check, tried
 from studio.workshop.stage import stage
 from studio.world.board.sensing import Mounted
 from studio.world.tick import gather
-from studio.world.view import MISSHAPEN, View, about
+from studio.world.view import MISSHAPEN, View, about, looking, placed
 
 SENSORS = 6  # on the car, with drawn settings each, the first with those that count when nothing is set
 LOOKS, APART = 8, 25  # how often is looked, and how many ticks lie between
@@ -51,14 +55,23 @@ def asked(current: Simulation, each: Mounted, i: int, measure) -> tuple[int, np.
     module = each.kind.module
     out = np.zeros_like(each.out)
     seen = View(current.world.clock.k, current.world.clock.time, *current.world.view)
-    me = about(seen, each.unit[i], i, each.stream[i], sum(one.size for one in each.reading))
-    chosen = current.cases[0].setting.scenario.vehicles["own"].sensors[each.names[i]].model_dump(exclude={"kind"})
+    chosen = current.cases[0].setting.scenario.vehicles["own"].sensors[each.names[i]].model_dump(exclude={"kind", FIELD})
     settings = draw.settings_tuple(module, module.Settings.model_validate(chosen))
-    memory = module.Memory(*each.memory[:, i].tolist()) if hasattr(module, "Memory") else 0
+    who = about(seen, each.unit[i], i, each.stream[i], sum(one.size for one in each.reading), 1.0)
+    me = (looking if issubclass(module.Settings, Looking) else placed)(who, i, settings)
+    memory = remembered(module, each.memory[:, i]) if hasattr(module, "Memory") else 0
     answer = measure(seen, me, settings, memory, out)
     if out[0, i] == MISSHAPEN:
         raise ValueError(f"report() was given something that is no whole Reading: {', '.join(one.name for one in each.reading)} are meant")
     return int(answer[0] if isinstance(answer, tuple) else answer), out[:, i]
+
+
+def remembered(module: ModuleType, rows: np.ndarray) -> Any:
+    """What a sensor remembers, as its kind gets it."""
+    left = iter(rows.tolist())
+    return module.Memory(
+        *[next(left) if one.size == 1 else tuple(next(left) for _ in range(one.size)) for one in quantities(module.Memory)]
+    )
 
 
 def differs(compiled: tuple[int, np.ndarray], plain: tuple[int, np.ndarray]) -> str | None:

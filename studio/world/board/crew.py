@@ -108,7 +108,7 @@ def to_sensors(one: Port, found: list[Crew], units: Units) -> Wiring:
     """The sensor of every unit: that of the port's name, or the only one of its kind."""
     each = next(each for each in units.mounted if each.kind.name == one.kind)
     columns = [sensor_of(one.name, np.flatnonzero(each.unit == unit).tolist(), each.names) for crew in found for unit in crew.units]
-    return Wiring(one, each, ("out",), (np.array([columns], dtype=np.int64),))
+    return Wiring(one, each, ("out", "health"), (np.array([columns], dtype=np.int64),))
 
 
 def sensor_of(name: str, columns: list[int], names: Sequence[str]) -> int:

@@ -1,10 +1,11 @@
 """Equipment: the units of all worlds with their clocks, antennas, sensors and radio, before the first tick.
 
-units_of(settings, worlds, cars)   →  Units
+units_of(settings, worlds, cars, objects, tick)   →  Units
 """
 
 from collections.abc import Iterator, Sequence
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -12,18 +13,33 @@ from studio.application import port
 from studio.application.port import INBOX, OUTBOX
 from studio.kind import registry
 from studio.kind.registry import Kind
-from studio.scenario.schema import Application
+from studio.scenario.schema import Application, Bus
 from studio.world.board.post import Need, Post, post
 from studio.world.board.sensing import Mounted, Sensor, mounted
+from studio.world.passes.sight import ROOM, SIGHT
 from studio.world.setting import Car, Setting
-from studio.world.table.unit import COSINE, GPS_SET, HEADING, OWN_X, OWN_Y, PRESENT, SATELLITE, SINE, TRUE_X, TRUE_Y, UNIT
+from studio.world.table.unit import (
+    COSINE,
+    GPS_SET,
+    HEADING,
+    OWN_X,
+    OWN_Y,
+    PRESENT,
+    SATELLITE,
+    SINE,
+    SPEED_NOISE,
+    TRUE_X,
+    TRUE_Y,
+    UNIT,
+    UNIT_SET,
+)  # fmt: skip
 from studio.world.world import Units, Worlds
 
 STATIONS = 50_000  # stations are numbered from here on, as chance tells them apart
 
 
-def units_of(settings: Sequence[Setting], worlds: Worlds, cars: Sequence[Car]) -> Units:
-    """All units; nothing has been sensed or sent."""
+def units_of(settings: Sequence[Setting], worlds: Worlds, cars: Sequence[Car], objects: int, tick: float) -> Units:
+    """All units, on roads with so many objects; nothing has been sensed or sent."""
     names = tuple((*each.scenario.vehicles, *each.scenario.stations) for each in settings)
     first = np.cumsum([0, *(len(each) for each in names)])[:-1]
     parts = [part for each in settings for part in (*each.scenario.vehicles.values(), *each.scenario.stations.values())]
@@ -33,15 +49,22 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: Sequence[Car]) -
         vehicle=np.array([column for w, each in enumerate(settings) for column in columns(each, int(worlds.first[w]))], dtype=np.int64),
         world=np.repeat(np.arange(len(settings)), [len(each) for each in names]),
         entity=np.array([number for w, each in enumerate(settings) for number in entities(each, worlds, w)], dtype=np.int64),
-        fixed=np.array([(each.clock.offset, each.clock.drift, each.antenna.height) for each in parts]).reshape(-1, 3).T.copy(),
+        fixed=np.array([fixed_rows(each) for each in parts]).reshape(len(parts), -1).T.copy(),
         now=np.zeros((len(UNIT), len(parts))),
         gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
         satellite=np.zeros((len(SATELLITE), len(cars))),
-        mounted=list(sensors_of(parts)),
+        sight=np.zeros((len(SIGHT), len(cars) + objects + ROOM)),
+        mounted=list(sensors_of(parts, tick)),
         posts=[],
     )
     stand(settings, units)
     return units
+
+
+def fixed_rows(part: Any) -> list[float]:
+    """Clock, antenna and bus of a vehicle or station; a station has no bus."""
+    bus = getattr(part, "bus", Bus())
+    return [part.clock.offset, part.clock.drift, part.antenna.height, *(getattr(bus, row.name) for row in UNIT_SET[SPEED_NOISE:])]
 
 
 def columns(each: Setting, first: int) -> Iterator[int]:
@@ -68,14 +91,14 @@ def stand(settings: Sequence[Setting], units: Units) -> None:
             units.now[[OWN_X, OWN_Y], u] = x, y
 
 
-def sensors_of(parts: Sequence) -> Iterator[Mounted]:
+def sensors_of(parts: Sequence, tick: float) -> Iterator[Mounted]:
     """All sensors, kind by kind."""
     found: dict[str, list[Sensor]] = {}
     for unit, part in enumerate(parts):
         for name, settings in part.sensors.items():
             found.setdefault(settings.kind, []).append(Sensor(unit, name, settings))
     for kind, sensors in found.items():
-        yield mounted(registry.find("sensor", kind), sensors)
+        yield mounted(registry.find("sensor", kind), sensors, tick)
 
 
 # -- messages ------------------------------------------------------------------------------------------

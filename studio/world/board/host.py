@@ -11,13 +11,13 @@ fault, and the run of that unit's world fails with it.
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from studio.application import port
 from studio.application.port import ACTUATORS, Port
+from studio.compiled import bound
 from studio.errors import ApplicationError, Problem
 from studio.kind.quantity import quantities
 from studio.kind.registry import Kind
@@ -74,6 +74,7 @@ class Hosted:
     wiring: list[Wiring]
     run: Callable
     checked: list[str] = field(default_factory=list)  # names of the fields, as faults count them
+    ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
     @property
     def shows(self) -> bool:
@@ -85,16 +86,21 @@ class Hosted:
         """The quantities that it logs."""
         return [each for one in port.done(self.application.module) if one.what == port.LOG for each in quantities(one.type)]
 
-    @cached_property
+    @property
     def arrays(self) -> tuple[np.ndarray, ...]:
-        """What the loop reads and writes, once the world is in one piece: from then on arrays stay where they are."""
+        """What the loop reads and writes of its own."""
         own = (self.unit, self.column, self.rank, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
         return (*own, *(array for each in self.wiring for array in each.arrays))
 
-    def decide(self, time: float, tick: float, fixed: np.ndarray, now: np.ndarray, commands: np.ndarray) -> Iterator["Fault"]:
-        """All its units decide; their commands go to their vehicles' columns. Returns what went wrong."""
+    def decide(self, time: float, tick: float, around: tuple[np.ndarray, ...]) -> Iterator["Fault"]:
+        """All its units decide; their commands go to their vehicles' columns. Returns what went wrong.
+
+        `around` are the arrays of the world: settings of units, what they know, commands. All arrays stay where they are.
+        """
         try:
-            faults = self.run(time, tick, fixed, now, commands, *self.arrays)
+            if not self.ready:
+                self.ready["run"] = bound(self.run, *around, *self.arrays, then=(time, tick))
+            faults = self.ready["run"](time, tick)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())

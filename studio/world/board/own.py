@@ -1,12 +1,13 @@
 """What units know of themselves: bus and satellite receiver of a vehicle, the place of a station."""
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
+from studio.model.random import BUS_NOISE, normal
 from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.satellite import fix
-from studio.world.table.mind import V_DESIRED, WISH
+from studio.world.table.mind import V_DESIRED
 from studio.world.table.unit import (
     BUMPER,
     COSINE,
@@ -14,7 +15,6 @@ from studio.world.table.unit import (
     GPS_NORTH,
     HEADING,
     OWN_ACCELERATION,
-    OWN_DRIVER,
     OWN_REQUEST,
     OWN_SET_SPEED,
     OWN_SPEED,
@@ -24,13 +24,16 @@ from studio.world.table.unit import (
     OWN_YAW_RATE,
     PRESENT,
     SINE,
+    SPEED_NOISE,
+    STEERING_NOISE,
     TRUE_X,
     TRUE_Y,
 )  # fmt: skip
 
 
 @lean
-def carry(k, tick, vehicle, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, place_of, shadow, satellite, now):
+def carry(vehicle, fixed, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, bus_seed, place_of, shadow, satellite,
+          now, k, tick):  # fmt: skip
     """Satellites tell vehicles where they are, and every unit on a vehicle goes with it; stations stay as they are."""
     fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, satellite)
     n = state.shape[1]
@@ -43,7 +46,16 @@ def carry(k, tick, vehicle, state, parameter, mind, commands, places, gps_set, w
         now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]
         now[OWN_SPEED, u], now[OWN_ACCELERATION, u] = state[V_X, v], state[A_X, v]
         now[OWN_YAW_RATE, u], now[OWN_STEERING, u] = state[YAW_RATE, v], state[DELTA, v]
-        now[OWN_SET_SPEED, u], now[OWN_DRIVER, u] = mind[V_DESIRED, v], mind[WISH, v]
+        blur(k, u, entity[v], bus_seed[world_of[v]], fixed, now)
+        now[OWN_SET_SPEED, u] = mind[V_DESIRED, v]
         now[OWN_REQUEST, u] = commands[U, ((k - 1) % RING) * n + v]
         now[OWN_X, u] = state[X, v] + satellite[GPS_EAST, v]
         now[OWN_Y, u] = state[Y, v] + satellite[GPS_NORTH, v]
+
+
+@inlined
+def blur(k, u, unit, seed, fixed, now):
+    """Puts noise on the signals of a unit's bus; one without noise draws nothing."""
+    for row in range(SPEED_NOISE, STEERING_NOISE + 1):
+        if fixed[row, u] > 0.0:
+            now[OWN_SPEED + row - SPEED_NOISE, u] += fixed[row, u] * normal(seed, unit, BUS_NOISE, k, row)

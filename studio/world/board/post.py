@@ -8,9 +8,8 @@ At a tick: beacons go out, then what has come in by now is taken; what applicati
 """
 
 import traceback
-from collections.abc import Callable, Generator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
 from math import ceil, inf, sqrt
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -19,7 +18,7 @@ import numpy as np
 from numba import literal_unroll
 
 from studio.application.contract import Own
-from studio.compiled import inlined, lean
+from studio.compiled import bound, inlined, lean
 from studio.errors import ApplicationError
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
@@ -69,8 +68,8 @@ from {radio_module} import SettingsTuple as Radio, transmit
 {imports}
 
 @lean
-def dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
-             link_receiver, arrival, lost):
+def dispatch(size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
+             link_receiver, arrival, lost, time):
     for i in range(sender.size):
         if fresh[i] == 0:
             continue
@@ -85,11 +84,11 @@ def dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, s
 
 
 @lean
-def exchange(k, tick, period, settings, link_sender, inbox, time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed,
-             now, sender, fresh, last, ring, link_first, link_receiver, arrival, lost):
+def exchange(period, settings, link_sender, inbox, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender,
+             fresh, last, ring, link_first, link_receiver, arrival, lost, k, time, tick):
 {beacons}
-    dispatch(time, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
-             link_receiver, arrival, lost)
+    dispatch(size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
+             link_receiver, arrival, lost, time)
     receive(time, tick, sender.size, last, ring, link_sender, arrival, inbox)
 '''
 BEACONS = """    for i in range(sender.size):
@@ -123,15 +122,34 @@ class Post:
     inbox: Moving  # [row, link]
     dispatch: Callable  # the radio decides about what was sent
     exchange: Callable  # beacons go out, the radio decides, what has come in is taken
+    ready: dict[str, Callable] = field(default_factory=dict)  # the same with all arrays given, once they have been called
 
-    @contextmanager
-    def answering(self, refuse: Callable[[Fault], None]) -> Generator[None]:
+    def exchanged(self, k: int, time: float, tick: float, around: tuple) -> Iterable[Fault]:
+        """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
+        own = () if "exchange" in self.ready else (self.period, self.settings, self.link_sender, self.inbox, *self.given(around))
+        return self.called("exchange", own, (k, time, tick))
+
+    def dispatched(self, time: float, around: tuple) -> Iterable[Fault]:
+        """Calls `dispatch` when applications have sent something, likewise."""
+        if not self.is_of_applications or not self.fresh.any():
+            return ()
+        return self.called("dispatch", () if "dispatch" in self.ready else self.given(around), (time,))
+
+    def called(self, name: str, arrays: tuple, now: tuple) -> Iterable[Fault]:
         """A message or radio that raises ends the runs of all worlds that have it; told with the traceback."""
         try:
-            yield
+            if name not in self.ready:
+                self.ready[name] = bound(getattr(self, name), *arrays, then=now)
+            self.ready[name](*now)
         except (Exception, SystemExit):
             text = f"The message {self.kind.name!r} on the radio {self.radio.name!r} cannot be sent:\n{traceback.format_exc()}"
-            refuse(Fault(self.worlds, ApplicationError(text)))
+            return (Fault(self.worlds, ApplicationError(text)),)
+        return ()
+
+    def given(self, around: tuple) -> tuple:
+        """What the radio decides about, and what it looks at for that."""
+        own = (self.sender, self.fresh, self.last, self.ring, self.link_first, self.link_receiver, self.arrival, self.lost)
+        return (self.size, self.stream, self.reach, self.air, *around, *own)
 
     @property
     def size(self) -> float:

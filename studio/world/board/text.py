@@ -22,7 +22,7 @@ from studio.kind.number import shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, quantities
 from studio.kind.registry import Kind
 from studio.world.board.host import NOT_FINITE, NOT_ITS_OWN, OUT_OF_RANGE, is_compiled
-from studio.world.table.unit import H_CAME, H_MISSED, H_NUMBER, H_SENDER, H_STAMP, HEARD, OWN_FIRST
+from studio.world.table.unit import H_CAME, H_MISSED, H_NUMBER, H_SENDER, H_STAMP, HEARD, MEASURED, OWN_FIRST
 
 HEAD = '''"""Calls {name} for all its units."""
 
@@ -36,7 +36,7 @@ from {module} import Does, Memory, ParametersTuple, Sees, decide
 {parts}
 
 
-{above}def run(time, tick, fixed, now, commands, unit, column, rank, parameters, memory, said, shown, fault, wrong{arguments}):
+{above}def run(fixed, now, commands, unit, column, rank, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
     faults = 0
     for j in range(unit.size):
         u = unit[j]
@@ -149,7 +149,7 @@ def short(value: Any) -> str:
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
-WIRES = {TARGETS: "ab", INBOX: "abc", OUTBOX: "abcd"}  # out, column; inbox, links, how many; ring, last, fresh, sender
+WIRES = {TARGETS: "abc", INBOX: "abc", OUTBOX: "abcd"}  # out, health, column; inbox, links, how many; ring, last, fresh, sender
 
 
 # -- the text --------------------------------------------------------------------------------------------
@@ -198,7 +198,7 @@ def part(i: int, each: Port) -> str:
         of = quantities(kind_of(each).module.Reading)
         targets = ", ".join(f"Reading{i}({values(of, 'out', 's', 1 + k * total(of))})" for k in range(each.most))
         none = ", ".join(f"Reading{i}({blanks(of)})" for _ in range(each.most))
-        return TARGET.format(i=i, targets=targets, none=none)
+        return TARGET.format(i=i, targets=targets, none=none, measured=MEASURED)
     of = quantities(kind_of(each).module.Payload)
     return MESSAGE.format(i=i, blank=blanks(of), payload=values(of, "inbox", "link", len(HEARD)), **ROWS)
 
@@ -206,10 +206,10 @@ def part(i: int, each: Port) -> str:
 TARGET = """
 
 @inlined
-def read{i}(out, s, most):
-    if s < 0:
-        return Targets(0, ({none},))
-    return Targets(min(int(out[0, s]), most), ({targets},))
+def read{i}(out, health, s, most, time, offset, rate):
+    if s < 0 or health[{measured}, s] < 0.0:
+        return Targets(0, ({none},), time * rate + offset)
+    return Targets(min(int(out[0, s]), most), ({targets},), (time - health[{measured}, s]) * rate)
 """
 MESSAGE = """
 
@@ -252,7 +252,7 @@ def seeing(each: Port, seen: list[tuple[int, Port]]) -> str:
         return f"{each.name}=Own({', '.join(f'now[{OWN_FIRST + i}, u]' for i in range(len(OWN)))})"
     i = next(i for i, other in seen if other == each)
     if each.what == TARGETS:
-        return f"{each.name}=read{i}(a{i}, b{i}[0, j], {each.most})"
+        return f"{each.name}=read{i}(a{i}, b{i}, c{i}[0, j], {each.most}, time, offset, rate)"
     messages = ", ".join(f"read{i}(a{i}, b{i}[{k}, j], time * rate + offset, offset, rate)" for k in range(each.most))
     return f"{each.name}=Inbox(c{i}[j], ({messages},))"
 

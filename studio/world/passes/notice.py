@@ -129,20 +129,17 @@ def notice(world: World, at: Watch) -> None:
     """The pass: all that has happened in the tick that is over."""
     v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
     at.make_room(e.hits.shape[1])
-    notice_events(
-        s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, v.state, at.table, at.count
-    )
-    notice_vehicles(time, v.state, w.of, w.number, at.named, at.vehicles_told, at.table, at.count)
     u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
-    if at.follower.size:
-        notice_company(now, v.state, v.mind, w.of, at.follower, at.member_first, at.member_count, at.member, at.between, at.table, at.count)
+    notice_events(
+        time, now, s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
+        at.named, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, at.hands,
+        at.hands_since, v.state, v.mind, at.table, at.count,
+    )  # fmt: skip
     if r.stop_station.size:
         notice_lights(
             time, world.clock.tick, v.state, v.mind, v.parameter, w.of, w.number, at.named, r.path_first, r.stop_first, r.stop_count,
             r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
         )  # fmt: skip
-    notice_drivers(now, v.state, v.mind, w.of, w.number, at.acting, at.table, at.count)
-    notice_hands(now, v.state, v.mind, w.of, w.number, at.named, at.hands, at.hands_since, at.table, at.count)
     for post in u.posts:
         notice_messages(now, world.clock.tick, post.inbox, post.link_receiver, post.sender, post.link_sender, u.world, u.first, u.now,
                         at.table, at.count)  # fmt: skip
@@ -181,10 +178,16 @@ def is_news(true, told, i):
 
 
 @lean
-def notice_events(turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, state, table, count):
-    """What the script and collisions have brought."""
+def notice_events(time, now, turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
+                  vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind, table,
+                  count):  # fmt: skip
+    """What may happen in every world, in one call: what the script, collisions, routes, chains and drivers have brought."""
     notice_script(turned, cut, vehicle, state, script_world, script_told, table, count)
     notice_hits(found, hits, first, state, hits_told, table, count)
+    notice_vehicles(time, state, world_of, number, named, vehicles_told, table, count)
+    notice_company(now, state, mind, world_of, follower, member_first, member_count, member, between, table, count)
+    notice_drivers(now, state, mind, world_of, number, acting, table, count)
+    notice_hands(now, state, mind, world_of, number, named, hands, hands_since, table, count)
 
 
 @lean

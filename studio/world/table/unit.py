@@ -15,7 +15,7 @@ SINE = UNIT.row("sine", "1", "of the heading")
 BUMPER = UNIT.row("bumper", "m", "from its position to its front, where sensors are mounted")
 PRESENT = UNIT.row("present", "1", "1 until its vehicle has arrived")
 OWN_FIRST = len(UNIT)  # the rows of `Own`, in its order
-OWN_SPEED, OWN_ACCELERATION, OWN_YAW_RATE, OWN_STEERING, OWN_SET_SPEED, OWN_DRIVER, OWN_REQUEST, OWN_X, OWN_Y = [
+OWN_SPEED, OWN_ACCELERATION, OWN_YAW_RATE, OWN_STEERING, OWN_SET_SPEED, OWN_REQUEST, OWN_X, OWN_Y = [
     UNIT.row(each.name, each.unit, each.meaning) for each in OWN
 ]
 
@@ -23,6 +23,10 @@ UNIT_SET = Table("unit_setting", Role.PARAMETER, per="unit")
 OFFSET = UNIT_SET.row("clock_offset", "s", "of its clock at the start")
 DRIFT = UNIT_SET.row("clock_drift", "1", "seconds that it gains a second")
 HEIGHT = UNIT_SET.row("antenna_height", "m", "above the road")
+SPEED_NOISE = UNIT_SET.row("speed_noise", "m/s", "of the speed on its bus, standard deviation")
+ACCELERATION_NOISE = UNIT_SET.row("acceleration_noise", "m/s²", "of the acceleration on its bus")
+YAW_RATE_NOISE = UNIT_SET.row("yaw_rate_noise", "rad/s", "of the yaw rate on its bus")
+STEERING_NOISE = UNIT_SET.row("steering_noise", "rad", "of the road wheel angle on its bus")
 
 SATELLITE = Table("satellite", Role.DERIVED, per="vehicle")
 DRIFT_EAST = SATELLITE.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
@@ -35,6 +39,16 @@ DRIFT_SIGMA = GPS_SET.row("drift", "m", "standard deviation of the slow error un
 DRIFT_TIME = GPS_SET.row("correlation_time", "s", "of the slow error")
 GPS_SIGMA = GPS_SET.row("noise", "m", "standard deviation of the white noise")
 CANYON = GPS_SET.row("canyon_factor", "1", "by how much the slow error is larger where no sky is open")
+
+SENSOR = Table("sensor", Role.STATE, per="sensor")
+FAILS = SENSOR.row("fails", "1", "1 while it gives nothing: a fault that the script may set")
+NOISE = SENSOR.row("noise", "1", "factor on all of its noise, 1 when it is well: a fault that the script may set")
+MEASURED = SENSOR.row("measured", "s", "true time at which what it gives was measured; -1 while it has given nothing")
+
+# What a sensor has measured and not given yet stands in a ring, one column per slot; these rows beside what it gives.
+OUTPUT = Table("output", Role.STATE, per="slot of the ring of a sensor")
+DUE = OUTPUT.row("due", "s", "true time from which on it is given; infinite in a slot that waits for nothing")
+TAKEN = OUTPUT.row("taken", "s", "true time at which it was measured")
 
 # A message that was sent stands in a ring, one column per slot and sender; behind these rows comes what it carries.
 SENT = Table("sent", Role.STATE, per="slot of the ring and sender")

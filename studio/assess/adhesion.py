@@ -1,0 +1,18 @@
+"""Adhesion: how much of what they can transmit the tyres did."""
+
+import numpy as np
+
+from studio.execution.record import Record
+
+WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
+CHANNELS = tuple(f"adhesion_{wheel}" for wheel in WHEELS)
+
+
+def used(record: Record) -> np.ndarray:
+    """Use of adhesion [1], float64[wheel, vehicle, n]."""
+    return np.array([record.channel(name) for name in CHANNELS])
+
+
+def most_used(record: Record) -> np.ndarray:
+    """Of the wheel that uses most of it, float64[vehicle, n]."""
+    return used(record).max(axis=0)

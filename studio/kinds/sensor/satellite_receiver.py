@@ -1,0 +1,99 @@
+"""Satellite receiver: position with a slow error, white noise and the shadow of buildings, and the heading of the way over ground.
+
+The slow error of each axis is a Gauss-Markov process (studio/model/satellite.py), larger where buildings hide the sky; white noise comes
+on top. The heading is that of the velocity over ground, whose noise is `speed_noise` each way: over speed it is an error of the angle, and
+below 0.5 m/s the last heading is kept.
+
+Presets: a plain receiver 1.5 to 3 m with correlation times from 10 s to half an hour, with corrections (DGNSS) 0.5 to 1 m, with carrier
+phase (RTK) 0.02 m (ION, Navigation; P. D. Groves, Principles of GNSS, Inertial, and Multisensor Integrated Navigation Systems, 2013,
+ch. 9 and 10). How much larger errors are between houses, and the delays, are estimated.
+"""
+
+from math import atan2, cos, sin
+from typing import Annotated, NamedTuple
+
+from studio.compiled import inlined
+from studio.kind.preset import Preset
+from studio.kind.sensor import Sensor
+from studio.kind.settings import number
+from studio.model import satellite
+from studio.road.network.grid import COLUMNS
+from studio.road.network.shadow import open_sky
+from studio.world.view import draw_normal, report
+
+KIND = "sensor"
+TITLE = "Satellite receiver with heading"
+DRIFT_EAST, DRIFT_NORTH, EAST, NORTH, SPEED_EAST, SPEED_NORTH = range(6)  # draws
+SLOW = 0.5  # [m/s] below this the heading over ground says nothing
+
+
+class Settings(Sensor):
+    """How large its errors are."""
+
+    drift: float = number(1.5, unit="m", title="Slow error", description="standard deviation under an open sky, each way", ge=0, le=100)
+    correlation_time: float = number(60.0, unit="s", title="Correlation time", description="of the slow error", ge=0.1, le=100_000)
+    noise: float = number(0.3, unit="m", title="White noise", description="standard deviation, each way", ge=0, le=100)
+    canyon_factor: float = number(
+        5.0, unit="1", title="Factor without sky", description="by how much the slow error is larger where buildings hide the whole sky",
+        ge=1, le=100,
+    )  # fmt: skip
+    speed_noise: float = number(0.05, unit="m/s", title="Noise of the velocity", description="standard deviation, each way", ge=0, le=5)
+
+
+SOURCE = "P. D. Groves, Principles of GNSS, 2013, ch. 9 and 10; delays and factors without sky estimated"
+PRESETS = {
+    "gnss": Preset("Plain receiver", SOURCE, {"delay": 0.1, "delay_variation": 0.02, "period": 0.1}),
+    "dgnss": Preset("With corrections", SOURCE, {"drift": 0.7, "noise": 0.2, "delay": 0.1, "delay_variation": 0.02, "period": 0.1}),
+    "rtk": Preset("With carrier phase", SOURCE, {
+        "drift": 0.015, "correlation_time": 30.0, "noise": 0.01, "canyon_factor": 50.0, "speed_noise": 0.02, "delay": 0.05, "period": 0.05,
+    }),
+}  # fmt: skip
+
+
+class Memory(NamedTuple):
+    """The slow errors over their standard deviation, when they were so, and the heading that was told."""
+
+    east: Annotated[float, "1"] = 0.0
+    north: Annotated[float, "1"] = 0.0
+    time: Annotated[float, "s"] = -1.0
+    heading: Annotated[float, "rad"] = 0.0
+
+
+class Reading(NamedTuple):
+    """Where it takes itself to be."""
+
+    x: Annotated[float, "m", "east position of the centre of gravity, in the coordinates of the map"] = 0.0
+    y: Annotated[float, "m", "north position, likewise"] = 0.0
+    heading: Annotated[float, "rad", "of the way over ground, counter-clockwise from east"] = 0.0
+    speed: Annotated[float, "m/s", "over ground"] = 0.0
+    sigma: Annotated[float, "m", "standard deviation that it gives for its position, each way"] = 0.0
+
+
+@inlined
+def sky_over(view, me):
+    """Share of the sky that is open."""
+    place = view.place_of[me.world]
+    return open_sky(view.shadow, place, me.x, me.y) if view.shadow.grid.frame[COLUMNS, place] > 0.0 else 1.0
+
+
+@inlined
+def course(memory, east, north):
+    """The heading over ground, and the speed."""
+    speed = (east * east + north * north) ** 0.5
+    return (atan2(north, east) if speed > SLOW else memory.heading), speed
+
+
+@inlined
+def measure(view, me, settings, memory, out):
+    """A position; at the first look the slow error is drawn as if it had long been running."""
+    phi = satellite.kept(view.time - memory.time, settings.correlation_time) if memory.time >= 0.0 else 0.0
+    z_east = satellite.drift(memory.east, phi, draw_normal(view, me, DRIFT_EAST))
+    z_north = satellite.drift(memory.north, phi, draw_normal(view, me, DRIFT_NORTH))
+    sigma = satellite.spread(settings.drift, settings.canyon_factor, sky_over(view, me))
+    x = me.x + sigma * z_east + settings.noise * draw_normal(view, me, EAST)
+    y = me.y + sigma * z_north + settings.noise * draw_normal(view, me, NORTH)
+    east = me.speed * cos(me.heading) + settings.speed_noise * draw_normal(view, me, SPEED_EAST)
+    north = me.speed * sin(me.heading) + settings.speed_noise * draw_normal(view, me, SPEED_NORTH)
+    heading, speed = course(memory, east, north)
+    report(out, me, 0, Reading(x, y, heading, speed, (sigma * sigma + settings.noise * settings.noise) ** 0.5))
+    return 1, Memory(z_east, z_north, view.time, heading)

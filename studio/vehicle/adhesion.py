@@ -1,0 +1,36 @@
+"""Adhesion: how much of it the wheels use, made of the fleet's state whenever somebody records it."""
+
+import numpy as np
+
+from studio.compiled import lean
+from studio.model import adhesion
+from studio.rows import Role, Table
+from studio.vehicle.contact import MU
+from studio.vehicle.corner import OVERLOAD
+from studio.vehicle.fleet import Fleet
+from studio.vehicle.state import F_X, F_Y, F_Z
+from studio.vehicle.tile import tyre_at
+
+ADHESION = Table("adhesion", Role.RECORD, per="recorded vehicle")
+FRONT_LEFT = ADHESION.row(
+    "adhesion_front_left", "1", "force of the tyre over the greatest that it can transmit", label="Use of adhesion, front left"
+)
+FRONT_RIGHT = ADHESION.row("adhesion_front_right", "1", "the same of this wheel", label="Use of adhesion, front right")
+REAR_LEFT = ADHESION.row("adhesion_rear_left", "1", "the same of this wheel", label="Use of adhesion, rear left")
+REAR_RIGHT = ADHESION.row("adhesion_rear_right", "1", "the same of this wheel", label="Use of adhesion, rear right")
+
+
+def sample(fleet: Fleet, columns: np.ndarray, values: np.ndarray) -> None:
+    """Use of adhesion of some vehicles, float64[wheel, vehicle]."""
+    use(columns, fleet.size, fleet.tyres, fleet.tyres_of, fleet.wheels, fleet.ground, values)
+
+
+@lean
+def use(columns, n, tyres, tyres_of, wheels, ground, values):
+    """The pass behind it; tyres_of int64[2, n] are those of the front and the rear axle."""
+    for i in range(columns.size):
+        for corner in range(4):
+            w = corner * n + columns[i]
+            t = tyre_at(tyres, tyres_of[corner // 2, columns[i]])
+            F = min(wheels[F_Z, w], OVERLOAD * t.LFZO * t.FNOMIN)
+            values[corner, i] = adhesion.used(t, wheels[F_X, w], wheels[F_Y, w], F, ground[MU, w])

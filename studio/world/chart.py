@@ -1,0 +1,74 @@
+"""The chart: what a map says of the road under every point of a path, for sensors that read markings, signs and maps.
+
+chart_of(lines, settings)   →  float64[row, point]      beside the points of all paths
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.road.network import Network
+from studio.road.ways.path import PATH_SPACING, Path
+from studio.rows import Role, Table
+from studio.world.line import Lines
+from studio.world.setting import Setting
+
+NOWHERE = 1e6  # [m] to a junction that does not come
+
+CHART = Table("chart", Role.PARAMETER, per="point of a path")
+LANE_WIDTH = CHART.row("lane_width", "m", "of the lane that the path is on")
+LANES_LEFT = CHART.row("lanes_left", "1", "lanes of the same direction to its left")
+LANES_RIGHT = CHART.row("lanes_right", "1", "lanes of the same direction to its right")
+LIMIT = CHART.row("limit", "m/s", "speed that is allowed there")
+JUNCTION = CHART.row("junction", "m", "along the path to the next junction, 0 within one, 1e6 where none comes")
+
+
+class Piece(NamedTuple):
+    """A stretch of a path on one lane, and where on the path the junction behind it begins; infinite where there is none."""
+
+    begin: float
+    lane: int
+    junction: float
+
+
+def chart_of(lines: Lines, settings: Sequence[Setting]) -> np.ndarray:
+    """Of the points of all lines; lines that share their points share what is under them."""
+    chart = np.zeros((len(CHART), lines.points.shape[1]))
+    for w, path, first in {each.first: each for each in lines.laid}.values():
+        chart[:, first : first + path.points.shape[1]] = under(path, settings[w].network)
+    return chart
+
+
+def under(path: Path, network: Network) -> np.ndarray:
+    """What is under the points of one path."""
+    found = pieces(path, network)
+    stations = np.arange(path.points.shape[1]) * PATH_SPACING
+    number = np.maximum(np.searchsorted([each.begin for each in found], stations, side="right") - 1, 0)
+    lane = np.array([lane_rows(network, each.lane) for each in found]).T[:, number]
+    ends = np.array([each.junction for each in found])
+    coming = np.minimum.accumulate(ends[::-1])[::-1][number]  # of this piece, or of one that comes
+    return np.concatenate([lane, np.clip(coming - stations, 0.0, NOWHERE)[None]])
+
+
+def lane_rows(network: Network, number: int) -> list[float]:
+    """Width, lanes beside and limit of a lane."""
+    lane = network.lanes[number]
+    beside = len(network.roads[lane.road].lanes) - 1 - lane.index, lane.index
+    left, right = beside if network.drive_side == "right" else beside[::-1]
+    return [lane.width, left, right, lane.speed]
+
+
+def pieces(path: Path, network: Network) -> list[Piece]:
+    """The lanes that a path is on, in order."""
+    lanes = [network.roads[each.road].lanes[each.lane_index] for each in path.stations]
+    behind = [*map(float, junctions(path, lanes, network)), np.inf]
+    return [Piece(each.s, lane, end) for each, lane, end in zip(path.stations, lanes, behind, strict=True)]
+
+
+def junctions(path: Path, lanes: list[int], network: Network) -> Iterator[float]:
+    """Where the junction between each lane and the next begins; infinite where the next lane follows at once."""
+    inside = {(each.from_lane, each.to_lane): sum(network.lanes[i].length for i in each.via) for each in network.connections}
+    for one, other, behind in zip(lanes, lanes[1:], path.stations[1:], strict=False):
+        length = inside.get((one, other), 0.0)
+        yield behind.s - length if length > 0.0 else np.inf

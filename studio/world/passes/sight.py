@@ -1,0 +1,388 @@
+"""Sight: which bodies a sensor sees. What is nearer hides what is behind it, bearing by bearing; so do buildings.
+
+The bodies in the field are gone through, the nearest first. Of the bearings between which a body's outline lies, those count that are in
+the field and that nothing nearer covers; their share of all of them must reach a threshold. Then the body covers its own. Covered bearings
+are kept as intervals that do not touch, in order. What is measured is the nearest point of the outline at a bearing that is seen.
+A body hides what is behind its nearest point: two that stand side by side and reach into each other's depth are ordered by that.
+"""
+
+from math import atan2, cos, floor, pi, sin
+
+from studio.compiled import inlined, lean
+from studio.model.sensor import turned
+from studio.model.sight import edges, far, met, nearest
+from studio.road.network.grid import CELLS, COLUMNS, ROWS, SIZE, SOUTH, WEST
+from studio.road.network.shadow import FULL, OPEN, WALL_COUNT, WALL_FIRST, is_at_eye, level, walk
+from studio.rows import Role, Table
+from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
+from studio.vehicle.state import ACTIVE, X, Y
+from studio.world.passes.neighbour import COS, SIN, within
+from studio.world.table.street import CONE, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+
+SIGHT = Table("sight", Role.SCRATCH, per="body in the field of the sensor that looks")
+WHO = SIGHT.row("who", "1", "column of a vehicle, or OBJECT - i for object i of all worlds")
+MIDDLE_X = SIGHT.row("middle_x", "m", "of its outline, ahead of the sensor")
+MIDDLE_Y = SIGHT.row("middle_y", "m", "of its outline, to the left")
+TURNED_COS = SIGHT.row("turned_cosine", "1", "of its heading against that of the sensor")
+TURNED_SIN = SIGHT.row("turned_sine", "1", "of its heading against that of the sensor")
+LONG = SIGHT.row("length", "m", "of its outline")
+WIDE = SIGHT.row("width", "m", "of its outline")
+NEAR = SIGHT.row("near", "m", "distance of its nearest point")
+LOW = SIGHT.row("low", "rad", "bearing of its right edge")
+HIGH = SIGHT.row("high", "rad", "bearing of its left edge, not below the other")
+SHARE = SIGHT.row("share", "1", "of its bearings that is seen")
+SEEN_X = SIGHT.row("seen_x", "m", "nearest point that is seen, ahead of the sensor")
+SEEN_Y = SIGHT.row("seen_y", "m", "nearest point that is seen, to the left")
+PLACE_IN_ORDER = SIGHT.row("in_order", "1", "column of the body that has this place among all, the nearest first")
+BLOCK_LOW = SIGHT.row("block_low", "rad", "covered bearings: from here")
+BLOCK_HIGH = SIGHT.row("block_high", "rad", "covered bearings: to here")
+TRACK_WHO = SIGHT.row("track_who", "1", "number in its world of what a track follows, or OBJECT - i")
+TRACK_NUMBER = SIGHT.row("track_number", "1", "of the track")
+TRACK_SINCE = SIGHT.row("track_since", "s", "when it began")
+TRACK_EXISTENCE = SIGHT.row("track_existence", "1", "of the track")
+TRACK_SEEN = SIGHT.row("track_seen", "1", "1 when it has been seen at this look")
+
+ROOM = 64  # columns besides one for each body: covered bearings, and tracks
+LEAST = 1e-9  # [rad] bearings below that are rounding
+
+
+# -- covered bearings ----------------------------------------------------------------------------------
+
+
+@inlined
+def cover(low, high, sight, blocks):
+    """Covers the bearings from low to high, within -π and π; how many intervals there are now."""
+    if high <= low or blocks >= sight.shape[1] - 1:
+        return blocks
+    first = 0
+    while first < blocks and sight[BLOCK_HIGH, first] < low:
+        first += 1
+    last = first
+    while last < blocks and sight[BLOCK_LOW, last] <= high:
+        low, high = min(low, sight[BLOCK_LOW, last]), max(high, sight[BLOCK_HIGH, last])
+        last += 1
+    if last == first:
+        for i in range(blocks, first, -1):
+            sight[BLOCK_LOW, i], sight[BLOCK_HIGH, i] = sight[BLOCK_LOW, i - 1], sight[BLOCK_HIGH, i - 1]
+        blocks += 1
+    elif last > first + 1:
+        gone = last - first - 1
+        for i in range(last, blocks):
+            sight[BLOCK_LOW, i - gone], sight[BLOCK_HIGH, i - gone] = sight[BLOCK_LOW, i], sight[BLOCK_HIGH, i]
+        blocks -= gone
+    sight[BLOCK_LOW, first], sight[BLOCK_HIGH, first] = low, high
+    return blocks
+
+
+@inlined
+def free(low, high, sight, blocks):
+    """How much [rad] of the bearings from low to high is not covered."""
+    left = high - low
+    if left <= 0.0:
+        return 0.0
+    for i in range(blocks):
+        left -= max(min(high, sight[BLOCK_HIGH, i]) - max(low, sight[BLOCK_LOW, i]), 0.0)
+    return max(left, 0.0)
+
+
+@inlined
+def cover_outline(low, high, sight, blocks):
+    """Covers the bearings of an outline, which may go beyond π."""
+    blocks = cover(low, min(high, pi), sight, blocks)
+    return cover(-pi, high - 2.0 * pi, sight, blocks)
+
+
+@inlined
+def open_to(low, high, half, sight, blocks):
+    """How much [rad] of the bearings of an outline is within the field, `half` to each side, and not covered."""
+    seen = free(max(low, -half), min(high, half, pi), sight, blocks)
+    return seen + free(max(low - 2.0 * pi, -half), min(high - 2.0 * pi, half), sight, blocks)
+
+
+@inlined
+def is_open(bearing, half, sight, blocks):
+    """Whether a bearing is in the field and not covered."""
+    if abs(bearing) > half:
+        return False
+    for i in range(blocks):
+        if sight[BLOCK_LOW, i] < bearing < sight[BLOCK_HIGH, i]:
+            return False
+    return True
+
+
+@inlined
+def nearest_open(bearing, low, high, half, sight, blocks):
+    """Of the bearings of an outline that are in the field and not covered, the one that is nearest to a bearing."""
+    best, least = bearing, 1e9
+    for turn in range(2):
+        begin, end = max(low - 2.0 * pi * turn, -half), min(high - 2.0 * pi * turn, half, pi)
+        for i in range(blocks + 1):
+            first = max(begin, sight[BLOCK_HIGH, i - 1] if i > 0 else -pi)
+            last = min(end, sight[BLOCK_LOW, i] if i < blocks else pi)
+            if last - first > LEAST:
+                at = min(max(bearing, first), last)
+                if abs(at - bearing) < least:
+                    best, least = at, abs(at - bearing)
+    return best
+
+
+# -- bodies --------------------------------------------------------------------------------------------
+
+
+@inlined
+def put(x, y, c, s, length, width, who, me, i, sight):
+    """Writes a body with its middle at x, y of the world and a heading of cosine c and sine s into column i; distance and edges, too."""
+    dx, dy = x - me.eye_x, y - me.eye_y
+    ahead, left = dx * me.eye_cosine + dy * me.eye_sine, dy * me.eye_cosine - dx * me.eye_sine
+    cosine, sine = c * me.eye_cosine + s * me.eye_sine, s * me.eye_cosine - c * me.eye_sine
+    sight[WHO, i], sight[MIDDLE_X, i], sight[MIDDLE_Y, i], sight[LONG, i], sight[WIDE, i] = who, ahead, left, length, width
+    sight[TURNED_COS, i], sight[TURNED_SIN, i] = cosine, sine
+    near_x, near_y = nearest(ahead, left, cosine, sine, length, width)
+    sight[SEEN_X, i], sight[SEEN_Y, i], sight[NEAR, i] = near_x, near_y, far(near_x, near_y)
+
+
+@inlined
+def frame(i, sight):
+    """The bearings of the edges of the body in column i."""
+    low, high = edges(sight[MIDDLE_X, i], sight[MIDDLE_Y, i], sight[TURNED_COS, i], sight[TURNED_SIN, i], sight[LONG, i], sight[WIDE, i])
+    sight[LOW, i], sight[HIGH, i] = low, high
+
+
+@inlined
+def put_vehicle(view, me, v, i):
+    """Writes vehicle v into column i."""
+    c, s, length = view.places[COS, v], view.places[SIN, v], view.parameter[LENGTH, v]
+    ahead = view.parameter[FRONT, v] - 0.5 * length
+    put(view.state[X, v] + ahead * c, view.state[Y, v] + ahead * s, c, s, length, view.parameter[WIDTH, v], v, me, i, view.sight)
+
+
+@inlined
+def put_object(view, me, o, i):
+    """Writes object o into column i."""
+    table, heading = view.table, view.table[O_HEADING, o]
+    put(table[O_X, o], table[O_Y, o], cos(heading), sin(heading), table[O_LENGTH, o], table[O_WIDTH, o], OBJECT - o, me, i, view.sight)
+
+
+@inlined
+def is_thing(view, o, cones):
+    """Whether object o stands there, for a sensor that sees cones or does not."""
+    return view.standing[o] != 0 and (cones or view.table[O_KIND, o] != CONE)
+
+
+@inlined
+def enlist(i, reach, half, sight):
+    """Whether the body in column i is in the field, so that it stays; it is put into its place in the order."""
+    if sight[NEAR, i] >= reach:
+        return False
+    frame(i, sight)
+    if half < pi and sight[LOW, i] > half and sight[HIGH, i] - 2.0 * pi < -half:
+        return False
+    if half < pi and sight[HIGH, i] < -half:
+        return False
+    j = i
+    while j > 0 and sight[NEAR, int(sight[PLACE_IN_ORDER, j - 1])] > sight[NEAR, i]:
+        sight[PLACE_IN_ORDER, j] = sight[PLACE_IN_ORDER, j - 1]
+        j -= 1
+    sight[PLACE_IN_ORDER, j] = i
+    return True
+
+
+@inlined
+def is_beside(view, me, v, half_cosine, half_sine):
+    """Whether vehicle v is clearly outside of a field that opens to less than half a turn, by its centre of gravity; without an angle."""
+    dx, dy = view.state[X, v] - me.eye_x, view.state[Y, v] - me.eye_y
+    ahead, left = dx * me.eye_cosine + dy * me.eye_sine, abs(dy * me.eye_cosine - dx * me.eye_sine)
+    return half_cosine > 0.0 and left * half_cosine - ahead * half_sine > view.longest
+
+
+@lean
+def field(view, me, reach, half, cones):
+    """Puts all bodies in the field into `view.sight`, the nearest first; how many. The field opens `half` to each side."""
+    count, most, behind, half_cosine, half_sine = 0, reach + view.longest, view.longest, cos(half), sin(half)
+    aside = (reach * half_sine if half < 0.5 * pi else reach) + view.longest
+    if half > 0.5 * pi:
+        behind -= reach * half_cosine
+    found = within(
+        me.world, me.eye_x, me.eye_y, me.eye_cosine, me.eye_sine, -behind, most, -aside, aside, view.grid, view.places, view.found
+    )
+    for k in range(found):
+        v = view.found[k]
+        if v != me.vehicle and view.state[ACTIVE, v] > 0.0 and not is_beside(view, me, v, half_cosine, half_sine):
+            put_vehicle(view, me, v, count)
+            count += 1 if enlist(count, reach, half, view.sight) else 0
+    first = view.first_object[me.world]
+    for o in range(first, first + view.object_count[me.world]):
+        if is_thing(view, o, cones):
+            put_object(view, me, o, count)
+            count += 1 if enlist(count, reach, half, view.sight) else 0
+    return count
+
+
+@inlined
+def see(i, half, sight, blocks):
+    """Which share of the body in column i is seen, and its nearest point that is; whether any is."""
+    low, high = sight[LOW, i], sight[HIGH, i]
+    seen = open_to(low, high, half, sight, blocks)
+    sight[SHARE, i] = seen / (high - low)
+    if seen <= LEAST:
+        return False
+    at = atan2(sight[SEEN_Y, i], sight[SEEN_X, i])
+    if not is_open(at, half, sight, blocks):
+        at = nearest_open(at, low, high, half, sight, blocks)
+        distance = met(
+            at, sight[MIDDLE_X, i], sight[MIDDLE_Y, i], sight[TURNED_COS, i], sight[TURNED_SIN, i], sight[LONG, i], sight[WIDE, i]
+        )
+        distance = distance if distance < 1e9 else sight[NEAR, i]
+        sight[SEEN_X, i], sight[SEEN_Y, i] = distance * cos(at), distance * sin(at)
+    return True
+
+
+# -- buildings -----------------------------------------------------------------------------------------
+
+
+@inlined
+def cover_buildings(view, me, i, sight, blocks):
+    """Covers what buildings hide of the body in column i; how many intervals there are now.
+
+    Lines to both edges and to its nearest point are followed through cells first: mostly all are open, or all end in a building.
+    """
+    place, frame = view.place_of[me.world], view.shadow.grid.frame
+    if frame[COLUMNS, place] == 0.0:
+        return blocks
+    distance = far(sight[MIDDLE_X, i], sight[MIDDLE_Y, i])
+    x0, y0 = of_world(me, distance * cos(sight[LOW, i]), distance * sin(sight[LOW, i]))
+    x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
+    x2, y2 = of_world(me, sight[SEEN_X, i], sight[SEEN_Y, i])
+    a, b = walk(view.shadow, place, me.eye_x, me.eye_y, x0, y0, False), walk(view.shadow, place, me.eye_x, me.eye_y, x1, y1, False)
+    c = walk(view.shadow, place, me.eye_x, me.eye_y, x2, y2, False)
+    if max(a, b, c) == OPEN:
+        return blocks
+    if min(a, b, c) == FULL:
+        return cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
+    return cover_walls(view, me, i, x0, y0, x1, y1, sight, blocks)
+
+
+@inlined
+def of_world(me, x, y):
+    """A place [m] ahead and to the left of the sensor in the world."""
+    return me.eye_x + x * me.eye_cosine - y * me.eye_sine, me.eye_y + x * me.eye_sine + y * me.eye_cosine
+
+
+@lean
+def cover_walls(view, me, i, x0, y0, x1, y1, sight, blocks):
+    """The same wall by wall, of all buildings between the sensor and the edges of the body."""
+    shadow, place = view.shadow, view.place_of[me.world]
+    frame = shadow.grid.frame
+    columns, rows = int(frame[COLUMNS, place]), int(frame[ROWS, place])
+    west, east = min(me.eye_x, x0, x1), max(me.eye_x, x0, x1)
+    south, north = min(me.eye_y, y0, y1), max(me.eye_y, y0, y1)
+    for column in range(max(cell(west, frame[WEST, place], frame), 0), min(cell(east, frame[WEST, place], frame), columns - 1) + 1):
+        for row in range(max(cell(south, frame[SOUTH, place], frame), 0), min(cell(north, frame[SOUTH, place], frame), rows - 1) + 1):
+            at = int(frame[CELLS, place]) + row * columns + column
+            for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
+                b = shadow.grid.item[k]
+                if is_at_eye(shadow, b):
+                    first = shadow.spans[WALL_FIRST, b]
+                    for w in range(first, first + shadow.spans[WALL_COUNT, b]):
+                        blocks = cover_wall(shadow.walls, w, me, i, sight, blocks)
+    return blocks
+
+
+@inlined
+def cell(place, edge, frame):
+    """Column or row of the buildings' cells in which a coordinate [m] lies."""
+    return int(floor((place - edge) / frame[SIZE, 0]))
+
+
+@inlined
+def cover_wall(walls, w, me, i, sight, blocks):
+    """Covers the part of a wall that is nearer than the body in column i and before it."""
+    ax, ay = turned(walls[0, w] - me.eye_x, walls[1, w] - me.eye_y, me.eye_cosine, me.eye_sine)
+    bx, by = turned(walls[2, w] - me.eye_x, walls[3, w] - me.eye_y, me.eye_cosine, me.eye_sine)
+    x, y, near = sight[SEEN_X, i], sight[SEEN_Y, i], max(sight[NEAR, i], 1e-6)
+    one, other = (ax * x + ay * y) / near, (bx * x + by * y) / near  # along the line to the body's nearest point
+    begin, end = level(one, other, 0.01, near)
+    if begin >= end:
+        return blocks
+    px, py, qx, qy = ax + begin * (bx - ax), ay + begin * (by - ay), ax + end * (bx - ax), ay + end * (by - ay)
+    low, high = atan2(py, px), atan2(qy, qx)
+    low, high = min(low, high), max(high, low)
+    if high - low > pi:
+        low, high = high, low + 2.0 * pi
+    if free_of(low, high, sight[LOW, i], sight[HIGH, i]):
+        return blocks
+    return cover_outline(low, high, sight, blocks)
+
+
+@inlined
+def free_of(low, high, first, last):
+    """Whether the bearings from low to high do not meet those from first to last; both may go beyond π."""
+    return (high < first or low > last) and high - 2.0 * pi < first and low > last - 2.0 * pi
+
+
+# -- looking -------------------------------------------------------------------------------------------
+
+
+@lean
+def look(view, me, reach, half, least, most, cones):
+    """The bodies that a sensor sees: how many, `most` at most; the columns of `view.sight` in their order are told by `target`.
+
+    Of a body the share `least` of its bearings must be seen, in a field of `reach` [m] that opens `half` [rad] to each side. With a share
+    of 0 nothing hides anything: as from high above. `cones`: whether the sensor sees cones of plastic.
+    """
+    sight, blocks, found = view.sight, 0, 0
+    for j in range(field(view, me, reach, half, cones)):
+        i = int(sight[PLACE_IN_ORDER, j])
+        if least > 0.0:
+            blocks = cover_buildings(view, me, i, sight, blocks)
+        if see(i, half, sight, blocks) and sight[SHARE, i] >= least:
+            sight[PLACE_IN_ORDER, found] = i
+            found += 1
+            if found == most:
+                break
+        if least > 0.0:
+            blocks = cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
+    return found
+
+
+@inlined
+def target(view, j):
+    """The column of `view.sight` of the j-th body that was seen, 0 the nearest."""
+    return int(view.sight[PLACE_IN_ORDER, j])
+
+
+@lean
+def glimpse(view, me, half, cones, least):
+    """Looks at the body in column 0 of `view.sight` alone: whether the share `least` of it is seen, past all that is nearer."""
+    sight, blocks = view.sight, 0
+    frame(0, sight)
+    if least <= 0.0:
+        return see(0, half, sight, blocks)
+    near, x, y = sight[NEAR, 0], sight[MIDDLE_X, 0], sight[MIDDLE_Y, 0]
+    distance = max(far(x, y), 1e-6)
+    c, s = (x * me.eye_cosine - y * me.eye_sine) / distance, (x * me.eye_sine + y * me.eye_cosine) / distance
+    aside = 0.5 * (sight[LONG, 0] + sight[WIDE, 0]) + view.longest
+    found = within(
+        me.world, me.eye_x, me.eye_y, c, s, -view.longest, near + view.longest, -aside, aside, view.grid, view.places, view.found
+    )
+    for k in range(found):
+        v = view.found[k]
+        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0:
+            put_vehicle(view, me, v, 1)
+            blocks = cover_if_nearer(near, sight, blocks)
+    first = view.first_object[me.world]
+    for o in range(first, first + view.object_count[me.world]):
+        if is_thing(view, o, cones) and OBJECT - o != int(sight[WHO, 0]):
+            put_object(view, me, o, 1)
+            blocks = cover_if_nearer(near, sight, blocks)
+    blocks = cover_buildings(view, me, 0, sight, blocks)
+    return see(0, half, sight, blocks) and sight[SHARE, 0] >= least
+
+
+@inlined
+def cover_if_nearer(near, sight, blocks):
+    """Covers the bearings of the body in column 1 when it is nearer."""
+    if sight[NEAR, 1] >= near:
+        return blocks
+    frame(1, sight)
+    return cover_outline(sight[LOW, 1], sight[HIGH, 1], sight, blocks)
