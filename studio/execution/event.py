@@ -14,16 +14,22 @@ import numpy as np
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Chain
 from studio.scenario.schema import REASONS
+from studio.world.commander import PARTS, commanders, standing
+from studio.world.effect import Place
 from studio.world.passes import notice
-from studio.world.passes.notice import Watch
+from studio.world.passes.notice import NUMBERS, Watch
 from studio.world.setting import Setting
 from studio.world.table.event import (
+    COMMAND_GIVEN,
+    COMMAND_TAKEN,
     COMPANY_CAME,
     COMPANY_LEFT,
     EVENTS,
+    HOPELESS,
     MESSAGE_LOST,
     NOTICE_SHOWN,
     SCRIPT_BEGUN,
+    SCRIPT_CUT,
     SCRIPT_ENDED,
     TAKES_OVER,
 )  # fmt: skip
@@ -75,19 +81,31 @@ def watched(settings: Sequence[Setting], world: World) -> Watch:
     return notice.watch(world, np.concatenate(named).astype(np.int64), listening)
 
 
+def hopeless(setting: Setting) -> Iterator[Happening]:
+    """What is told before a run: entries of the script that can never begin, or never end."""
+    place = Place(setting.scenario, setting.network)
+    for site in setting.sites:
+        for turn, part in (("begin", site.entry.when), ("end", site.entry.until)):
+            if part is not None and (reason := place.never(part)):
+                yield happening(HOPELESS, 0.0, site.vehicles, place=site.place, entry=site.name, turn=turn, reason=reason)
+
+
 class Teller:
     """Makes happenings of notices."""
 
     def __init__(self, settings: Sequence[Setting], world: World) -> None:
         self.world = world
+        self.scenarios = [each.scenario for each in settings]
         self.sites = [site for each in settings for site in each.sites]
         self.followers = followers(settings)
         self.special = {
             SCRIPT_BEGUN: self.turned,
             SCRIPT_ENDED: self.turned,
+            SCRIPT_CUT: self.turned,
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
             TAKES_OVER: self.takes_over,
+            COMMAND_TAKEN: self.changes_hands,
             MESSAGE_LOST: self.lost,
             NOTICE_SHOWN: self.shown,
         }
@@ -106,10 +124,10 @@ class Teller:
         units = tuple(self.world.name_of(number, world) for number in (subject, other) if number != NOBODY)
         return happening(kind, when, units, place=place, **dict.fromkeys(EVENTS[kind].numbers, value))
 
-    def turned(self, kind, when, _world, subject, _other, place, _value) -> Happening:
-        """An entry of the script has begun or ended."""
-        site = self.sites[subject]
-        return happening(kind, when, site.vehicles, place=place or site.place, entry=site.name, action=site.text)
+    def turned(self, kind, when, _world, subject, other, place, _value) -> Happening:
+        """An entry of the script has begun or ended, by itself or because another has begun."""
+        site, by = self.sites[subject], "" if other == NOBODY else self.sites[other].name
+        return happening(kind, when, site.vehicles, place=place or site.place, entry=site.name, action=site.text, other=by)
 
     def company(self, kind, when, world, subject, other, place, _value) -> Happening:
         """Somebody has come between a follower and the car that it listens to, or has gone again."""
@@ -130,3 +148,17 @@ class Teller:
         """A driver has begun to overrule the application of his vehicle."""
         reason = REASONS[int(value)].replace("_", " ")
         return happening(kind, when, (self.world.names[world][subject],), place=place, reason=reason)
+
+    def changes_hands(self, _kind, when, world, subject, _other, place, value) -> Happening:
+        """Wheel, brake, drive or gear are another's now: taken by whoever goes before, given back to whoever does not."""
+        rest, which = divmod(int(value), NUMBERS)
+        who, before = divmod(rest, NUMBERS)
+        scenario = self.scenarios[world]
+        names, kind = commanders(scenario), COMMAND_GIVEN if standing(who, scenario) < standing(before, scenario) else COMMAND_TAKEN
+        what = listed([part for i, part in enumerate(PARTS) if which >> i & 1])
+        return happening(kind, when, (self.world.names[world][subject],), place=place, by=names[who], what=what, before=names[before])
+
+
+def listed(words: Sequence[str]) -> str:
+    """Words as one reads them: brake, drive and gear."""
+    return " and ".join(filter(None, [", ".join(words[:-1]), words[-1]]))

@@ -6,19 +6,23 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
-from studio.execution.event import Teller, chains, watched
+from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
-from studio.execution.record import Body, Record, Recorder
+from studio.execution.message import messages
+from studio.execution.record import Body, Mount, Record, Recorder
+from studio.kind.sensor import Looking
+from studio.scenario.schema import Scenario
 from studio.vehicle import broken
 from studio.world.board.host import Fault
 from studio.world.build import build
+from studio.world.commander import commanders
 from studio.world.line import starts
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
-from studio.world.table.event import FAILED
-from studio.world.tick import environment, gather, look, meet, part, sense, think
+from studio.world.table.event import FAILED, RUN_ENDED
+from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
 
@@ -88,12 +92,27 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
+        self.end_by_script()
+        if self.is_over:
+            return
+        between(self.world, self.refuse)
         part(self.world)
         self.check_wishes()
         self.check()
         notice.notice(self.world, self.watch)
         if self.world.clock.k >= self.ticks and not self.is_over:
             self.end("done")
+
+    def end_by_script(self) -> None:
+        """Ends the worlds whose script does so at this instant, at which everybody has looked around already."""
+        s = self.world.script
+        for entry in np.flatnonzero((s.ends != 0) & (s.turned[0] == self.time)).tolist():
+            number = int(s.world[entry])
+            if not self.cases[number].is_over:
+                self.tell()
+                self.cases[number].happen(happening(RUN_ENDED, self.time, entry=self.teller.sites[entry].name))
+                self.close(number, "done")
+                self.world.leave(number)
 
     def tell(self) -> None:
         """Makes events of what has been noticed; what happens in a world that is over is not told."""
@@ -171,8 +190,11 @@ class Simulation:
             links=tuple(links.values()),
             ages=recorder.ages(list(links), count),
             probes=recorder.traced(number, count),
+            messages=messages(self.world, number),
             bodies=self.bodies(number),
             called=self.called(number),
+            commanders=commanders(case.setting.scenario),
+            mounts=mounts(case.setting.scenario),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
@@ -207,13 +229,19 @@ class Simulation:
         return {name: Body(*each) for name, each in zip(self.world.names[number], self.world.bodies(number).T.tolist(), strict=True)}
 
 
+def mounts(scenario: Scenario) -> dict[str, Mount]:
+    """Where the sensors of vehicles are that look around."""
+    sensors = {f"{name}.{sensor}": each for name, vehicle in scenario.vehicles.items() for sensor, each in vehicle.sensors.items()}
+    return {name: Mount(each.forward, each.left, each.yaw) for name, each in sensors.items() if isinstance(each, Looking)}
+
+
 def simulation(*settings: Setting) -> Simulation:
     """Runs at their start, side by side; raises ScenarioError when they do not share clock and sampling period."""
     check_clocks(settings)
     scenario = settings[0].scenario
     world = build(settings)
     return Simulation(
-        cases=[Case(each) for each in settings],
+        cases=[Case(each, list(hopeless(each))) for each in settings],
         world=world,
         recorder=recorder(settings, world),
         watch=watched(settings, world),

@@ -22,7 +22,7 @@ from studio.kind.metric import Scope
 from studio.kind.number import unplain
 from studio.kind.quantity import quantities
 from studio.kind.sensor import Sensor
-from studio.kind.settings import named
+from studio.kind.settings import Nested, marks, named
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
 
@@ -134,6 +134,15 @@ def waited(value: Any) -> str:
     return needy(value) or unplain(value)
 
 
+def asked_or_joined(module: ModuleType) -> str:
+    """A condition is asked itself, or joins others that stand in its settings."""
+    fields = getattr(module, "Settings", BaseModel).model_fields.values()
+    is_around, joins, holds = any(marks(field, Nested) for field in fields), hasattr(module, "joins"), hasattr(module, "holds")
+    if joins == holds:
+        return "has both holds and joins" if joins else "has neither holds nor joins"
+    return "" if joins == is_around else "joins no conditions" if joins else "has conditions in it, and no joins"
+
+
 def told_and_done(module: ModuleType) -> str:
     """An action commands a vehicle, or does something to the road."""
     if not hasattr(module, "act"):
@@ -179,6 +188,16 @@ def mask(value: Any) -> str:
     return "" if isinstance(value, int) and not isinstance(value, bool) and 0 < value < 256 else f"is {value!r}, no actuators"
 
 
+def yes(value: Any) -> str:
+    """What is said of a kind by being there."""
+    return "" if value is True else f"is {value!r}; leave it out where it is not so"
+
+
+def hands(value: Any) -> str:
+    """Pedals, wheel, or both."""
+    return "" if value in (1, 2, 3) and not isinstance(value, bool) else f"is {value!r}; allowed: PEDALS, WHEEL, PEDALS | WHEEL"
+
+
 def sentences(value: Any) -> str:
     """Lines for a driver."""
     is_fine = isinstance(value, tuple) and value and all(isinstance(each, str) and each.strip() for each in value)
@@ -206,6 +225,37 @@ def function(*names: str, compiled: bool = False) -> Test:
         return ""
 
     return test
+
+
+def compiled_function(value: Any) -> str:
+    """A compiled function; what it takes hangs on other parts."""
+    return "" if hasattr(value, "py_func") else "is not compiled: write @compiled (from studio.compiled) above it"
+
+
+def radio_parts(module: ModuleType) -> str:
+    """What the parts of a radio are together: what remembers, and what it remembers."""
+    if what := lacking(module, "Control", "control", "airtime") or lacking(module, "Cell", "admit") or preset.unfit(module):
+        return what
+    arguments = ("settings", "way", "draw", *(["memory"] if hasattr(module, "Memory") else []))
+    found = getattr(module, "transmit", None)
+    return f"transmit {what}" if found and (what := function(*arguments)(found)) else ""
+
+
+def message_parts(module: ModuleType) -> str:
+    """What the parts of a message are together: what is due is a beacon, and remembers what it has sent."""
+    if what := lacking(module, "Settings", "beacon") or lacking(module, "Memory", "due", "beacon"):
+        return what
+    arguments = ("own", "settings", *(["memory"] if hasattr(module, "Memory") else []))
+    found = getattr(module, "beacon", None)
+    return f"beacon {what}" if found and (what := function(*arguments)(found)) else ""
+
+
+def lacking(module: ModuleType, part: str, partner: str, *others: str) -> str:
+    """What is missing of two parts that come together, and of others that both need; "" when nothing is, or none is there."""
+    if not hasattr(module, part) and not hasattr(module, partner):
+        return ""
+    missing = [each for each in (part, partner, *others) if not hasattr(module, each)]
+    return f"has {partner if missing[0] == part else part}, but no {missing[0]}" if missing else ""
 
 
 TITLE = Need("TITLE", "one line for people", text, 'TITLE = "Side radar"')
@@ -240,21 +290,39 @@ SORTS = {
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
             Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
+            Need("PRESETS", "named sets of settings, with their sources", preset.wrong, 'PRESETS = {"urban": Preset(...)}', optional=True),
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
             Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
             Need("largest", "the largest message [bytes]", function("settings"), "def largest(settings)"),
-            Need("transmit", "one message on its way to one receiver", function("settings", "way", "draw", compiled=True),
-                 "def transmit(settings, way, draw)"),
-        )),
+            Need("transmit", "one message on its way to one receiver: Transmission(lost, delay); with a Memory also Memory(...)",
+                 compiled_function, "def transmit(settings, way, draw)"),
+            Need("Memory", "what it remembers of one link from message to message", record, "class Memory(NamedTuple): ...", optional=True),
+            Need("airtime", "how long [s] a message of `size` bytes keeps the channel busy; left out: no channel is ever busy",
+                 function("settings", "size", compiled=True), "def airtime(settings, size)", optional=True),
+            Need("heard_within", "the distance [m] within which a message keeps the channel busy; left out: reach", function("settings"),
+                 "def heard_within(settings)", optional=True),
+            Need("Control", "what the congestion control of one unit remembers", record, "class Control(NamedTuple): ...",
+                 optional=True),
+            Need("control", "every tenth of a second, of the load of the last: the least time [s] between messages of a unit, Control(...)",
+                 function("settings", "load", "control", compiled=True), "def control(settings, load, control)", optional=True),
+            Need("Cell", "what the network remembers from message to message", record, "class Cell(NamedTuple): ...", optional=True),
+            Need("admit", "one message on its way into the network: how long [s] it waits, Cell(...)",
+                 function("settings", "sent", "cell", compiled=True), "def admit(settings, sent, cell)", optional=True),
+        ), radio_parts, "write what belongs together, or none of it; with a Memory it is transmit(settings, way, draw, memory)"),
         Sort("message", "what units tell each other", (
             TITLE,
             Need("SIZE", "bytes on the channel, with everything", count, "SIZE = 200"),
             Need("Payload", "what it carries, with units", record, "class Payload(NamedTuple): ..."),
             Need("Settings", "what is set for a message that every unit sends by itself", plain, "class Settings(Part): ...",
                  optional=True),
-            Need("beacon", "the payload that every unit sends once per `period` of the settings", function(
-                "own", "settings", compiled=True), "def beacon(own, settings)", optional=True),
-        )),
+            Need("beacon", "the payload that every unit sends once per `period` of the settings; with a Memory it is given that too",
+                 compiled_function, "def beacon(own, settings)", optional=True),
+            Need("Memory", "what a unit remembers of those that it has sent", record, "class Memory(NamedTuple): ...", optional=True),
+            Need("due", "once per `period`: whether the beacon is sent now, Memory(...); left out: always",
+                 function("own", "settings", "memory", "turn", compiled=True), "def due(own, settings, memory, turn)", optional=True),
+            Need("size", "bytes of one message, SIZE at most; left out: SIZE", function("payload", compiled=True), "def size(payload)",
+                 optional=True),
+        ), message_parts, "write beacon(own, settings) with Settings, or due with Memory and beacon(own, settings, memory)"),
         Sort("driver", "a person at the wheel", (
             TITLE,
             Need("Settings", "what a driver is like", person, "class Settings(Driver): ..."),
@@ -264,16 +332,23 @@ SORTS = {
         Sort("condition", "when something begins or ends", (
             TITLE,
             Need("Settings", "what it waits for", waited, "class Settings(Part): ..."),
-            Need("holds", "whether it is so at this tick", function("view", "settings", compiled=True), "def holds(view, settings)"),
+            Need("holds", "whether it is so at this tick", function("view", "settings", compiled=True), "def holds(view, settings)",
+                 optional=True),
+            Need("joins", "of one about other conditions: whether it is so, for what is known of these", function(
+                "settings", "parts", compiled=True), "def joins(settings, parts)", optional=True),
             Need("moment", "the time [s] from which on it is so, where the settings alone tell it", function("settings"),
                  "def moment(settings)", optional=True),
-        )),
+            Need("never", "why it can never be so in a scenario, in words; empty when it may be", function("settings", "place"),
+                 "def never(settings, place)", optional=True),
+        ), asked_or_joined, "write holds, or joins with a field of the type AnyCondition (studio.kind.slot), or a list of these"),
         Sort("action", "what is done", (
             TITLE,
             Need("Settings", "what exactly", needy, "class Settings(Part): ..."),
             Need("act", "what a vehicle is told at one tick while it lasts", function("settings", "sees", compiled=True),
                  "def act(settings, sees)", optional=True),
             Need("effects", "what it does to the road", function("settings", "place"), "def effects(settings, place)", optional=True),
+            Need("TAKES", "what act commands: PEDALS, WHEEL, or both where it does not say", hands, "TAKES = PEDALS", optional=True),
+            Need("MOMENTARY", "that it is done at once, and does not last", yes, "MOMENTARY = True", optional=True),
             Need("told", "the action in words, for the list of events", function("settings"), "def told(settings)", optional=True),
         ), told_and_done, "write act for a vehicle that is named by vehicle: VehicleName, or effects on the road"),
         Sort("metric", "a number that a run is judged by", (
@@ -293,13 +368,14 @@ SORTS = {
         Sort("application", "what a developer invents", (
             TITLE,
             Need("Parameters", "what its developer tunes, with unit and range", plain, "class Parameters(Part): ..."),
+            Need("PRESETS", "named sets of parameters, with their sources", preset.wrong, 'PRESETS = {"calm": Preset(...)}', optional=True),
             Need("Memory", "what it remembers from tick to tick", remembered, "class Memory(NamedTuple): ..."),
             Need("Sees", "its ports: what it sees", bundle, "class Sees(NamedTuple): ..."),
             Need("Does", "its ports: what it does", bundle, "class Does(NamedTuple): ..."),
             Need("COMMANDS", "the actuators that it may command", mask, "COMMANDS = ACCELERATION | STEERING", optional=True),
             Need("NOTICES", "the sentences that it may show to the driver", sentences, 'NOTICES = ("Brake!",)', optional=True),
             Need("decide", "one tick", function("parameters", "memory", "sees"), "def decide(parameters, memory, sees)"),
-        )),
+        ), preset.unfit, "give values that the Parameters take"),
     )
 }  # fmt: skip
 

@@ -12,8 +12,8 @@ from studio.vehicle.contact import HEIGHT, SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import L_F, L_R, LENGTH, RADIUS, TRACK_F, WIDTH, H
 from studio.vehicle.state import ACTIVE, DELTA, PITCH, PSI, ROLL, ROTATION, X, Y, Z
 from studio.world.build import at_start
-from studio.world.obstacle import WORDS, things
 from studio.world.setting import Setting
+from studio.world.thing import WORDS, things
 from studio.world.world import Vehicles, World
 
 JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way

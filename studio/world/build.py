@@ -23,11 +23,12 @@ from studio.world.board.equipment import units_of
 from studio.world.chart import chart_of
 from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
-from studio.world.obstacle import obstacles_of
+from studio.world.obstacle import movers, obstacles_of
 from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
 from studio.world.passes.neighbour import neighbours
 from studio.world.passes.queue import queues
+from studio.world.probe import reader_of
 from studio.world.script import script_of
 from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
@@ -36,7 +37,7 @@ from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
 
-MOST_HITS = 64  # collisions that are reported per world
+FIRST_HITS = 64  # collisions of a world that there is room for at first
 
 
 def build(settings: Sequence[Setting]) -> World:
@@ -61,7 +62,7 @@ def build(settings: Sequence[Setting]) -> World:
         roads=roads,
         units=units,
         events=events_of(settings),
-        script=script_of(settings, worlds, lines),
+        script=script_of(settings, worlds, lines, movers(settings, obstacles.first)),
         detours=detours_of(settings, worlds, lines, table, known),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
@@ -72,6 +73,7 @@ def build(settings: Sequence[Setting]) -> World:
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
     )
+    world.script.reader = reader_of(world)
     settle(world)
     world.origin = origin_of(settings, world)
     gather(world)
@@ -123,7 +125,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
         any_returns=any(car.returns for car in cars),
-        app_command=np.full((len(ACTUATORS), n), np.nan),
+        app_command=np.full((2 * len(ACTUATORS), n), np.nan),
     )
 
 
@@ -228,7 +230,7 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
 
 def events_of(settings: Sequence[Setting]) -> Events:
     """No collisions yet."""
-    return Events(hits=np.zeros((len(COLLISION), MOST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
+    return Events(hits=np.zeros((len(COLLISION), FIRST_HITS * len(settings))), found=np.zeros(len(settings), dtype=np.int64))
 
 
 def settle(world: World) -> None:

@@ -8,11 +8,13 @@ import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
+from typing import Any
 
 import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
+from studio.kind import registry
 from studio.kind.driver import Driver
 from studio.kind.settings import references
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
@@ -27,12 +29,17 @@ from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
 from studio.world import crew
 from studio.world.channel import catalogue as channels
+from studio.world.cycle import circles
+from studio.world.footprint import Footprint, Overlap, depth, overlaps
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
+from studio.world.thing import SIZES, Thing, names, things
+from studio.world.value import values
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
-CAR_LENGTH = 4.5  # [m] two cars whose centres are nearer than this overlap, or are about to
+CAR_LENGTH = 4.5  # [m] a car that starts nearer than this to works is about to be in them
+FAR = 60.0  # [m] east plus north, beyond which no two bodies meet
 TRIES = 200  # to place one traffic car
 END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
 STYLE_SPREAD = 0.1  # traffic drivers want 90 % to 110 % of the usual speed
@@ -84,8 +91,8 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     models = models_of(scenario, folder, where)
     paths = paths_of(scenario, network, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
-    check_starts(cars, where)
     found = sites(scenario, network)
+    check_starts(cars, found, where)
     works = Works(found)
     check_works(cars, works, where)
     filled = tuple(cars + traffic(scenario, network, models, cars, works))
@@ -154,14 +161,28 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
         "unit": ({**scenario.vehicles, **scenario.stations}, "unit of this scenario"),
         "route": (scenario.routes, "route of this scenario"),
         "entry": (scenario.script, "entry of the script"),
+        "body": ({**scenario.vehicles, **brought(scenario)}, "vehicle of this scenario, nor an entry of the script that brings somebody"),
+        "application": (scenario.applications, "group of applications"),
+        "value": (values(scenario), "value that is measured, logged or recorded here"),
     }
-    found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario)]
+    found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario) if each.what in names]
     models = set(catalogue.vehicle_names())
     for path, model in models_named(scenario):
         found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
     for i, name in enumerate(scenario.recording.channels):
         found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
-    return [each for each in found if each] + reserved(scenario, where) + untimely(scenario, where) + crew.problems(scenario, where)
+    return (
+        [each for each in found if each]
+        + reserved(scenario, where)
+        + circles(scenario, where)
+        + untimely(scenario, where)
+        + crew.problems(scenario, where)
+    )
+
+
+def brought(scenario: Scenario) -> dict[str, Any]:
+    """The entries of the script that bring somebody who moves."""
+    return {name: each for name, each in scenario.script.items() if hasattr(registry.find("action", each.do.kind).module, "MOVES")}
 
 
 def unknown(where: str, path: str, name: str, known: Collection[str], kind: str) -> Problem | None:
@@ -207,6 +228,12 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         ratio = period / tick
         if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
             found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
+    for name, group in scenario.applications.items():
+        parts = tick / (group.cycle or tick)
+        if parts < 1 - 1e-9 or abs(parts - round(parts)) > 1e-6 * parts:
+            found.append(
+                Problem(f"{where}: applications.{name}.cycle", "is not a whole part of a tick", f"{group.cycle} s", f"{tick} s / n")
+            )
     return found
 
 
@@ -303,10 +330,11 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
     """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
     wanted = scenario.traffic
     taken = [position(car.path, car.station) for car in named]
+    bodies = [footprint(car.name, car.model, car.path, car.station) for car in named]
     cars: list[Car] = []
     ways = [way for way in through_ways(network) if len(works.way(way).works) <= MOST_WORKS] if wanted.count else []
     for i in range(wanted.count):
-        found = free_place(i, scenario, ways, taken, works)
+        found = free_place(i, scenario, ways, taken, bodies, models[wanted.model], works)
         if found is None:
             raise ScenarioError(
                 "The traffic does not fit on the map.",
@@ -314,6 +342,7 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
             )
         path, station = found
         taken.append(position(path, station))
+        bodies.append(footprint(f"traffic_{i + 1:02d}", models[wanted.model], path, station))
         style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed_of("traffic"), i, TRAFFIC_STYLE, 0) - 1.0)
         driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
         speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
@@ -357,24 +386,44 @@ def position(path: road_path.Path, station: float) -> tuple[float, float]:
     return pose(path, station)[:2]
 
 
-def check_starts(cars: list[Car], where: str) -> None:
-    """No two named cars may start in the same place."""
-    cells: dict[tuple[int, int], list[tuple[float, float, str]]] = {}
-    for car in cars:
-        x, y = position(car.path, car.station)
-        column, row = int(x // CAR_LENGTH), int(y // CAR_LENGTH)
-        around = [each for i in (-1, 0, 1) for j in (-1, 0, 1) for each in cells.get((column + i, row + j), [])]
-        for a, b, other in around:
-            if (x - a) ** 2 + (y - b) ** 2 < CAR_LENGTH**2:
-                what = f"starts where {other!r} starts"
-                field = f"{where}: vehicles.{car.name}.position"
-                remedy = f"place it at least {CAR_LENGTH:g} m away"
-                raise ScenarioError(f"{where} is not a valid scenario.", [Problem(field, what, remedy=remedy)])
-        cells.setdefault((column, row), []).append((x, y, car.name))
+def footprint(name: str, model: VehicleModel, path: road_path.Path, station: float) -> Footprint:
+    """The outline of a car whose centre of gravity is at a station of a path."""
+    x, y, heading = pose(path, station)
+    body = model.values.body
+    ahead = body.front_distance + body.front_overhang - 0.5 * body.length
+    return Footprint(name, x + ahead * np.cos(heading), y + ahead * np.sin(heading), heading, body.length, body.width)
 
 
-def free_place(i: int, scenario: Scenario, ways, taken, works: Works) -> tuple[road_path.Path, float] | None:
-    """A way and a station for traffic car i that keeps the spacing to all that is placed."""
+def check_starts(cars: list[Car], found: tuple[Site, ...], where: str) -> None:
+    """No named car may start in another, or in what stands on the road from the beginning: their outlines decide."""
+    bodies = [Footprint(name, *thing_at(each)) for name, each in standing_first(found)]
+    starting = {car.name: footprint(car.name, car.model, car.path, car.station) for car in cars}
+    refuse([overlapping(each, starting, where) for each in overlaps([*bodies, *starting.values()]) if each.one.name in starting], where)
+
+
+def standing_first(found: tuple[Site, ...]) -> Iterator[tuple[str, Thing]]:
+    """The things that stand there from the beginning, with their names."""
+    made = list(things(found))
+    for name, each in zip(names(found, made), made, strict=True):
+        if found[each.entry].is_there_from_the_start:
+            yield name, each
+
+
+def thing_at(each: Thing) -> tuple[float, float, float, float, float]:
+    """Place, heading and size of a thing."""
+    return each.x, each.y, each.heading, *SIZES[each.kind]
+
+
+def overlapping(each: Overlap, starting: Collection[str], where: str) -> Problem:
+    """What is wrong with two that share ground."""
+    field = f"{where}: vehicles.{each.one.name}.position"
+    who = repr(each.other.name) if each.other.name in starting else each.other.name
+    gap, remedy = f"a gap of {-each.depth:.2f} m", f"place it at least {each.depth:.2f} m farther away"
+    return Problem(field, f"starts where {who} starts, their outlines overlap", gap, "≥ 0 m", remedy)
+
+
+def free_place(i: int, scenario: Scenario, ways, taken, bodies, model, works: Works) -> tuple[road_path.Path, float] | None:
+    """A way and a station for traffic car i that keeps the spacing to all that is placed, and overlaps nobody."""
     usable = [way for way in ways if way.length > 2 * END_CLEARANCE]
     if not usable:
         return None
@@ -384,6 +433,9 @@ def free_place(i: int, scenario: Scenario, ways, taken, works: Works) -> tuple[r
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
         in_works = works.way(way).is_touched(station, CAR_LENGTH, works.first)
-        if not near_light and not in_works and all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+        if near_light or in_works or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+            continue
+        own = footprint("", model, way, station)
+        if all(depth(own, other) <= 0.0 for other in bodies if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
             return way, station
     return None

@@ -16,6 +16,7 @@ from studio.errors import Problem, SnapshotError
 from studio.rows import MOVES
 from studio.source import source_digest
 from studio.world import script
+from studio.world.board.air import EARLY
 from studio.world.setting import Setting
 from studio.world.world import World
 
@@ -45,11 +46,12 @@ class Identity(NamedTuple):
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A world at one moment: where it belongs, ticks that have passed, and the bytes of everything that moves."""
+    """A world at one moment: where it belongs, ticks that have passed, the bytes of everything that moves, and its collisions."""
 
     identity: Identity
     k: int
     content: bytes
+    hits: np.ndarray  # as many as there is room for now
 
 
 REFUSED = {
@@ -61,15 +63,18 @@ REFUSED = {
 
 def snapshot(world: World) -> Snapshot:
     """The present moment."""
-    return Snapshot(identity(world), world.clock.k, world.arena.tobytes())
+    return Snapshot(identity(world), world.clock.k, world.arena.tobytes(), world.events.hits.copy())
 
 
 def restore(world: World, kept: Snapshot) -> None:
     """Goes back, or ahead, to a moment of the same world; raises SnapshotError."""
     check(world, kept)
     world.arena[:] = np.frombuffer(kept.content, np.uint8)
+    world.events.hits = kept.hits.copy()
     world.clock.k = kept.k
     script.follow(world)
+    for post in world.units.posts:
+        post.log.forget(world.clock.time - EARLY)
 
 
 def check(world: World, kept: Snapshot) -> None:

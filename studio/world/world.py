@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
+from studio.world.board.air import Air
 from studio.world.board.host import Fault, Group, Hosted
 from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
@@ -50,7 +52,7 @@ class Vehicles(Fleet):
     mind: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     any_returns: bool  # at the start
-    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none
+    app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none; then who commands each
 
 
 @dataclass
@@ -111,14 +113,24 @@ class Conflicts:
     zone_span: np.ndarray  # float64[4, zone]: where it is entered and left on the track, and on its partner [m]
 
 
+class Reader(Protocol):
+    """Reads values of sensors, applications and vehicles at once."""
+
+    def read(self, values: np.ndarray) -> None: ...
+
+
 @dataclass
 class Asked:
     """Everybody who waits for one kind of condition: which turn of which entry, and the settings, [field, who]."""
 
     kind: Kind
+    node: np.ndarray  # number of each among all conditions
     entry: np.ndarray
     turn: np.ndarray  # 0 to begin, 1 to end
     settings: Moving  # stations move with the paths that they lie on
+    part_first: np.ndarray  # of the conditions that it is about, where they begin in `part`
+    part_count: np.ndarray
+    part: np.ndarray  # their nodes
     stations: list[tuple[int, int]]  # which fields are stations of which vehicles
     run: Callable
 
@@ -140,13 +152,27 @@ class Script:
 
     world: np.ndarray  # number of the world, per entry
     vehicle: np.ndarray  # column of the vehicle whose maneuver it is, -1 for none
+    takes: np.ndarray  # int64[entry]: what it takes of it, PEDALS, WHEEL or both
+    again: np.ndarray  # int64[entry]: 1 when it may begin again
+    momentary: np.ndarray  # int64[entry]: 1 when it is over as it begins
+    ends: np.ndarray  # int64[entry]: 1 when it ends the run of its world
     phase: Moving  # int64[entry]: BEFORE, ACTING, OVER
-    turned: Moving  # [s] float64[2, entry]: when it began and ended, not a number before
+    turned: Moving  # [s] float64[2, entry]: when it began and ended last, not a number before
+    cut: Moving  # int64[entry]: the entry that has ended it, -1 for none
     come: np.ndarray  # scratch, int64[entry]: 1 when its turn has come
     unfit: np.ndarray  # scratch, int64[entry]: 1 when its maneuver commands what is no number
     commands: Moving  # [row, vehicle] of maneuvers
+    root: np.ndarray  # int64[2, entry]: the condition that its beginning and its end wait for, -1 for none
+    node_entry: np.ndarray  # per condition, the entry that it belongs to
+    held: np.ndarray  # scratch, int64[condition]: 1 when it holds
+    since: Moving  # [s] per condition about others: when these began to hold all at once; infinite while they do not
+    met: Moving  # [s] when they did so for the first time
     asked: list[Asked]
     maneuvers: list[Maneuvers]
+    pool: np.ndarray  # float64[2, pair]: the lists of pairs in settings
+    watched: list[tuple[int, str]]  # values that conditions look at: number of the world, name
+    values: np.ndarray  # scratch: these now
+    reader: Reader | None  # of these; None when there are none
     limits: list[tuple[int, np.ndarray, np.ndarray]]  # entry, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
     waiting: np.ndarray  # places in `asked` of what somebody waits for now
@@ -195,9 +221,11 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    trouble: Moving  # what the script does to their radio, [row, unit]
     sight: np.ndarray  # room for what one sensor sees, [row, body]
     mounted: list[Mounted]
     posts: list[Post]
+    airs: list[Air]
 
     def number(self, name: str, world: int = 0) -> int:
         """A unit by its name; raises ValueError."""
@@ -216,15 +244,25 @@ class Units:
 
 @dataclass
 class Events:
-    """The collisions found."""
+    """The collisions found. Every world has its share of the columns, which all grow when one of them is full."""
 
-    hits: Moving  # every world has its share of the columns
+    hits: np.ndarray  # [row, collision]; moves, and grows, so that a snapshot keeps it for itself
     found: Moving  # how many collisions each world has had
 
     @property
     def hits_found(self) -> int:
         """Collisions of all worlds."""
         return int(self.found.sum())
+
+    def of(self, number: int) -> np.ndarray:
+        """Those of one world, [row, collision]."""
+        first = number * (self.hits.shape[1] // self.found.size)
+        return self.hits[:, first : first + int(self.found[number])]
+
+    def grow(self) -> None:
+        """Twice the room for every world."""
+        shares = self.hits.reshape(self.hits.shape[0], self.found.size, -1)
+        self.hits = np.concatenate([shares, np.zeros_like(shares)], axis=2).reshape(self.hits.shape[0], -1)
 
 
 @dataclass
@@ -265,7 +303,7 @@ class World:
     def air(self) -> tuple:
         """What radios see of the world, likewise."""
         u, w, r = self.units, self.worlds, self.roads
-        return u.world, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now
+        return u.world, u.first, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
 
     @cached_property
     def carry(self) -> Callable:
@@ -310,13 +348,10 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [
-            u.satellite,
-            u.now,
-            *(part for each in u.mounted for part in (each.out, each.ring, each.output)),
-            *(part for post in u.posts for part in (post.ring, post.inbox)),
-        ]
-        happened = [e.hits, s.phase, s.turned, o.standing, self.detours.choice]
+        radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
+        sensed = [part for each in u.mounted for part in (each.out, each.ring, each.output)]
+        units = [u.satellite, u.now, *sensed, *radio, *(part for air in u.airs for part in air.state)]
+        happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, s.since, s.met, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
@@ -340,11 +375,17 @@ class World:
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
-            yield post.inbox[:, u.world[post.link_receiver] == number]
-        share = e.hits.shape[1] // e.found.size
-        yield e.hits[:, number * share : (number + 1) * share]
+            yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))
+            yield post.kept[:, u.world[post.sender] == number]
+        for air in u.airs:
+            of_units, cells = air.state[:-1], air.state[-1]
+            yield from (part[..., u.world == number] for part in of_units)
+            yield cells[:, number]
+        yield e.of(number)
         yield s.phase[s.world == number]
         yield s.turned[:, s.world == number]
+        mine = s.world[s.node_entry] == number
+        yield from (s.since[mine], s.met[mine])
         yield o.standing[self.objects(number)]
         yield d.choice[of[d.vehicle] == number]
         yield from (memory for group, memory in self.memories() if group.world == number)

@@ -2,12 +2,14 @@
 
 import copy
 
+import numpy as np
 import pytest
 import yaml
 
 from studio import job
 from studio.errors import MapError, RouteError, ScenarioError
 from studio.scenario import file, setup
+from studio.world.setting import position
 
 
 @pytest.fixture
@@ -28,6 +30,15 @@ def test_the_sample_is_valid_and_complete(document):
     assert again == scenario
 
 
+def test_a_preset_gives_what_is_not_given(document):
+    group = document["applications"]["platoon"] | {"application": "acc", "preset": "series", "parameters": {"headway": 2.0}}
+    group.pop("listens_to", None)
+    found = setup.complete(document | {"applications": {"platoon": group}}, "sample").applications["platoon"].parameters
+    assert (found["headway"], found["response_time"], found["cruise_gain"]) == (2.0, 0.48, 0.5)
+    group["preset"] = "serial"
+    assert "series" in refusal(document | {"applications": {"platoon": group}})
+
+
 @pytest.mark.parametrize(
     ("path", "value", "words"),
     [
@@ -42,6 +53,7 @@ def test_the_sample_is_valid_and_complete(document):
         ("applications.platoon.parameters", {"headway": 9}, ["applications.platoon.parameters.headway", "9", "≤ 5"]),
         ("applications.platoon.parameters", {"hedway": 1}, ["parameters.hedway", "did you mean 'headway'"]),
         ("applications.platoon.listens_to", ["leader"], ["4 units but 1"]),
+        ("applications.platoon.preset", "series", ["applications.platoon.preset", "'series'", "'cacc' has no presets"]),
         ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
         ("version", 1, ["version", "1"]),
         ("vehicles.leader.sped", 2, ["vehicles.leader.sped", "did you mean 'speed'"]),
@@ -155,8 +167,32 @@ def test_names_of_the_traffic_are_taken(document, folder):
 
 
 def test_two_cars_in_one_place(document, folder):
+    """Their outlines decide: of the ways out the shortest is to the side, by the 1.61 m that a car is wide."""
     document["vehicles"]["other"] = document["vehicles"]["leader"] | {"position": {"along": 361}}
-    with pytest.raises(ScenarioError, match="starts where 'leader' starts"):
+    with pytest.raises(ScenarioError) as caught:
+        prepared(document, folder)
+    (problem,) = caught.value.problems
+    assert problem.where.endswith("vehicles.other.position") and "starts where 'leader' starts" in str(problem)
+    assert "a gap of -1.6" in str(problem)
+
+
+def test_cars_side_by_side_are_not_in_one_place(document, folder):
+    """On neighbouring lanes, 3.2 m from middle to middle, which is less than a car is long."""
+    start = {"road": "340498991", "offset": 360}
+    document["vehicles"] = {f"lane_{i}": document["vehicles"]["leader"] | {"position": start | {"lane": i}} for i in (1, 2)}
+    document |= {"applications": {}, "script": {}, "traffic": {"count": 0}}
+    one, other = prepared(document, folder).cars
+    (x, y), (a, b) = position(one.path, one.station), position(other.path, other.station)
+    assert 3.0 < np.hypot(x - a, y - b) < 3.5
+
+
+def test_a_car_in_a_barrier(document, folder):
+    """What stands on the road from the beginning is there when cars start; what comes later is not."""
+    put = {"kind": "objects", "route": "east_to_west", "what": "barriers", "start": 361, "end": 362}
+    document["script"] = {"later": {"when": {"kind": "time", "at": 1}, "do": put}}
+    prepared(document, folder)
+    document["script"] = {"works": {"do": put}}
+    with pytest.raises(ScenarioError, match="starts where barrier_1 of works starts"):
         prepared(document, folder)
 
 

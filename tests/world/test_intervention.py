@@ -17,11 +17,12 @@ from studio.vehicle.command import RING, U
 from studio.vehicle.parameter import FRONT, PARAMETER
 from studio.vehicle.state import V_X, VEHICLE
 from studio.world.build import build
-from studio.world.passes.control import APP_ACCELERATION, APP_ACCELERATOR, APP_BRAKE
+from studio.world.passes.control import APP_ACCELERATION, APP_ACCELERATOR, APP_BRAKE, AUTHORS
 from studio.world.passes.intervention import EMERGENCY, NEAREST, attended
 from studio.world.snapshot import restore, snapshot
 from studio.world.table.mind import (
     ACTS_WAY,
+    APPLICATION,
     DRIVER,
     FOLLOWING,
     GAP,
@@ -92,8 +93,9 @@ class Pushing:
     groups: tuple = ()
 
     def decide(self, time, tick, around):
-        for place, value in self.commands.items():
-            around[-1][place] = value
+        commands = around[-1]
+        for (row, column), value in self.commands.items():
+            commands[row, column], commands[AUTHORS + row, column] = value, APPLICATION
         return []
 
 

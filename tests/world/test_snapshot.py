@@ -30,7 +30,7 @@ KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and 
 
 def leaves(owner, path="world"):
     """Everything that a world holds, down to arrays, numbers and texts, with its path."""
-    if path in KNOWN or path.endswith(".owner"):  # what a port is wired to stands with the units
+    if path in KNOWN or path.endswith((".owner", ".log")):  # what a port is wired to stands with the units; a log is a record
         return
     if isinstance(owner, np.ndarray):
         yield path, (owner.dtype, owner.shape, owner.tobytes())
@@ -123,7 +123,7 @@ def test_whatever_changes_is_declared(settings, sample):
 
 def declared(world) -> set[str]:
     """What may change: what is declared as moving, follows from it, or is nobody's concern."""
-    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena"}
+    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena", "world.events.hits"}
 
 
 def test_a_collision_is_declared(sample_setting):

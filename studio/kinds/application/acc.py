@@ -4,6 +4,9 @@
 
 v_p speed of the car ahead, d measured gap, h headway, r standstill distance. With a drive of time constant tau it is
 string stable only for h >= 2 tau (Rajamani, section 6.6).
+
+What is asked of the car may follow u slowly, for comfort and because tracking a target takes time: u_f' = (u - u_f)/T, which is a
+drive that is slower by T.
 """
 
 from typing import Annotated, NamedTuple
@@ -12,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from studio.application.contract import ACCELERATION, Clock, Command, Own, Targets, accelerate
 from studio.compiled import compiled
+from studio.kind.preset import Preset
 
 KIND = "application"
 TITLE = "Adaptive cruise control (radar only)"
@@ -31,6 +35,20 @@ class Parameters(BaseModel):
     )
     acceleration_max: float = Field(2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"})
     deceleration_max: float = Field(8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"})
+    response_time: float = Field(
+        0.0, ge=0.0, le=3.0, title="Response time", description="T, of the first-order lag of what is asked; 0 for none",
+        json_schema_extra={"unit": "s"},
+    )  # fmt: skip
+
+
+OPENACC = (
+    "estimated with front_radar's preset series_acc_radar, so that lag and gain from car to car are those of eleven series cars in "
+    "OpenACC (JRC, ZalaZONE 2019; M. Makridis et al., TR-C 125 (2021) 103047): lag 1.3 to 1.9 s, gain 1.1 to 1.35 at time gaps of "
+    "1.3 to 1.8 s, 0.9 to 1.05 at 2.3 to 2.6 s"
+)
+PRESETS = {
+    "series": Preset("Series ACC", OPENACC, {"headway": 1.3, "gap_gain": 0.55, "response_time": 0.48, "deceleration_max": 3.5}),
+}
 
 
 class Memory(NamedTuple):
@@ -67,11 +85,17 @@ def keep_gap(p, v, front):
 
 
 @compiled
+def smoothed(T, u, before, tick):
+    """The request after a tick [s] of the first-order lag: backward Euler, so that no T is too short for the tick."""
+    return u if T <= 0.0 else before + (u - before) * tick / (T + tick)
+
+
+@compiled
 def decide(parameters, memory, sees):
     """One tick."""
     p, own = parameters, sees.own
     u = cruise(p.cruise_gain, own.set_speed, own.speed)
     if sees.front.count > 0:
         u = min(u, keep_gap(p, own.speed, sees.front.target[0]))
-    u = min(max(u, -p.deceleration_max), p.acceleration_max)
+    u = smoothed(p.response_time, min(max(u, -p.deceleration_max), p.acceleration_max), memory.u, sees.clock.tick)
     return Memory(u), Does(accelerate(u))

@@ -115,35 +115,44 @@ def report(time, a, b, speed, column, hits):
 
 @lean
 def collide(time, widest, state, parameter, world_of, number, grid, places, found, hits, total):
-    """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers."""
-    share, far = hits.shape[1] // total.size, 2.0 * moved(state, places) + widest + NEAR + ROUNDING
+    """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers.
+
+    Gives how many of them found no room.
+    """
+    share, far, left = hits.shape[1] // total.size, 2.0 * moved(state, places) + widest + NEAR + ROUNDING, 0
     for a in range(state.shape[1]):
         w = world_of[a]
-        if state[ACTIVE, a] == 0.0 or total[w] == share:
+        if state[ACTIVE, a] == 0.0:
             continue
         reach = half_and_offset(a, parameter) + far
         for i in range(within(w, places[AT_X, a], places[AT_Y, a], 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
             b = found[i]
             if b > a and state[ACTIVE, b] > 0.0 and touching(a, b, state, parameter):
-                add(time, number[a], number[b], relative_speed(a, b, state), w, share, hits, total)
+                left += add(time, number[a], number[b], relative_speed(a, b, state), w, share, hits, total)
+    return left
 
 
 @lean
 def add(time, a, b, speed, w, share, hits, total):
-    """A contact of a pair that has not been reported."""
+    """A contact of a pair that has not been reported; 1 when there is no room for it."""
     first = w * share
-    if total[w] < share and not is_known(a, b, first, first + total[w], hits):
-        report(time, a, b, speed, first + total[w], hits)
-        total[w] += 1
+    if is_known(a, b, first, first + total[w], hits):
+        return 0
+    if total[w] == share:
+        return 1
+    report(time, a, b, speed, first + total[w], hits)
+    total[w] += 1
+    return 0
 
 
 @lean
 def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, total):
     """The same for cars and the objects that stand on the road; object i is OBJECT - i."""
-    share = hits.shape[1] // first.size
+    share, left = hits.shape[1] // first.size, 0
     for w in range(first.size):
         for v in range(first[w], first[w] + count[w]):
             for i in range(first_object[w], first_object[w] + object_count[w]):
                 if state[ACTIVE, v] > 0.0 and standing[i] != 0 and striking(v, i, state, parameter, table):
                     speed = sqrt(state[V_X, v] * state[V_X, v] + state[V_Y, v] * state[V_Y, v])
-                    add(time, v - first[w], OBJECT - (i - first_object[w]), speed, w, share, hits, total)
+                    left += add(time, v - first[w], OBJECT - (i - first_object[w]), speed, w, share, hits, total)
+    return left

@@ -19,7 +19,22 @@ from studio.vehicle.contact import SLOPE_X, SLOPE_Y
 from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
 from studio.vehicle.state import ACCELERATOR, ACTIVE, CLUTCH, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X
 from studio.world.passes.intervention import attended, is_minding, let_go
-from studio.world.table.mind import DRIVES, SCRIPT_ACCELERATION, SCRIPT_STEERING, STEER_WISH, STEERS, WISH
+from studio.world.table.mind import (
+    COMMANDS_BRAKE,
+    COMMANDS_DRIVE,
+    COMMANDS_GEAR,
+    COMMANDS_WHEEL,
+    DRIVER_HAS,
+    DRIVES,
+    GEARBOX_HAS,
+    INTERVENTION_HAS,
+    SCRIPT_ACCELERATION,
+    SCRIPT_HAS,
+    SCRIPT_STEERING,
+    STEER_WISH,
+    STEERS,
+    WISH,
+)  # fmt: skip
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
@@ -27,6 +42,7 @@ HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
 ) = range(len(ACTUATORS))  # fmt: skip
+AUTHORS = len(ACTUATORS)  # behind them, row by row, the number of the application that commands each
 
 
 @inlined
@@ -146,6 +162,56 @@ def steer(v, column, parameter, script, mind, app_command, commands):
     commands[U_STEER_TORQUE, column] = app_command[APP_STEERING_TORQUE, v]
 
 
+@inlined
+def has(row, otherwise, v, app_command):
+    """Number of the application that commands an actuator, else of who has it without one."""
+    return otherwise if isnan(app_command[row, v]) else app_command[AUTHORS + row, v]
+
+
+@inlined
+def has_wheel(v, script, app_command):
+    """Who steers: a torque goes before an angle."""
+    angle = has(APP_STEERING, DRIVER_HAS, v, app_command)
+    return SCRIPT_HAS if script[STEERS, v] != 0.0 else has(APP_STEERING_TORQUE, angle, v, app_command)
+
+
+@inlined
+def has_pedals_now(v, limit, mind, app_command):
+    """Who has the acceleration: application or driver, or the driver who permits less than they ask for."""
+    asked = mind[WISH, v] if isnan(app_command[APP_ACCELERATION, v]) else app_command[APP_ACCELERATION, v]
+    overrules = limit < NO_LIMIT and (limit < asked or drives(v, app_command))
+    return INTERVENTION_HAS if overrules else has(APP_ACCELERATION, DRIVER_HAS, v, app_command)
+
+
+@inlined
+def has_drive(v, limit, otherwise, app_command):
+    """Who has the powertrain: who commands it itself, an engine before a drive torque before the pedal, unless the driver has to brake."""
+    if limit < 0.0:
+        return otherwise
+    pedal = has(APP_ACCELERATOR, otherwise, v, app_command)
+    return has(APP_ENGINE, has(APP_DRIVE, pedal, v, app_command), v, app_command)
+
+
+@inlined
+def has_brake(v, column, limit, otherwise, app_command, commands):
+    """Who has the brake: who commands it itself, unless the driver brakes harder; read once the commands are written."""
+    harder = limit < 0.0 and commands[U_BRAKE, column] > max(app_command[APP_BRAKE, v], 0.0)
+    return otherwise if harder else has(APP_BRAKE, otherwise, v, app_command)
+
+
+@inlined
+def tell_who(v, column, limit, is_scripted, script, mind, app_command, commands):
+    """Writes down who has wheel, brake, drive and gear."""
+    mind[COMMANDS_WHEEL, v] = has_wheel(v, script, app_command)
+    mind[COMMANDS_GEAR, v] = has(APP_GEAR, GEARBOX_HAS, v, app_command)
+    if is_scripted:
+        mind[COMMANDS_DRIVE, v] = mind[COMMANDS_BRAKE, v] = SCRIPT_HAS
+        return
+    who = has_pedals_now(v, limit, mind, app_command)
+    mind[COMMANDS_DRIVE, v] = has_drive(v, limit, who, app_command)
+    mind[COMMANDS_BRAKE, v] = has_brake(v, column, limit, who, app_command, commands)
+
+
 @lean
 def command(k, time, state, ground, parameter, script, drivers, mind, app_command, commands):
     """Writes this tick's commands into the ring."""
@@ -166,3 +232,5 @@ def command(k, time, state, ground, parameter, script, drivers, mind, app_comman
         else:
             pedals(v, column, request(v, limit, mind, app_command[APP_ACCELERATION, v]), state, ground, parameter, commands)
             take_over(v, column, limit, state, parameter, app_command, commands)
+        if is_active:
+            tell_who(v, column, limit, is_scripted, script, mind, app_command, commands)

@@ -1,11 +1,12 @@
 """Notices: what has happened in a tick, found by compiled code and written into a table that is emptied now and then.
 
 A notice is a row of numbers; words are made of it only when somebody reads the table (execution/event.py). Everything is noticed once,
-but for company, waiting at red lights and drivers who overrule applications, which come and go, and for red lights that are passed.
+but for company, waiting at red lights, drivers who overrule applications and who commands, which come and go, and for red lights that are
+passed.
 """
 
 from dataclasses import dataclass
-from math import nan
+from math import inf, isnan, nan
 
 import numpy as np
 
@@ -14,9 +15,11 @@ from studio.road.network.signals import RED
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X, X, Y
+from studio.world.board.air import EARLY
 from studio.world.board.host import Hosted
 from studio.world.table.event import (
     ARRIVED,
+    COMMAND_TAKEN,
     COMPANY_CAME,
     COMPANY_LEFT,
     HIT,
@@ -25,11 +28,12 @@ from studio.world.table.event import (
     RED_PASSED,
     ROLLED_OVER,
     SCRIPT_BEGUN,
+    SCRIPT_CUT,
     SCRIPT_ENDED,
     TAKES_OVER,
     WAITS,
 )
-from studio.world.table.mind import ACTS_COLLISION, AHEAD, RED_STATION, STATION
+from studio.world.table.mind import ACTS_COLLISION, AHEAD, COMMANDED, COMMANDS_WHEEL, INTERVENTION_HAS, RED_STATION, STATION
 from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME
 from studio.world.table.unit import H_CAME, H_MISSED, TRUE_X, TRUE_Y
 from studio.world.world import World
@@ -48,7 +52,10 @@ AT_THE_LINE = 8.0  # [m] before the stop line and nearer, a car that stands is t
 STANDING = 0.1  # [m/s]
 ROLLED = 1.0  # [rad] a vehicle that leans farther has rolled over
 REASONS = 3  # for which a driver overrules an application
-TOLD_OF_A_VEHICLE = 4 + REASONS  # notices that one vehicle may give in one tick
+HANDS = len(COMMANDED)  # wheel, brake, drive, gear
+SETTLED = 0.5  # [s] a change of hands is told at once when there was none for so long, else once it has lasted so long
+NUMBERS = 1024  # a change of hands is one number: which of the four, who had them, who has them now
+TOLD_OF_A_VEHICLE = 4 + REASONS + HANDS  # notices that one vehicle may give in one tick
 
 
 @dataclass
@@ -61,15 +68,18 @@ class Watch:
     member_first: np.ndarray  # of its chain, per follower
     member_count: np.ndarray
     member: np.ndarray  # numbers of the chains' vehicles in their world
-    script_told: np.ndarray  # [begun or over, entry]
+    script_told: np.ndarray  # [s] float64[begun or over, entry]: when the turn that was told last came, not a number before
     hits_told: np.ndarray  # per world
     vehicles_told: np.ndarray  # [rolled over or arrived, vehicle]
     waiting: np.ndarray  # int64[vehicle], 1 while it stands at a red light
     front: np.ndarray  # [m] per vehicle, the station of its bumper at the tick before; not a number when it was on another path
     path: np.ndarray  # per vehicle, the first point of its path at the tick before
     acting: np.ndarray  # int64[reason, vehicle], 1 while its driver overrules its application
+    hands: np.ndarray  # int64[hand, vehicle]: who has it as told last, -1 while nobody has been seen to have it
+    hands_since: np.ndarray  # [s] float64[hand, vehicle]: when this was told
     between: np.ndarray  # per follower, the number of the car between it and the one that it listens to
     shown: list[tuple[Hosted, np.ndarray]]  # applications that show notices, with what each unit showed at the tick before
+    hits: int  # collisions that there is room for in one tick
     table: np.ndarray
     count: np.ndarray  # int64[1]
 
@@ -77,6 +87,12 @@ class Watch:
     def is_nearly_full(self) -> bool:
         """Whether all that may happen in one more tick might not find room."""
         return 2 * int(self.count[0]) > self.table.shape[1]
+
+    def make_room(self, hits: int) -> None:
+        """There may be more collisions now."""
+        if hits > self.hits:
+            self.table = np.concatenate([self.table, np.zeros((len(NOTICE), 2 * (hits - self.hits)))], axis=1)
+            self.hits = hits
 
 
 def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int, ...]]]) -> Watch:
@@ -93,15 +109,18 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         member_first=np.cumsum(sizes) - sizes,
         member_count=sizes,
         member=np.array([number for _, members in followers for number in members], dtype=np.int64),
-        script_told=np.zeros((2, s.phase.size), dtype=np.int64),
+        script_told=np.full((2, s.phase.size), nan),
         hits_told=np.zeros(w.first.size, dtype=np.int64),
         vehicles_told=np.zeros((2, n), dtype=np.int64),
         waiting=np.zeros(n, dtype=np.int64),
         front=np.full(n, nan),
         path=np.full(n, -1),
         acting=np.zeros((REASONS, n), dtype=np.int64),
+        hands=np.full((HANDS, n), -1),
+        hands_since=np.full((HANDS, n), -inf),
         between=np.full(sizes.size, -1),
         shown=[(each, np.zeros(each.unit.size, dtype=np.int64)) for each in shown],
+        hits=e.hits.shape[1],
         table=np.zeros((len(NOTICE), 2 * most)),
         count=np.zeros(1, dtype=np.int64),
     )
@@ -110,11 +129,12 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
 def notice(world: World, at: Watch) -> None:
     """The pass: all that has happened in the tick that is over."""
     v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
+    at.make_room(e.hits.shape[1])
     u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
     notice_events(
-        time, now, s.phase, s.turned, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
-        at.named, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, v.state, v.mind,
-        at.table, at.count,
+        time, now, s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
+        at.named, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, at.hands,
+        at.hands_since, v.state, v.mind, at.table, at.count,
     )  # fmt: skip
     if r.stop_station.size:
         notice_lights(
@@ -159,26 +179,31 @@ def is_news(true, told, i):
 
 
 @lean
-def notice_events(time, now, phase, turned, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
-                  vehicles_told, follower, member_first, member_count, member, between, acting, state, mind, table, count):  # fmt: skip
+def notice_events(time, now, turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
+                  vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind, table,
+                  count):  # fmt: skip
     """What may happen in every world, in one call: what the script, collisions, routes, chains and drivers have brought."""
-    notice_script(phase, turned, vehicle, state, script_world, script_told, table, count)
+    notice_script(turned, cut, vehicle, state, script_world, script_told, table, count)
     notice_hits(found, hits, first, state, hits_told, table, count)
     notice_vehicles(time, state, world_of, number, named, vehicles_told, table, count)
     notice_company(now, state, mind, world_of, follower, member_first, member_count, member, between, table, count)
     notice_drivers(now, state, mind, world_of, number, acting, table, count)
+    notice_hands(now, state, mind, world_of, number, named, hands, hands_since, table, count)
 
 
 @lean
-def notice_script(phase, turned, vehicle, state, script_world, told, table, count):
-    """Entries of the script that have begun or ended."""
-    for i in range(phase.size):
+def notice_script(turned, cut, vehicle, state, script_world, told, table, count):
+    """Entries of the script that have begun or ended, and who has ended them."""
+    for i in range(cut.size):
         v = vehicle[i]
         x, y = (state[X, v], state[Y, v]) if v >= 0 else (nan, nan)
-        if is_news(phase[i] > 0, told[0], i):
-            note(turned[0, i], SCRIPT_BEGUN, script_world[i], i, -1, x, y, nan, table, count)
-        if is_news(phase[i] > 1, told[1], i):
-            note(turned[1, i], SCRIPT_ENDED, script_world[i], i, -1, x, y, nan, table, count)
+        for turn in range(2):
+            when = turned[turn, i]
+            if when == told[turn, i] or isnan(when):
+                continue
+            told[turn, i] = when
+            kind = SCRIPT_BEGUN if turn == 0 else SCRIPT_CUT if cut[i] >= 0 else SCRIPT_ENDED
+            note(when, kind, script_world[i], i, cut[i], x, y, nan, table, count)
 
 
 @lean
@@ -253,10 +278,36 @@ def notice_drivers(time, state, mind, world_of, number, acting, table, count):
 
 
 @lean
+def notice_hands(time, state, mind, world_of, number, named, hands, since, table, count):
+    """Wheel, brake, drive and gear of named vehicles that have changed hands; those that did so alike are one notice."""
+    for v in range(number.size):
+        if named[v] == 0 or state[ACTIVE, v] == 0.0:
+            continue
+        for i in range(HANDS):
+            before, who = hands[i, v], int(mind[COMMANDS_WHEEL + i, v])
+            if not is_new_hand(i, v, time, mind, hands, since):
+                continue
+            which = 0
+            for j in range(i, HANDS):
+                if hands[j, v] == before and int(mind[COMMANDS_WHEEL + j, v]) == who and is_new_hand(j, v, time, mind, hands, since):
+                    hands[j, v], since[j, v] = who, time
+                    which += 1 << j
+            if before >= 0 and who != INTERVENTION_HAS:  # that he takes over is told with his reason
+                told = which + (before + who * NUMBERS) * NUMBERS
+                note_vehicle(time, COMMAND_TAKEN, v, -1, told, state, world_of, number, table, count)
+
+
+@inlined
+def is_new_hand(i, v, time, mind, hands, since):
+    """Whether a hand is another's than was told, and this may be told now."""
+    return int(mind[COMMANDS_WHEEL + i, v]) != hands[i, v] and time - since[i, v] >= SETTLED
+
+
+@lean
 def notice_messages(time, tick, inbox, link_receiver, sender, link_sender, unit_world, unit_first, now, table, count):
     """Messages that came at this tick after others had been lost, as their numbers tell."""
     for link in range(link_receiver.size):
-        if inbox[H_MISSED, link] > 0.0 and abs(inbox[H_CAME, link] - time) < 0.5 * tick:
+        if inbox[H_MISSED, link] > 0.0 and time - tick < inbox[H_CAME, link] - EARLY <= time:
             u, s = link_receiver[link], sender[link_sender[link]]
             w = unit_world[u]
             receiver, other, missed = u - unit_first[w], s - unit_first[w], inbox[H_MISSED, link]

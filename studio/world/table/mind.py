@@ -49,6 +49,13 @@ ACTS_COLLISION = MIND.row("acts_collision", "1", "1 while he overrules the appli
 ACTS_RED = MIND.row("acts_red_light", "1", "1 while he does before a red light", role=Role.STATE)
 ACTS_WAY = MIND.row("acts_right_of_way", "1", "1 while he does before a car that goes first", role=Role.STATE)
 INTERVENING = MIND.row("intervening", "1", "1 while the driver overrules an application", label="Driver overrules the application")
+DRIVER_HAS, SCRIPT_HAS, INTERVENTION_HAS, GEARBOX_HAS, APPLICATION = range(5)  # who commands: world/commander.py
+WHO = "0 driver, 1 script, 2 driver's intervention, 3 gearbox, 4 and on the groups of applications, by name"
+COMMANDS_WHEEL = MIND.row("commands_wheel", "1", f"who has the steering wheel: {WHO}", label="Who steers")
+COMMANDS_BRAKE = MIND.row("commands_brake", "1", f"who has the brake: {WHO}", label="Who brakes")
+COMMANDS_DRIVE = MIND.row("commands_drive", "1", f"who has the drive: {WHO}", label="Who drives")
+COMMANDS_GEAR = MIND.row("commands_gear", "1", f"who chooses the gear: {WHO}", label="Who chooses the gear")
+COMMANDED = tuple(row.name for row in MIND[COMMANDS_WHEEL : COMMANDS_GEAR + 1])
 
 SCRIPT = Table("script", Role.DERIVED, per="vehicle")
 DRIVES = SCRIPT.row("drives", "1", "1 while a maneuver of the script commands the pedals")
