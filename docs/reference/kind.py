@@ -8,6 +8,7 @@ from docs.reference.field import fields
 from docs.reference.table import code, filled, table
 from studio.application import contract
 from studio.kind import registry
+from studio.kind.preset import presets
 from studio.kind.quantity import Quantity, quantities
 from studio.kind.registry import Kind
 from studio.kind.sort import SORTS, Sort
@@ -25,7 +26,7 @@ PARTS = ("part", "what it is", "how it is written")
 SET = ("Settings", "Parameters")  # what is set, as a scenario has it
 GIVEN = ("Reading", "Payload", "Memory")  # numbers with units
 GIVES = {  # modules that say what functions of a kind are given and give back
-    "sensor": ("studio.world.view",),
+    "sensor": ("studio.kind.sensor", "studio.world.view"),
     "radio": ("studio.world.view",),
     "message": ("studio.application.contract",),
     "driver": ("studio.kind.driver",),
@@ -99,7 +100,19 @@ def section(kind: Kind) -> str:
     """One kind: what its docstring says, what it is measured in, what may be set, what it gives."""
     sort = SORTS[kind.sort]
     tables = [text for name in (*SET, *GIVEN) if (text := described(name, getattr(kind.module, name, None), sort))]
-    return "\n\n".join([f"## {kind.name}", f"**{kind.title}**{measured(kind)}", kind.explanation, *tables])
+    return "\n\n".join([f"## {kind.name}", f"**{kind.title}**{measured(kind)}", kind.explanation, *tables, *presets_of(kind)])
+
+
+def presets_of(kind: Kind) -> Iterator[str]:
+    """Its named sets of settings, with their sources."""
+    rows = [[code(name), each.title, told(each.values), each.source] for name, each in presets(kind.module).items()]
+    if rows:
+        yield f"Presets:\n\n{table(('preset', 'what it is', 'values', 'source'), rows).rstrip()}"
+
+
+def told(values: dict[str, Any]) -> str:
+    """The values of a preset in a line."""
+    return ", ".join(f"{name} {value}" for name, value in values.items())
 
 
 def measured(kind: Kind) -> str:
