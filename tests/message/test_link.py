@@ -61,16 +61,18 @@ def ages(messages):
 @pytest.mark.parametrize(("p", "mean", "peak", "beyond"), [
     (0.0, 0.07, 0.12, {0.15: 0.0}),
     (0.1, 0.08111, 0.13111, {0.15: 0.073, 0.32: 0.001}),
+    (0.2, 0.095, 0.145, {}),
     (0.3, 0.11286, 0.16286, {0.15: 0.237, 0.32: 0.027}),
     (0.6, 0.22, 0.27, {0.15: 0.528, 0.32: 0.216, 0.52: 0.07776}),
 ])  # fmt: skip
 def test_ages_where_each_is_lost_by_itself(p, mean, peak, beyond):
     """T = 0.1 s, L = 0.02 s: mean age L + T (1 + p) / (2 (1 - p)), mean time between two T / (1 - p); 4e5 messages, seed 1, ±2 %."""
     found = pairs({"loss_good": p})
-    age, between, peaks, _ = ages(found)
+    age, between, peaks, runs = ages(found)
     assert found.cause.size == pytest.approx(4e5, rel=0.01) and set(found.cause) <= {RECEIVED, CHANCE}
     assert age == pytest.approx(mean, rel=0.02) and between.mean() == pytest.approx(0.1 / (1.0 - p), rel=0.02)
     assert peaks.mean() == pytest.approx(peak, rel=0.02)
+    assert np.maximum(runs - 2, 0).sum() / found.cause.size == pytest.approx(p**3, rel=0.06, abs=1e-9)  # three in a row are lost
     for limit, share in beyond.items():
         beyond_it = np.minimum(np.maximum(peaks - limit, 0.0), between).sum() / between.sum()
         assert beyond_it == pytest.approx(share, rel=0.02 if share > 0.01 else 0.1, abs=1e-9)

@@ -27,7 +27,7 @@ class Payload(NamedTuple):
     count: Annotated[float, "1", "how many objects it tells of"] = 0.0
     identity: Annotated[Eight, "1", "number that the sensor has given each object"] = NONE
     age: Annotated[Eight, "s", "since each was measured"] = NONE
-    ahead: Annotated[Eight, "m", "place of each before the sender's position, along its heading"] = NONE
+    ahead: Annotated[Eight, "m", "place of each before the sender's sensor, along its heading"] = NONE
     left: Annotated[Eight, "m", "place of each to the left of it"] = NONE
     speed_ahead: Annotated[Eight, "m/s", "speed of each along the sender's heading"] = NONE
 
