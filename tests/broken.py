@@ -75,7 +75,7 @@ class Reading(NamedTuple):
 @compiled
 def measure(view, me, settings, memory, out):
     """One look."""
-    other, distance = nearest_car(view, me, settings, own_curvature(me.speed, me.yaw_rate), -1.0)
+    other, distance, _ = nearest_car(view, me, settings, own_curvature(me.speed, me.yaw_rate), -1.0)
     if other == -1:
         return 0
     report(out, me, 0, Reading(distance, 0.0))

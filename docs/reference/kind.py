@@ -8,7 +8,7 @@ from docs.reference.field import fields
 from docs.reference.table import code, filled, table
 from studio.application import contract
 from studio.kind import registry
-from studio.kind.preset import Preset, presets
+from studio.kind.preset import presets
 from studio.kind.quantity import Quantity, quantities
 from studio.kind.registry import Kind
 from studio.kind.sort import SORTS, Sort
@@ -26,7 +26,7 @@ PARTS = ("part", "what it is", "how it is written")
 SET = ("Settings", "Parameters")  # what is set, as a scenario has it
 GIVEN = ("Reading", "Payload", "Memory")  # numbers with units
 GIVES = {  # modules that say what functions of a kind are given and give back
-    "sensor": ("studio.world.view",),
+    "sensor": ("studio.kind.sensor", "studio.world.view"),
     "radio": ("studio.world.view",),
     "message": ("studio.application.contract",),
     "driver": ("studio.kind.driver",),
@@ -100,20 +100,19 @@ def section(kind: Kind) -> str:
     """One kind: what its docstring says, what it is measured in, what may be set, what it gives."""
     sort = SORTS[kind.sort]
     tables = [text for name in (*SET, *GIVEN) if (text := described(name, getattr(kind.module, name, None), sort))]
-    tables += [text] if (text := named(presets(kind.module))) else []
-    return "\n\n".join([f"## {kind.name}", f"**{kind.title}**{measured(kind)}", kind.explanation, *tables])
+    return "\n\n".join([f"## {kind.name}", f"**{kind.title}**{measured(kind)}", kind.explanation, *tables, *presets_of(kind)])
 
 
-def named(known: dict[str, Preset]) -> str:
-    """The presets of a kind; "" when it has none."""
-    rows = [[code(name), each.title, told(each), each.source] for name, each in known.items()]
-    text = "`preset` names one of these; what is given beside it counts instead."
-    return f"{text}\n\n{table(('preset', 'title', 'settings', 'source'), rows)}" if rows else ""
+def presets_of(kind: Kind) -> Iterator[str]:
+    """Its named sets of settings, with their sources."""
+    rows = [[code(name), each.title, told(each.values), each.source] for name, each in presets(kind.module).items()]
+    if rows:
+        yield f"Presets:\n\n{table(('preset', 'what it is', 'values', 'source'), rows).rstrip()}"
 
 
-def told(each: Preset) -> str:
-    """The values of a preset on one line."""
-    return ", ".join(f"{code(name)} {value}" for name, value in each.values.items())
+def told(values: dict[str, Any]) -> str:
+    """The values of a preset in a line."""
+    return ", ".join(f"{name} {value}" for name, value in values.items())
 
 
 def measured(kind: Kind) -> str:

@@ -58,6 +58,42 @@ def normal(seed, entity, stream, tick, about=0):
 
 
 @compiled
+def normals(seed, entity, stream, tick, about=0):
+    """Four independent numbers of the standard normal distribution, from 32 bits each: for much noise at little cost."""
+    a, b, c, d = philox(tick, entity, stream, about, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+    return quantile(share(a)), quantile(share(b)), quantile(share(c)), quantile(share(d))
+
+
+@compiled
+def share(word):
+    """Uniform in the open interval (0, 1) from 32 bits."""
+    return (np.float64(word) + 0.5) * 2.0**-32
+
+
+@compiled
+def quantile(p):
+    """The number that a standard normal number is below with the probability p, to 1e-7.
+
+    Source: M. J. Wichura, The percentage points of the normal distribution, Applied Statistics 37 (1988) 477, algorithm AS 241, PPND7.
+    """
+    q = p - 0.5
+    if abs(q) <= 0.425:
+        r = 0.180625 - q * q
+        above = ((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179
+        return q * above / (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1.0)
+    r = sqrt(-log(p if q < 0.0 else 1.0 - p))
+    if r <= 5.0:
+        r -= 1.6
+        above = ((0.17023821103 * r + 1.3067284816) * r + 2.7568153900) * r + 1.4234372777
+        z = above / ((0.12021132975 * r + 0.73700164250) * r + 1.0)
+    else:
+        r -= 5.0
+        above = ((0.017337203997 * r + 0.42868294337) * r + 3.0812263860) * r + 6.6579051150
+        z = above / ((0.012258202635 * r + 0.24197894225) * r + 1.0)
+    return -z if q < 0.0 else z
+
+
+@compiled
 def normal_pair(seed, entity, stream, tick):
     """Two independent numbers of the standard normal distribution; the first is that of `normal`."""
     a, b, c, d = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)

@@ -5,9 +5,10 @@ against that of the sensor, its length and width [m]. A bearing is an angle [rad
 from `low`, within (-π, π], to `high`, which is not below `low`: behind the sensor it goes beyond π.
 """
 
-from math import atan, atan2, cos, inf, pi, sin, sqrt
+from math import atan2, cos, inf, pi, sin, sqrt
 
 from studio.compiled import inlined
+from studio.model.elementary import atan
 
 
 @inlined
@@ -20,38 +21,31 @@ def holds(x, y, c, s, length, width):
 def edges(x, y, c, s, length, width):
     """From which bearing to which [rad] an outline reaches; all around from inside.
 
-    Seen against its middle, a corner with the cross product q and the scalar product p stands at atan2(q, p). Where all corners lie
-    ahead of the sensor in that direction, the outermost are those with the least and the greatest q/p.
+    Where all corners lie ahead of the sensor, the outermost are those with the least and the greatest left/ahead.
     """
-    if holds(x, y, c, s, length, width):
-        return -pi, pi
-    middle, low, high, is_before = atan2(y, x), 0.0, 0.0, True
-    for i in range(4):
-        along, aside = (0.5 - i // 2) * length, (0.5 - i % 2) * width
-        px, py = x + along * c - aside * s, y + along * s + aside * c
-        q, p = x * py - y * px, x * px + y * py
-        is_before = is_before and p > 0.0
-        low, high = (min(low, q / p), max(high, q / p)) if is_before else (low, high)
-    if is_before:
-        low, high = atan(low), atan(high)
-    else:
-        low, high = widest(x, y, c, s, length, width)
-    first = middle + low
-    if first <= -pi:
-        first += 2.0 * pi
-    return first, first + (high - low)
+    along_x, along_y, aside_x, aside_y = 0.5 * length * c, 0.5 * length * s, -0.5 * width * s, 0.5 * width * c
+    if x - abs(along_x) - abs(aside_x) <= 0.0:
+        return widest(x, y, c, s, length, width)
+    a, b = (y + along_y + aside_y) / (x + along_x + aside_x), (y + along_y - aside_y) / (x + along_x - aside_x)
+    d, e = (y - along_y + aside_y) / (x - along_x + aside_x), (y - along_y - aside_y) / (x - along_x - aside_x)
+    return atan(min(a, b, d, e)), atan(max(a, b, d, e))
 
 
 @inlined
 def widest(x, y, c, s, length, width):
-    """The same against its middle, for an outline that is so near that it reaches behind the sensor."""
+    """The same for an outline that is beside or behind the sensor, or around it: corners are told by their angles against its middle."""
+    if holds(x, y, c, s, length, width):
+        return -pi, pi
     low, high = 0.0, 0.0
     for i in range(4):
         along, aside = (0.5 - i // 2) * length, (0.5 - i % 2) * width
         px, py = x + along * c - aside * s, y + along * s + aside * c
         angle = atan2(x * py - y * px, x * px + y * py)
         low, high = min(low, angle), max(high, angle)
-    return low, high
+    first = atan2(y, x) + low
+    if first <= -pi:
+        first += 2.0 * pi
+    return first, first + (high - low)
 
 
 @inlined

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from numba import literal_unroll
 
 from studio.compiled import inlined
-from studio.model.random import normal, uniform
+from studio.model.random import normal, normals, uniform
 from studio.vehicle.state import V_X, YAW_RATE
 from studio.world.passes.neighbour import within
 from studio.world.passes.sight import glimpse as glimpse
@@ -234,6 +234,13 @@ def draw(view, me, number, about=0):
 def draw_normal(view, me, number, about=0):
     """Noise: a number of the standard normal distribution, times a factor when the sensor is not well; numbered like those of `draw`."""
     return me.noise * normal(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k, about)
+
+
+@inlined
+def draw_four(view, me, number, about=0):
+    """Four numbers like those of `draw_normal`, for about the cost of one."""
+    a, b, c, d = normals(view.seed[me.world], view.entity[me.unit], me.stream + number, view.k, about)
+    return me.noise * a, me.noise * b, me.noise * c, me.noise * d
 
 
 @inlined

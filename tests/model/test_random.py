@@ -1,8 +1,11 @@
 """Random numbers: known answers, distribution, and that nothing but the counter matters."""
 
+from statistics import NormalDist
+
 import numpy as np
 import pytest
 
+from studio.model import random
 from studio.model.random import normal, philox, uniform
 
 # Published with Random123 (kat_vectors, philox4x32 with 10 rounds).
@@ -42,3 +45,20 @@ def test_every_part_of_the_counter_matters():
 
 def test_seeds_beyond_32_bits_differ():
     assert uniform(1, 0, 0, 0) != uniform(1 + 2**32, 0, 0, 0)
+
+
+def test_the_quantile_of_the_normal_distribution():
+    """Against the standard library, to 1e-7 of its value or of 1e-7."""
+    for p in (2.0**-33, 1e-9, 1e-6, 0.001, 0.0749, 0.0751, 0.3, 0.4999, 0.5, 0.7, 0.9251, 0.99, 1.0 - 1e-9):
+        assert random.quantile(p) == pytest.approx(NormalDist().inv_cdf(p), rel=3e-7, abs=1e-7)
+
+
+def test_four_numbers_at_once_are_normal_and_independent():
+    """100 000 draws of four: moments and correlations within four standard errors; another thing that they are about gives others."""
+    found = np.array([random.normals(7, 3, 20, k) for k in range(100_000)]).T
+    n = found.shape[1]
+    assert np.abs(found.mean(axis=1)).max() < 4.0 / n**0.5
+    assert np.abs(found.var(axis=1) - 1.0).max() < 4.0 * (2.0 / n) ** 0.5
+    assert np.abs((found**4).mean(axis=1) - 3.0).max() < 4.0 * (96.0 / n) ** 0.5
+    assert np.abs(np.corrcoef(found) - np.eye(4)).max() < 4.0 / n**0.5
+    assert random.normals(7, 3, 20, 0, 1) != random.normals(7, 3, 20, 0)

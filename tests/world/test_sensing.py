@@ -100,6 +100,15 @@ def test_the_delay_varies_and_nothing_older_comes_after_something_newer():
     assert (np.diff(stamps[20:]) >= -1e-9).all() and often[AGE, 20:].min() >= 0.0
 
 
+def test_the_time_of_a_measurement_is_recorded():
+    sensors = {"late": {"kind": "front_radar", "delay": 0.1}, "now": {"kind": "front_radar"}}
+    run = stage(vehicles={"own": {"sensors": sensors}})
+    run.advance(50)
+    record = run.record()
+    np.testing.assert_allclose((record.time - record.trace("own.late.measured"))[6:], 0.1, atol=1e-9)
+    np.testing.assert_allclose(record.time, record.trace("own.now.measured"), atol=1e-9)
+
+
 # -- period, drop-out ----------------------------------------------------------------------------------
 
 

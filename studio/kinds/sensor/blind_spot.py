@@ -18,13 +18,13 @@ from studio.world.passes import track
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.sight import LONG, MIDDLE_X, MIDDLE_Y, WHO
 from studio.world.passes.track import Tracks
-from studio.world.view import draw_normal, look, report, target
+from studio.world.view import draw_four, look, report, target
 
 KIND = "sensor"
 TITLE = "Blind-spot sensor"
 CAPACITY = track.MOST
 GAIN = 0.5  # of a track's existence, from look to look
-AHEAD_NOISE, LEFT_NOISE, RATE_NOISE, LENGTH_NOISE = range(4)  # draws
+NOISE = 0  # draws
 Memory = Tracks
 
 
@@ -73,13 +73,14 @@ def write(view, me, settings, i, slot, out):
     ahead, left = east * me.cosine + north * me.sine - me.front, north * me.cosine - east * me.sine
     along = view.places[COS, v] * me.cosine + view.places[SIN, v] * me.sine
     t = track.follow(view, me, sight[WHO, i], GAIN)
+    a, b, c, d = draw_four(view, me, NOISE, slot)
     report(
         out, me, slot,
         Reading(
-            ahead + settings.noise * draw_normal(view, me, AHEAD_NOISE, slot),
-            left + settings.noise * draw_normal(view, me, LEFT_NOISE, slot),
-            view.state[V_X, v] * along - me.speed + settings.rate_noise * draw_normal(view, me, RATE_NOISE, slot),
-            max(sight[LONG, i] + settings.length_noise * draw_normal(view, me, LENGTH_NOISE, slot), 0.0),
+            ahead + settings.noise * a,
+            left + settings.noise * b,
+            view.state[V_X, v] * along - me.speed + settings.rate_noise * c,
+            max(sight[LONG, i] + settings.length_noise * d, 0.0),
             track.number(view, t),
             track.existence(view, t),
         ),

@@ -13,7 +13,7 @@ range noise of a camera, 5 % of the range.
 from math import atan2
 from typing import Annotated, NamedTuple
 
-from studio.compiled import inlined, lean
+from studio.compiled import inlined
 from studio.kind.preset import Preset
 from studio.kind.sensor import Looking
 from studio.kind.settings import number
@@ -31,6 +31,7 @@ TITLE = "Front radar with one target"
 CAPACITY = 1
 RANGE_NOISE, RATE_NOISE, AZIMUTH_NOISE = range(3)  # draws
 FIRST_LOOK = 30.0  # [m]
+ASIDE = 1.0  # [m] by which what hides a car in the corridor may stand beside it
 
 
 class Settings(Looking):
@@ -93,30 +94,32 @@ def is_in_way(view, me, other, kappa):
     return False
 
 
-@lean
+@inlined
 def nearest_car(view, me, settings, kappa, beyond):
     """Column of the nearest car in the own corridor that is farther than `beyond` [m], and its distance; -1 when there is none.
 
-    Near cars are looked at first: where one is seen, none that is farther can be nearer.
+    Near cars are looked at first: where one is seen, none that is farther can be nearer. Returned is also how many vehicles `view.found`
+    holds: all that may stand before it.
     """
-    best, nearest = -1, settings.range
+    best, nearest, found = -1, settings.range, 0
     for reach in (min(FIRST_LOOK, settings.range), settings.range):
         if nearest < reach:
             break
         ahead = me.front + reach + view.longest
         bow = min(max(0.5 * kappa * reach * reach, -ahead), ahead)  # of the corridor at its end
-        left, right = max(bow, 0.0) + sensor.CORRIDOR + view.longest, min(bow, 0.0) - sensor.CORRIDOR - view.longest
-        for i in range(around(view, me, -view.longest, ahead, right, left)):
+        left, right = max(bow, 0.0) + sensor.CORRIDOR + view.longest + ASIDE, min(bow, 0.0) - sensor.CORRIDOR - view.longest - ASIDE
+        found = around(view, me, -view.longest, ahead, right, left)
+        for i in range(found):
             other = view.found[i]
             if other == me.vehicle or view.state[ACTIVE, other] == 0.0 or not is_in_way(view, me, other, kappa):
                 continue
             put_vehicle(view, me, other, 0)
             if beyond < view.sight[NEAR, 0] < nearest:
                 best, nearest = other, view.sight[NEAR, 0]
-    return best, nearest
+    return best, nearest, found
 
 
-@lean
+@inlined
 def nearest_barrier(view, me, kappa, beyond, best, nearest):
     """The same among the barriers that stand there."""
     first, sight = view.first_object[me.world], view.sight
@@ -151,7 +154,7 @@ def measure(view, me, settings, memory, out):
         return 0
     kappa, beyond = sensor.own_curvature(me.speed, me.yaw_rate), -1.0
     while True:
-        other, nearest = nearest_car(view, me, settings, kappa, beyond)
+        other, nearest, found = nearest_car(view, me, settings, kappa, beyond)
         if view.object_count[me.world] > 0:
             other, nearest = nearest_barrier(view, me, kappa, beyond, other, nearest)
         if other == -1:
@@ -160,13 +163,15 @@ def measure(view, me, settings, memory, out):
             put_vehicle(view, me, other, 0)
         else:
             put_object(view, me, OBJECT - other, 0)
-        if glimpse(view, me, 0.5 * settings.opening_angle, False, settings.visible):
+        if glimpse(view, me, 0.5 * settings.opening_angle, False, settings.visible, found):
             break
         beyond = nearest
     x, y = view.sight[SEEN_X, 0], view.sight[SEEN_Y, 0]
     r = far(x, y)
     seen = r + grown(settings.range_noise, settings.range_growth, r) * draw_normal(view, me, RANGE_NOISE)
     rate = closing_rate(view, me, other, x, y) + grown(settings.rate_noise, settings.rate_growth, r) * draw_normal(view, me, RATE_NOISE)
-    azimuth = atan2(y, x) + grown(settings.azimuth_noise, settings.azimuth_growth, r) * draw_normal(view, me, AZIMUTH_NOISE)
+    azimuth, sigma = atan2(y, x), grown(settings.azimuth_noise, settings.azimuth_growth, r)
+    if sigma > 0.0:
+        azimuth += sigma * draw_normal(view, me, AZIMUTH_NOISE)
     report(out, me, 0, Reading(max(seen, 0.0), rate, azimuth))
     return 1

@@ -14,11 +14,11 @@ from studio.kind.settings import number
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPACING
 from studio.world.chart import JUNCTION, LANE_WIDTH
 from studio.world.table.mind import D_PSI, OFFSET, STATION
-from studio.world.view import draw_normal, report
+from studio.world.view import draw_four, report
 
 KIND = "sensor"
 TITLE = "Lane markings by camera"
-LEFT, RIGHT, HEADING, CURVATURE = range(4)  # draws
+NOISE = 0  # draws
 
 
 class Settings(Sensor):
@@ -68,13 +68,14 @@ def measure(view, me, settings, memory, out):
     if ahead <= 0.0:
         return 0
     aside, end = view.mind[OFFSET, v], min(here + int(ahead / PATH_SPACING), end)
+    a, b, c, d = draw_four(view, me, NOISE)
     report(
         out, me, 0,
         Reading(
-            half - aside + settings.noise * draw_normal(view, me, LEFT),
-            half + aside + settings.noise * draw_normal(view, me, RIGHT),
-            view.mind[D_PSI, v] + settings.heading_noise * draw_normal(view, me, HEADING),
-            mean_curvature(view, here, end) + settings.curvature_noise * draw_normal(view, me, CURVATURE),
+            half - aside + settings.noise * a,
+            half + aside + settings.noise * b,
+            view.mind[D_PSI, v] + settings.heading_noise * c,
+            mean_curvature(view, here, end) + settings.curvature_noise * d,
             ahead,
         ),
     )  # fmt: skip

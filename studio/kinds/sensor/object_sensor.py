@@ -20,12 +20,12 @@ from studio.vehicle.state import V_X
 from studio.world.passes import track
 from studio.world.passes.sight import SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, WHO
 from studio.world.passes.track import Tracks
-from studio.world.view import draw, draw_normal, look, report, target
+from studio.world.view import draw, draw_four, look, report, target
 
 KIND = "sensor"
 TITLE = "Object sensor with tracks"
 CAPACITY = track.MOST
-RANGE_NOISE, RATE_NOISE, AZIMUTH_NOISE, MISS = range(4)  # draws
+NOISE, MISS = range(2)  # draws
 Memory = Tracks
 
 
@@ -94,9 +94,10 @@ def write(view, me, settings, i, slot, out):
     t = track.follow(view, me, view.sight[WHO, i], settings.gain)
     x, y = view.sight[SEEN_X, i], view.sight[SEEN_Y, i]
     r = far(x, y)
-    seen = r + grown(settings.range_noise, settings.range_growth, r) * draw_normal(view, me, RANGE_NOISE, slot)
-    rate = rate_of(view, me, i) + grown(settings.rate_noise, settings.rate_growth, r) * draw_normal(view, me, RATE_NOISE, slot)
-    azimuth = atan2(y, x) + grown(settings.azimuth_noise, settings.azimuth_growth, r) * draw_normal(view, me, AZIMUTH_NOISE, slot)
+    u, v, w, _ = draw_four(view, me, NOISE, slot)
+    seen = r + grown(settings.range_noise, settings.range_growth, r) * u
+    rate = rate_of(view, me, i) + grown(settings.rate_noise, settings.rate_growth, r) * v
+    azimuth = atan2(y, x) + grown(settings.azimuth_noise, settings.azimuth_growth, r) * w
     report(
         out, me, slot,
         Reading(max(seen, 0.0), rate, azimuth, track.number(view, t), track.existence(view, t), track.lasted(view, t)),

@@ -17,12 +17,12 @@ from studio.vehicle.state import V_X
 from studio.world.passes import track
 from studio.world.passes.sight import LONG, MIDDLE_X, MIDDLE_Y, TURNED_COS, TURNED_SIN, WHO
 from studio.world.passes.track import Tracks
-from studio.world.view import draw, draw_normal, look, report, target
+from studio.world.view import draw, draw_four, look, report, target
 
 KIND = "sensor"
 TITLE = "Camera of an infrastructure"
 CAPACITY = track.MOST
-X_NOISE, Y_NOISE, HEADING_NOISE, SPEED_NOISE, LENGTH_NOISE, MISS = range(6)  # draws
+PLACE, LENGTH, MISS = range(3)  # draws
 Memory = Tracks
 
 
@@ -67,17 +67,13 @@ def write(view, me, settings, i, slot, out):
     sight = view.sight
     x, y = sight[MIDDLE_X, i], sight[MIDDLE_Y, i]
     sigma = grown(settings.noise, settings.growth, far(x, y))
-    east = me.eye_x + x * me.eye_cosine - y * me.eye_sine + sigma * draw_normal(view, me, X_NOISE, slot)
-    north = me.eye_y + x * me.eye_sine + y * me.eye_cosine + sigma * draw_normal(view, me, Y_NOISE, slot)
-    heading = (
-        me.eye_heading
-        + atan2(sight[TURNED_SIN, i], sight[TURNED_COS, i])
-        + settings.heading_noise * draw_normal(view, me, HEADING_NOISE, slot)
-    )
-    speed = (view.state[V_X, int(sight[WHO, i])] if sight[WHO, i] >= 0.0 else 0.0) + settings.speed_noise * draw_normal(
-        view, me, SPEED_NOISE, slot
-    )
-    length = max(sight[LONG, i] + settings.length_noise * draw_normal(view, me, LENGTH_NOISE, slot), 0.0)
+    a, b, c, d = draw_four(view, me, PLACE, slot)
+    e, _, _, _ = draw_four(view, me, LENGTH, slot)
+    east = me.eye_x + x * me.eye_cosine - y * me.eye_sine + sigma * a
+    north = me.eye_y + x * me.eye_sine + y * me.eye_cosine + sigma * b
+    heading = me.eye_heading + atan2(sight[TURNED_SIN, i], sight[TURNED_COS, i]) + settings.heading_noise * c
+    speed = (view.state[V_X, int(sight[WHO, i])] if sight[WHO, i] >= 0.0 else 0.0) + settings.speed_noise * d
+    length = max(sight[LONG, i] + settings.length_noise * e, 0.0)
     t = track.follow(view, me, sight[WHO, i], settings.gain)
     report(out, me, slot, Reading(east, north, heading, speed, length, track.number(view, t), track.existence(view, t)))
 

@@ -19,11 +19,11 @@ from studio.kind.settings import number
 from studio.model import satellite
 from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import open_sky
-from studio.world.view import draw_normal, report
+from studio.world.view import draw_four, report
 
 KIND = "sensor"
 TITLE = "Satellite receiver with heading"
-DRIFT_EAST, DRIFT_NORTH, EAST, NORTH, SPEED_EAST, SPEED_NORTH = range(6)  # draws
+PLACE, SPEED = range(2)  # draws
 SLOW = 0.5  # [m/s] below this the heading over ground says nothing
 
 
@@ -87,13 +87,14 @@ def course(memory, east, north):
 def measure(view, me, settings, memory, out):
     """A position; at the first look the slow error is drawn as if it had long been running."""
     phi = satellite.kept(view.time - memory.time, settings.correlation_time) if memory.time >= 0.0 else 0.0
-    z_east = satellite.drift(memory.east, phi, draw_normal(view, me, DRIFT_EAST))
-    z_north = satellite.drift(memory.north, phi, draw_normal(view, me, DRIFT_NORTH))
+    a, b, c, d = draw_four(view, me, PLACE)
+    e, f, _, _ = draw_four(view, me, SPEED)
+    z_east, z_north = satellite.drift(memory.east, phi, a), satellite.drift(memory.north, phi, b)
     sigma = satellite.spread(settings.drift, settings.canyon_factor, sky_over(view, me))
-    x = me.x + sigma * z_east + settings.noise * draw_normal(view, me, EAST)
-    y = me.y + sigma * z_north + settings.noise * draw_normal(view, me, NORTH)
-    east = me.speed * cos(me.heading) + settings.speed_noise * draw_normal(view, me, SPEED_EAST)
-    north = me.speed * sin(me.heading) + settings.speed_noise * draw_normal(view, me, SPEED_NORTH)
+    x = me.x + sigma * z_east + settings.noise * c
+    y = me.y + sigma * z_north + settings.noise * d
+    east = me.speed * cos(me.heading) + settings.speed_noise * e
+    north = me.speed * sin(me.heading) + settings.speed_noise * f
     heading, speed = course(memory, east, north)
     report(out, me, 0, Reading(x, y, heading, speed, (sigma * sigma + settings.noise * settings.noise) ** 0.5))
     return 1, Memory(z_east, z_north, view.time, heading)

@@ -12,11 +12,11 @@ from studio.kind.preset import Preset
 from studio.kind.sensor import Sensor
 from studio.kind.settings import number
 from studio.vehicle.state import A_X, A_Y, DELTA, GEAR, V_X, YAW_RATE
-from studio.world.view import draw_normal, report
+from studio.world.view import draw_four, report
 
 KIND = "sensor"
 TITLE = "Vehicle state with noise"
-SPEED, ACCELERATION, LATERAL, YAW, STEERING = range(5)  # draws
+MOTION, STEERING = range(2)  # draws
 
 
 class Settings(Sensor):
@@ -53,14 +53,16 @@ def measure(view, me, settings, memory, out):
     if me.vehicle < 0:
         return 0
     state, v = view.state, me.vehicle
+    a, b, c, d = draw_four(view, me, MOTION)
+    e, _, _, _ = draw_four(view, me, STEERING)
     report(
         out, me, 0,
         Reading(
-            state[V_X, v] + settings.speed_noise * draw_normal(view, me, SPEED),
-            state[A_X, v] + settings.acceleration_noise * draw_normal(view, me, ACCELERATION),
-            state[A_Y, v] + settings.acceleration_noise * draw_normal(view, me, LATERAL),
-            state[YAW_RATE, v] + settings.yaw_rate_noise * draw_normal(view, me, YAW),
-            state[DELTA, v] + settings.steering_noise * draw_normal(view, me, STEERING),
+            state[V_X, v] + settings.speed_noise * a,
+            state[A_X, v] + settings.acceleration_noise * b,
+            state[A_Y, v] + settings.acceleration_noise * c,
+            state[YAW_RATE, v] + settings.yaw_rate_noise * d,
+            state[DELTA, v] + settings.steering_noise * e,
             state[GEAR, v],
         ),
     )  # fmt: skip

@@ -17,7 +17,7 @@ import numpy as np
 
 from studio.compiled import bound, inlined
 from studio.kind.loop import written
-from studio.kind.number import numbers, shapes, spelled, tuple_of
+from studio.kind.number import numbers, row_of, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
 from studio.kind.registry import Kind, stream
 from studio.kind.sensor import LONGEST, Looking
@@ -43,21 +43,22 @@ def run({seen}, mounted_on, stream, settings, memory, health, first, ring, outpu
         if view.unit[PRESENT, mounted_on[i]] == 0.0 or health[FAILS, i] > 0.0:
             forget(i, first, output, out)
             continue
-        chosen = SettingsTuple({settings})
-        me = about(view, mounted_on[i], i, stream[i], {width}, health[NOISE, i])
-        if comes(view, chosen.period) and not fails(view, me, chosen.drop_out):
-            place, column = out, i
-            if first[i + 1] > first[i]:
-                place, column = ring, put(view, me, chosen, first, output)
-            place[0, column] = 0.0
-            {found} = measure(view, {eye}(me, column, chosen), chosen, {memory}, place)
-            fault[i] = unfit(found, {capacity}, {width}, column, place)
-            faults += fault[i] != 0
-            place[0, column] = min(max(found, 0), {capacity})
-            if first[i + 1] == first[i]:
-                health[MEASURED, i] = time
+        if comes(view, settings[{period}, i]):
+            chosen = SettingsTuple({settings})
+            me = about(view, mounted_on[i], i, stream[i], {width}, health[NOISE, i])
+            if not fails(view, me, chosen.drop_out):
+                place, column = out, i
+                if first[i + 1] > first[i]:
+                    place, column = ring, put(view, me, chosen, first, output)
+                place[0, column] = 0.0
+                {found} = measure(view, {eye}(me, column, chosen), chosen, {memory}, place)
+                fault[i] = unfit(found, {capacity}, {width}, column, place)
+                faults += fault[i] != 0
+                place[0, column] = min(max(found, 0), {capacity})
+                if first[i + 1] == first[i]:
+                    health[MEASURED, i] = time
 {store}        if first[i + 1] > first[i]:
-            give(i, time, first, ring, output, health, out)
+            give(i, {width}, time, first, ring, output, health, out)
     return faults
 '''
 WRONG = {
@@ -103,7 +104,7 @@ def put(view, me, settings, first, output):
 
 
 @inlined
-def give(i, time, first, ring, output, health, out):
+def give(i, width, time, first, ring, output, health, out):
     """Of what is due the newest is given; what is older than what was given before is not."""
     best = -1
     for slot in range(first[i], first[i + 1]):
@@ -112,7 +113,7 @@ def give(i, time, first, ring, output, health, out):
             if output[TAKEN, slot] > health[MEASURED, i]:
                 best, health[MEASURED, i] = slot, output[TAKEN, slot]
     if best >= 0:
-        for row in range(out.shape[0]):
+        for row in range(1 + int(ring[0, best]) * width):
             out[row, i] = ring[row, best]
 
 
@@ -257,12 +258,13 @@ def loop(kind: Kind) -> Callable:
         module=module.__name__,
         imports="Memory, SettingsTuple, measure" if remembers else "SettingsTuple, measure",
         eye="looking" if issubclass(module.Settings, Looking) else "placed",
+        period=row_of(module.Settings, "period"),
         settings=spelled([each.size for each in shapes(module.Settings)], "settings", "i"),
         memory=f"Memory({spelled(remembers, 'memory', 'i')})" if remembers else "0",
         found="found, remembered" if remembers else "found",
         capacity=capacity(kind),
         width=width(module.Reading),
-        store=stored(quantities(module.Memory), "i", " " * 12) if remembers else "",
+        store=stored(quantities(module.Memory), "i", " " * 16) if remembers else "",
     )
     return written(f"sensor_{kind.name}", source, kind).run
 

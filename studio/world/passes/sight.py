@@ -170,14 +170,9 @@ def is_thing(view, o, cones):
 
 
 @inlined
-def enlist(i, reach, half, sight):
-    """Whether the body in column i is in the field, so that it stays; it is put into its place in the order."""
+def enlist(i, reach, sight):
+    """Whether the body in column i is within reach, so that it stays; it is put into its place in the order."""
     if sight[NEAR, i] >= reach:
-        return False
-    frame(i, sight)
-    if half < pi and sight[LOW, i] > half and sight[HIGH, i] - 2.0 * pi < -half:
-        return False
-    if half < pi and sight[HIGH, i] < -half:
         return False
     j = i
     while j > 0 and sight[NEAR, int(sight[PLACE_IN_ORDER, j - 1])] > sight[NEAR, i]:
@@ -195,9 +190,9 @@ def is_beside(view, me, v, half_cosine, half_sine):
     return half_cosine > 0.0 and left * half_cosine - ahead * half_sine > view.longest
 
 
-@lean
+@inlined
 def field(view, me, reach, half, cones):
-    """Puts all bodies in the field into `view.sight`, the nearest first; how many. The field opens `half` to each side."""
+    """Puts all bodies that may be in the field into `view.sight`, the nearest first; how many. The field opens `half` to each side."""
     count, most, behind, half_cosine, half_sine = 0, reach + view.longest, view.longest, cos(half), sin(half)
     aside = (reach * half_sine if half < 0.5 * pi else reach) + view.longest
     if half > 0.5 * pi:
@@ -209,12 +204,12 @@ def field(view, me, reach, half, cones):
         v = view.found[k]
         if v != me.vehicle and view.state[ACTIVE, v] > 0.0 and not is_beside(view, me, v, half_cosine, half_sine):
             put_vehicle(view, me, v, count)
-            count += 1 if enlist(count, reach, half, view.sight) else 0
+            count += 1 if enlist(count, reach, view.sight) else 0
     first = view.first_object[me.world]
     for o in range(first, first + view.object_count[me.world]):
         if is_thing(view, o, cones):
             put_object(view, me, o, count)
-            count += 1 if enlist(count, reach, half, view.sight) else 0
+            count += 1 if enlist(count, reach, view.sight) else 0
     return count
 
 
@@ -226,6 +221,8 @@ def see(i, half, sight, blocks):
     sight[SHARE, i] = seen / (high - low)
     if seen <= LEAST:
         return False
+    if seen >= high - low - LEAST:
+        return True
     at = atan2(sight[SEEN_Y, i], sight[SEEN_X, i])
     if not is_open(at, half, sight, blocks):
         at = nearest_open(at, low, high, half, sight, blocks)
@@ -246,9 +243,7 @@ def cover_buildings(view, me, i, sight, blocks):
 
     Lines to both edges and to its nearest point are followed through cells first: mostly all are open, or all end in a building.
     """
-    place, frame = view.place_of[me.world], view.shadow.grid.frame
-    if frame[COLUMNS, place] == 0.0:
-        return blocks
+    place = view.place_of[me.world]
     distance = far(sight[MIDDLE_X, i], sight[MIDDLE_Y, i])
     x0, y0 = of_world(me, distance * cos(sight[LOW, i]), distance * sin(sight[LOW, i]))
     x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
@@ -260,6 +255,12 @@ def cover_buildings(view, me, i, sight, blocks):
     if min(a, b, c) == FULL:
         return cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
     return cover_walls(view, me, i, x0, y0, x1, y1, sight, blocks)
+
+
+@inlined
+def are_there_houses(view, me):
+    """Whether there is any building on the map."""
+    return view.shadow.grid.frame[COLUMNS, view.place_of[me.world]] > 0.0
 
 
 @inlined
@@ -323,17 +324,18 @@ def free_of(low, high, first, last):
 # -- looking -------------------------------------------------------------------------------------------
 
 
-@lean
+@inlined
 def look(view, me, reach, half, least, most, cones):
     """The bodies that a sensor sees: how many, `most` at most; the columns of `view.sight` in their order are told by `target`.
 
     Of a body the share `least` of its bearings must be seen, in a field of `reach` [m] that opens `half` [rad] to each side. With a share
     of 0 nothing hides anything: as from high above. `cones`: whether the sensor sees cones of plastic.
     """
-    sight, blocks, found = view.sight, 0, 0
+    sight, blocks, found, has_houses = view.sight, 0, 0, least > 0.0 and are_there_houses(view, me)
     for j in range(field(view, me, reach, half, cones)):
         i = int(sight[PLACE_IN_ORDER, j])
-        if least > 0.0:
+        frame(i, sight)
+        if has_houses and open_to(sight[LOW, i], sight[HIGH, i], half, sight, blocks) > LEAST:
             blocks = cover_buildings(view, me, i, sight, blocks)
         if see(i, half, sight, blocks) and sight[SHARE, i] >= least:
             sight[PLACE_IN_ORDER, found] = i
@@ -351,20 +353,13 @@ def target(view, j):
     return int(view.sight[PLACE_IN_ORDER, j])
 
 
-@lean
-def glimpse(view, me, half, cones, least):
-    """Looks at the body in column 0 of `view.sight` alone: whether the share `least` of it is seen, past all that is nearer."""
-    sight, blocks = view.sight, 0
-    frame(0, sight)
-    if least <= 0.0:
-        return see(0, half, sight, blocks)
-    near, x, y = sight[NEAR, 0], sight[MIDDLE_X, 0], sight[MIDDLE_Y, 0]
-    distance = max(far(x, y), 1e-6)
-    c, s = (x * me.eye_cosine - y * me.eye_sine) / distance, (x * me.eye_sine + y * me.eye_cosine) / distance
-    aside = 0.5 * (sight[LONG, 0] + sight[WIDE, 0]) + view.longest
-    found = within(
-        me.world, me.eye_x, me.eye_y, c, s, -view.longest, near + view.longest, -aside, aside, view.grid, view.places, view.found
-    )
+@inlined
+def glimpse(view, me, half, cones, least, found):
+    """Looks at the body in column 0 of `view.sight` alone: whether the share `least` of it is seen, past all that is nearer.
+
+    The vehicles that may be nearer are the first `found` of `view.found`, as `around` has left them.
+    """
+    sight, blocks, near = view.sight, 0, view.sight[NEAR, 0]
     for k in range(found):
         v = view.found[k]
         if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0:
@@ -375,8 +370,22 @@ def glimpse(view, me, half, cones, least):
         if is_thing(view, o, cones) and OBJECT - o != int(sight[WHO, 0]):
             put_object(view, me, o, 1)
             blocks = cover_if_nearer(near, sight, blocks)
-    blocks = cover_buildings(view, me, 0, sight, blocks)
+    has_houses = are_there_houses(view, me)
+    if ((blocks == 0 and not has_houses) or least <= 0.0) and is_amid(half, sight):
+        return True
+    frame(0, sight)
+    if least <= 0.0:
+        return see(0, half, sight, 0)
+    if has_houses:
+        blocks = cover_buildings(view, me, 0, sight, blocks)
     return see(0, half, sight, blocks) and sight[SHARE, 0] >= least
+
+
+@inlined
+def is_amid(half, sight):
+    """Whether the body in column 0 is wholly and clearly in a field that opens to less than half a turn; without an angle."""
+    around = 0.5 * (sight[LONG, 0] + sight[WIDE, 0])
+    return half < 0.5 * pi and abs(sight[MIDDLE_Y, 0]) + around < (sight[MIDDLE_X, 0] - around) * half
 
 
 @inlined
