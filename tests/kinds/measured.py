@@ -1,6 +1,7 @@
 """Radio as it was measured on motorways, suburban roads and in towns: what the presets of the wlan are held against.
 
-Delivery over distance of messages between cars on three kinds of road; losses in a row in one receiver's log, by distance; latency.
+CAM-VAM data set, University of Modena and Reggio Emilia, 2021 and 2022 (github.com/LLusvarghi/CAM-VAM-dataset): delivery over distance of
+messages between cars on three kinds of road; losses in a row in one receiver's log, by distance; latency.
 """
 
 DELIVERY = {  # share that arrives, by distance [m]

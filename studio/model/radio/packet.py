@@ -35,6 +35,8 @@ PREAMBLE, SYMBOL = 40e-6, 8e-6  # [s]
 AROUND = 22.0  # [bits] service and tail
 RATES = (3.0, 4.5, 6.0, 9.0, 12.0, 18.0, 24.0, 27.0)  # [Mbit/s]
 CARRIERS = 48.0
+# Ratios [dB] by rate: below the first not one of 1e9 of the shortest packets survives, above the second not one of the longest is lost.
+HOPELESS, CERTAIN = (0.9, 3.7, 3.9, 6.7, 10.0, 13.2, 17.5, 19.0), (7.7, 10.8, 10.7, 13.8, 17.5, 20.7, 25.6, 26.8)
 
 
 @compiled
@@ -109,3 +111,11 @@ def survival(gamma, bits, rate):
     """The probability that a packet of so many bits is understood at the signal to noise ratio gamma [1]."""
     p_b = undecoded(wrong(gamma, rate), rate)
     return exp(bits * log1p(-p_b)) if p_b < 1.0 else 0.0
+
+
+@compiled
+def survives(ratio, bits, rate, draw):
+    """Whether a packet is understood at a signal to noise ratio [dB]; draw in (0, 1)."""
+    if ratio < HOPELESS[int(rate)] or ratio > CERTAIN[int(rate)]:
+        return ratio > CERTAIN[int(rate)]
+    return survival(10.0 ** (0.1 * ratio), bits, rate) > draw

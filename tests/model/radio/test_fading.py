@@ -1,6 +1,6 @@
 """Fading and shadowing: the distributions that are claimed, from the draws of a counter."""
 
-from math import exp
+from math import exp, lgamma, log10
 
 import numpy as np
 import pytest
@@ -48,10 +48,17 @@ def test_a_power_is_the_quantile_of_its_draw(m):
     assert found == pytest.approx(special.gammaincinv(m, EDGES) / m, rel=1e-5)
 
 
+@pytest.mark.parametrize("m", [0.5, 0.75, 1.5, 10.0, 50.0])
+def test_a_power_is_between_its_bounds(m):
+    for p in EDGES:
+        least, greatest = fading.bounds(m, p)
+        assert least - 1e-9 <= 10.0 * log10(fading.power(m, p)) <= greatest + 1e-9
+
+
 @pytest.mark.parametrize("m", [0.5, 0.75, 3.0, 20.0])
 def test_shares_below_a_power(m):
     x = np.geomspace(1e-6, 10.0 * m + 20.0, 200)
-    assert [fading.lower(m, each) for each in x] == pytest.approx(special.gammainc(m, x), abs=1e-13)
+    assert [fading.lower(m, each, lgamma(m)) for each in x] == pytest.approx(special.gammainc(m, x), abs=1e-13)
 
 
 @pytest.mark.parametrize(

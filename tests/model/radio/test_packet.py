@@ -54,3 +54,15 @@ def test_longer_packets_survive_less():
 def test_survival_is_a_probability_that_grows_with_the_ratio(rate):
     found = [packet.survival(10.0 ** (0.1 * snr), 2800.0, rate) for snr in np.arange(-20.0, 45.0, 0.25)]
     assert found[0] == 0.0 and found[-1] == 1.0 and (np.diff(found) >= 0.0).all()
+
+
+@pytest.mark.parametrize("rate", range(8))
+def test_what_is_hopeless_and_what_is_certain(rate):
+    """Not one of 1e9 survives or is lost beyond these ratios, of one byte and of the longest frame; in between the draw decides."""
+    low, high = packet.HOPELESS[rate], packet.CERTAIN[rate]
+    assert packet.survival(10.0 ** (0.1 * low), 30.0, rate) < 1e-9
+    assert packet.survival(10.0 ** (0.1 * high), 8.0 * 2304.0 + packet.AROUND, rate) > 1.0 - 1e-9
+    assert not packet.survives(low - 0.01, 30.0, rate, 1e-12) and packet.survives(high + 0.01, 18_454.0, rate, 1.0 - 1e-12)
+    for ratio in np.linspace(low, high, 20):
+        share = packet.survival(10.0 ** (0.1 * ratio), 2822.0, rate)
+        assert [packet.survives(ratio, 2822.0, rate, draw) for draw in (0.1, 0.5, 0.9)] == [share > draw for draw in (0.1, 0.5, 0.9)]
