@@ -12,7 +12,8 @@ import numpy as np
 from studio.assess.following import rows_ahead
 from studio.execution.record import Body, Record
 
-BLOCK = 50  # samples that are looked at together when it is found out who was near whom
+BLOCK = 1.0  # [s] that is looked at together when it is found out who was near whom
+ABREAST = 15.0  # [m] to the side, farther than which nobody comes towards anybody
 PARALLEL = 0.87  # [1] cosine of the angle up to which two drive in about the same direction
 
 
@@ -31,26 +32,43 @@ class Outlines(NamedTuple):
     alike: np.ndarray  # 1 in the same direction, -1 in opposite ones, 0 when neither
 
 
-def neighbours(record: Record, reach: float) -> Iterator[tuple[int, int, np.ndarray]]:
-    """Rows i < j of vehicles, with the samples at which they may have been within reach [m] of each other."""
-    x, y = record.channel("x"), record.channel("y")
+def neighbours(record: Record, reach: float, *, oncoming: bool = False) -> Iterator[tuple[int, int, np.ndarray]]:
+    """Rows i < j of vehicles, with the samples at which they may have been within reach [m] of each other.
+
+    Of oncoming ones only those that drive towards each other, or away from each other, near one line.
+    """
+    x, y, psi = (record.channel(name) for name in ("x", "y", "heading"))
     near: dict[tuple[int, int], list[np.ndarray]] = {}
-    for first in range(0, record.time.size, BLOCK):
-        samples = np.arange(first, min(first + BLOCK, record.time.size))
-        for i, j in zip(*within(x[:, samples], y[:, samples], reach), strict=True):
-            near.setdefault((int(i), int(j)), []).append(samples)
+    for samples in blocks(record.time):
+        found = within(x[:, samples], y[:, samples], reach)
+        if oncoming:
+            found &= towards(*(each[:, samples[samples.size // 2]] for each in (x, y, psi)))
+        for i, j in np.argwhere(np.triu(found, 1)).tolist():
+            near.setdefault((i, j), []).append(samples)
     yield from ((i, j, np.concatenate(parts)) for (i, j), parts in sorted(near.items()))
 
 
-def within(x: np.ndarray, y: np.ndarray, reach: float) -> tuple[np.ndarray, ...]:
-    """Rows of those whose circles around all their places, float64[vehicle, n], come within reach."""
+def blocks(time: np.ndarray) -> Iterator[np.ndarray]:
+    """The samples of one block after another."""
+    count = max(round(BLOCK / (time[1] - time[0])), 1) if time.size > 1 else 1
+    yield from (np.arange(first, min(first + count, time.size)) for first in range(0, time.size, count))
+
+
+def towards(x: np.ndarray, y: np.ndarray, psi: np.ndarray) -> np.ndarray:
+    """Whether two drive in opposite directions near one line, bool[vehicle, vehicle], at one moment."""
+    left = (y - y[:, None]) * np.cos(psi)[:, None] - (x - x[:, None]) * np.sin(psi)[:, None]
+    return (np.cos(psi - psi[:, None]) < 0.0) & (np.abs(left) < ABREAST)
+
+
+def within(x: np.ndarray, y: np.ndarray, reach: float) -> np.ndarray:
+    """Whether the boxes around all places of two, float64[vehicle, n], come within reach, bool[vehicle, vehicle]."""
     there = np.isfinite(x).any(axis=1)
     x, y = (np.where(np.isfinite(each), each, np.nan) for each in (x, y))
     low_x, high_x, low_y, high_y = np.full((4, x.shape[0]), np.nan)
     low_x[there], high_x[there] = np.nanmin(x[there], axis=1), np.nanmax(x[there], axis=1)
     low_y[there], high_y[there] = np.nanmin(y[there], axis=1), np.nanmax(y[there], axis=1)
     apart = np.maximum(low_x[:, None] - high_x, low_x - high_x[:, None]), np.maximum(low_y[:, None] - high_y, low_y - high_y[:, None])
-    return np.nonzero(np.triu((apart[0] < reach) & (apart[1] < reach), 1))
+    return (apart[0] < reach) & (apart[1] < reach)
 
 
 def outlines(record: Record, i: int, j: int, samples: np.ndarray) -> Outlines:

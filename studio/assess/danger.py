@@ -32,7 +32,7 @@ def near_misses(record: Record) -> Iterator[Happening]:
     """Those of every vehicle with what was ahead of it."""
     hits = [event for event in record.happenings if event.kind == EVENTS[HIT].name]
     for row, values in enumerate(ttc(record)):
-        for part in stretches(values < NEAR, record.time):
+        for part in stretches((values >= 0.0) & (values < NEAR), record.time):
             place = part.start + int(np.nanargmin(values[part]))
             units, when = (record.vehicles[row], record.ahead(row, place)), record.time[place]
             is_hit = any(set(units) <= set(hit.units) and abs(hit.time - when) < NEAR + APART for hit in hits)

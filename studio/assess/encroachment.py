@@ -11,7 +11,6 @@ either side of the crossing point:
 """
 
 from collections.abc import Iterator
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +19,8 @@ from studio.execution.record import Body, Record
 from studio.kind.metric import Found
 
 STEP = 2.0  # [m] length of the pieces that ways are cut into when crossings are looked for
-CELL = 4.0  # [m] of the grid in which they are looked for
+CELL = 4.0  # [m] of the grid in which they are looked for, where pieces are not longer
+WIDE = 1 << 24  # cells that a row of the grid has room for
 FASTEST = 100.0  # [m/s] nobody drives faster: who seems to was put elsewhere
 CROSSING = 0.3  # [1] sine of the angle below which ways do not cross: they follow or merge
 
@@ -106,43 +106,73 @@ def encroachment(a: str, way_a: Way, body_a: Body, b: str, way_b: Way, body_b: B
 
 
 def crossings(ways: dict[str, Way]) -> Iterator[tuple[str, str, Crossing]]:
-    """All crossings of the ways of different vehicles; of two that cross several times within a cell, one."""
+    """All crossings of the ways of different vehicles."""
     names = list(ways)
-    pieces = [pieces_of(ways[name]) for name in names]
-    for i, j, k, l in sorted(near(pieces)):
-        crossing = crossing_of(pieces[i], k, pieces[j], l)
+    pieces = Pieces.of([pieces_of(ways[name]) for name in names])
+    for a, b in candidates(pieces).tolist():
+        crossing = crossing_of(pieces.ends[:, :, a], pieces.ends[:, :, b])
         if crossing is not None:
-            yield names[i], names[j], crossing
+            yield names[pieces.vehicle[a]], names[pieces.vehicle[b]], crossing
 
 
 def pieces_of(way: Way) -> np.ndarray:
-    """A way in straight pieces of about STEP: x, y and driven way [m] at their ends, float64[3, m + 1]."""
+    """A way in straight pieces of about STEP: x, y and driven way [m] at both ends of each, float64[3, 2, m]."""
     wanted = np.arange(way.driven[0], way.driven[-1], STEP)
     kept = np.unique(np.concatenate([np.searchsorted(way.driven, wanted), [way.driven.size - 1]]))
-    return np.array([*way.places[:, kept], way.driven[kept]])
+    kept = kept[np.diff(way.driven[kept], prepend=-1.0) > 0.0]
+    at = np.array([*way.places[:, kept], way.driven[kept]])
+    return np.stack([at[:, :-1], at[:, 1:]], axis=1)
 
 
-def near(pieces: list[np.ndarray]) -> set[tuple[int, int, int, int]]:
-    """Pieces k of vehicle i and l of vehicle j > i that share a cell of the grid, as (i, j, k, l)."""
-    cells: dict[tuple[int, int], list[tuple[int, int]]] = {}
-    for i, each in enumerate(pieces):
-        for k in range(each.shape[1] - 1):
-            for cell in touched(each[:2, k : k + 2]):
-                cells.setdefault(cell, []).append((i, k))
-    shared = [pair for inside in cells.values() if len({i for i, _ in inside}) > 1 for pair in combinations(inside, 2)]
-    return {(i, j, k, l) for (i, k), (j, l) in shared if i != j}
+class Pieces(NamedTuple):
+    """Pieces of the ways of all vehicles, those of one after those of another: float64[3, 2, piece], and whose each is."""
+
+    ends: np.ndarray
+    vehicle: np.ndarray
+
+    @classmethod
+    def of(cls, each: list[np.ndarray]) -> "Pieces":
+        """All of them."""
+        ends = np.concatenate([np.zeros((3, 2, 0)), *each], axis=2)
+        return cls(ends, np.repeat(np.arange(len(each)), [part.shape[2] for part in each]))
 
 
-def touched(ends: np.ndarray) -> Iterator[tuple[int, int]]:
-    """Cells that the box around a piece touches."""
-    low, high = (np.floor(np.array([ends.min(axis=1), ends.max(axis=1)]) / CELL)).astype(int).tolist()
-    return ((x, y) for x in range(low[0], high[0] + 1) for y in range(low[1], high[1] + 1))
+def candidates(pieces: Pieces) -> np.ndarray:
+    """Pieces of different vehicles that share a cell of a grid, int[pair, 2]; cells in which everybody drives alike have none."""
+    cell, piece = touched(pieces.ends[:2])
+    first = np.flatnonzero(np.diff(cell, prepend=-1))
+    found = [np.zeros((0, 2), dtype=int)]
+    for start, stop in zip(first, [*first[1:], cell.size], strict=True):
+        inside = piece[start:stop]
+        if is_mixed(pieces, inside):
+            pairs = inside[np.stack(np.triu_indices(inside.size, 1), axis=1)]
+            found.append(pairs[pieces.vehicle[pairs[:, 0]] != pieces.vehicle[pairs[:, 1]]])
+    return np.unique(np.sort(np.concatenate(found), axis=1), axis=0)
 
 
-def crossing_of(a: np.ndarray, k: int, b: np.ndarray, l: int) -> Crossing | None:
-    """Where piece k of one way crosses piece l of another; None where they do not, or hardly."""
-    (x, y, s), (u, v, t) = a[:, k], b[:, l]
-    (dx, dy, ds), (du, dv, dt) = a[:, k + 1] - a[:, k], b[:, l + 1] - b[:, l]
+def touched(ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of cells and the pieces in them, cell after cell; a piece is no longer than a cell, and is in those of its corners."""
+    size = max(CELL, float(np.hypot(*(ends[:, 1] - ends[:, 0])).max(initial=0.0)))
+    low, high = (np.floor(edge / size).astype(np.int64) for edge in (ends.min(axis=1), ends.max(axis=1)))
+    corners = [(x[0], y[1]) for x in (low, high) for y in (low, high)]
+    pairs = np.concatenate([np.stack([x * WIDE + y, np.arange(x.size)], axis=1) for x, y in corners])
+    pairs = np.unique(pairs, axis=0)
+    return np.unique(pairs[:, 0], return_inverse=True)[1], pairs[:, 1]
+
+
+def is_mixed(pieces: Pieces, inside: np.ndarray) -> bool:
+    """Whether some pieces are of several vehicles, and not all in about the same direction or the opposite one."""
+    if inside.size < 2 or (pieces.vehicle[inside] == pieces.vehicle[inside[0]]).all():
+        return False
+    east, north = pieces.ends[:2, 1, inside] - pieces.ends[:2, 0, inside]
+    turned = np.abs(east * north[0] - north * east[0])
+    return bool((turned > 0.5 * CROSSING * np.hypot(east, north) * np.hypot(east[0], north[0])).any())
+
+
+def crossing_of(a: np.ndarray, b: np.ndarray) -> Crossing | None:
+    """Where a piece of one way crosses a piece of another, float64[3, 2] each; None where they do not, or hardly."""
+    (x, y, s), (u, v, t) = a[:, 0], b[:, 0]
+    (dx, dy, ds), (du, dv, dt) = a[:, 1] - a[:, 0], b[:, 1] - b[:, 0]
     lengths = np.hypot(dx, dy) * np.hypot(du, dv)
     if lengths == 0.0 or abs(dx * dv - dy * du) < CROSSING * lengths:
         return None

@@ -81,10 +81,10 @@ def margin_behind(record: Record, rules: Rules) -> np.ndarray:
     return record.channel("gap") - safe
 
 
-def least_margin(record: Record, reach: float, margin: Callable[[Outlines], np.ndarray]) -> Found:
-    """The least margin of any two vehicles that come within reach [m] of each other."""
+def least_margin(record: Record, reach: float, margin: Callable[[Outlines], np.ndarray], *, oncoming: bool = False) -> Found:
+    """The least margin of any two vehicles that come within reach [m] of each other, of all or of oncoming ones."""
     best = Found(inf)
-    for i, j, samples in neighbours(record, reach):
+    for i, j, samples in neighbours(record, reach, oncoming=oncoming):
         seen = outlines(record, i, j, samples)
         values = margin(seen)
         values = np.where(np.isfinite(values), values, inf)

@@ -17,7 +17,8 @@ from studio.world.board.post import Post
 from studio.world.table.cause import RECEIVED
 from studio.world.world import World
 
-DTYPES = (np.float64, np.int32, np.uint8, np.int32, np.float32, np.int32, np.int32, np.uint8, np.float32, np.float32)
+OF_EACH = (np.float64, np.int32, np.uint8, np.int32, np.float32, np.float32, np.float32, np.int32)
+DTYPES = (*OF_EACH, np.int32, np.uint8, np.float32, np.float32)  # of messages, then of entries
 OF_ENTRIES = ("receiver", "cause", "delay", "distance")
 
 
@@ -32,6 +33,8 @@ class Messages:
     kind: np.ndarray
     number: np.ndarray  # how many of this kind the sender had sent before
     size: np.ndarray  # [bytes]
+    said_0: np.ndarray  # the first number that it carries, and the second; not a number where it carries fewer
+    said_1: np.ndarray
     count: np.ndarray  # entries of each message
     receiver: np.ndarray
     cause: np.ndarray
@@ -110,6 +113,8 @@ def of_post(world: World, number: int, post: Post, kind: int) -> Messages:
         "kind": np.full(np.count_nonzero(own), kind),
         "number": book.number[own],
         "size": book.size[own],
+        "said_0": book.said[0, own],
+        "said_1": book.said[1, own],
         "count": book.count[own],
         "receiver": post.link_receiver[book.link[entries]] - first,
         "cause": book.cause[entries],

@@ -164,6 +164,13 @@ def test_a_run_is_explained_from_the_database(sample, tmp_path):
             explanation(runs, 1, event)
 
 
+def test_what_was_not_kept_is_not_guessed(sample, tmp_path):
+    runs = open_runs(tmp_path / "runs.db")
+    job.run(job.load(sample, {"clock.duration": 0.1, "recording.channels": ["speed", "gap"]}), runs=runs)
+    with pytest.raises(UnknownError, match=r"not kept the channels x, y, heading.*recording\.channels"):
+        explanation(runs, 1)
+
+
 def test_adhesion_is_that_of_the_tyres(sample):
     """Rolling along, a wheel uses little; braking with 8 m/s² on a dry road, 0.75 to 1 of what it has."""
     use = job.run(job.load(sample, HARD)).record

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from studio.assess import following, rss
-from studio.assess.encroachment import encroachments, passes
+from studio.assess.encroachment import Pieces, candidates, crossings, encroachments, passes, pieces_of, way_of
 from studio.assess.following import Pair
 from studio.assess.impact import speed_change
 from studio.assess.measure import measure_all
@@ -172,3 +172,25 @@ def test_steering_past_what_stands():
     made.values[NAMES.index("y"), 0] = 0.3
     found = measured(made, threat=("max_steer_threat", {"lateral_acceleration": 7.5}))
     assert found["threat"].value == pytest.approx(2.0 * 1.5 / 2.0**2 / 7.5, rel=2e-3) and found["threat"].subject == ("b", "a")
+
+
+def test_crossings_among_many_vehicles():
+    """200 cars in four lanes of a straight road and 20 that cross it: every crossing is found, and pieces that lie alike are not paired."""
+    time = np.arange(0.0, 20.0, 0.1)
+    along = [(12.0 * time + 9.0 * i, np.full(time.size, 3.5 * (i % 4))) for i in range(200)]
+    across = [(np.full(time.size, 400.0 + 30.0 * i), 10.0 * time - 100.0 - 7.0 * i) for i in range(20)]
+    x, y = (np.array(each) for each in zip(*along, *across, strict=True))
+    names = [*(f"along_{i}" for i in range(200)), *(f"across_{i}" for i in range(20))]
+    made = record(time, names, x=x, y=y, speed=12.0)
+    pieces = Pieces.of([pieces_of(way_of(made, row)) for row in range(len(names))])
+    assert len(candidates(pieces)) < 200_000
+    pairs = {(a, b) for a, b, _ in crossings({name: way_of(made, row) for row, name in enumerate(names)})}
+    wanted = {
+        (f"along_{i}", f"across_{j}") for i in range(200) for j in range(20) if passes_by(x[i], 3.5 * (i % 4), x[200 + j], y[200 + j])
+    }
+    assert pairs == wanted and len(wanted) > 300
+
+
+def passes_by(x, y, column, driven):
+    """Whether a way along x at a height y crosses one along y in a column."""
+    return x[0] < column[0] < x[-1] and driven[0] < y < driven[-1]

@@ -20,4 +20,4 @@ class Settings(Rules):
 
 def measure(record, settings):
     """Margin [m]; nothing when nobody came towards anybody."""
-    return least_margin(record, REACH, lambda seen: oncoming_margin(seen, settings))
+    return least_margin(record, REACH, lambda seen: oncoming_margin(seen, settings), oncoming=True)

@@ -5,13 +5,16 @@ range has no entry: of such nothing is known but that it was so.
 """
 
 from dataclasses import dataclass, field
+from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
 from studio.compiled import inlined
-from studio.world.table.unit import L_FIRST, L_NUMBER, L_SENDER, L_SIZE, L_TIME, LOGGED
+from studio.world.table.unit import L_FIRST, L_NUMBER, L_SAID, L_SENDER, L_SIZE, L_TIME, LOGGED, SENT
 
+SAID = 2  # numbers that a message carries first, which are kept
+SENT_ROWS = len(SENT)
 ROOM = 4096  # messages, and four times as many links, that room is made for at a time at least
 
 
@@ -26,12 +29,13 @@ class Logged(NamedTuple):
 
 
 class Book(NamedTuple):
-    """All of a log: time [s], sender (a unit), number and size [bytes] of every message, how many entries it has, and these."""
+    """All of a log: of every message time [s], sender (a unit), number, size [bytes], what it says first, how many entries; and these."""
 
     time: np.ndarray
     sender: np.ndarray
     number: np.ndarray
     size: np.ndarray
+    said: np.ndarray  # [number, message]
     count: np.ndarray
     link: np.ndarray
     cause: np.ndarray
@@ -80,8 +84,8 @@ class Log:
         parts = [*self.full, self.written()]
         message, *entries = [np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)]
         count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])
-        units = message[L_SENDER].astype(np.int64)
-        return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], count.astype(np.int32), *entries)
+        units, said = message[L_SENDER].astype(np.int64), message[L_SAID : L_SAID + SAID]
+        return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], said, count.astype(np.int32), *entries)
 
 
 def before(part: Logged, time: float) -> Logged:
@@ -92,9 +96,11 @@ def before(part: Logged, time: float) -> Logged:
 
 
 @inlined
-def log_message(time, unit, number, size, message, count):
-    """Writes a message down; its entries follow."""
+def log_message(time, unit, number, size, column, ring, message, count):
+    """Writes a message down, which stands in a column of the ring; its entries follow."""
     m = count[0]
+    for i in range(SAID):
+        message[L_SAID + i, m] = ring[SENT_ROWS + i, column] if SENT_ROWS + i < ring.shape[0] else nan
     message[L_TIME, m], message[L_SENDER, m], message[L_NUMBER, m] = time, unit, number
     message[L_SIZE, m], message[L_FIRST, m] = size, count[1]
     count[0] = m + 1

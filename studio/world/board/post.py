@@ -91,7 +91,7 @@ def dispatch({given}):
             slot = number % arrival.shape[0]
             column = slot * sender.size + i
             time, size, wait = ring[S_TIME, column], ring[S_SIZE, column], 0.0
-            log_message(time, s, number, size, log_message_rows, log_count)
+            log_message(time, s, number, size, column, ring, log_message_rows, log_count)
 {admission}            for link in range(link_first[i], link_first[i + 1]):
                 u = link_receiver[link]
                 way = way_of(s, u, column, wait, reach[j], place_of[j], shadow, fixed, now, load, ring)
