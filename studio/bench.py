@@ -5,6 +5,8 @@
                 radio, applications, integration, collisions
     advance     the same with recording and events, for platoons on a motorway that is as long as their number asks, so
                 that the density is always the same; `ratio` is what all of it costs over the integration of its vehicles alone
+    equipped    the same with four sensors on every car that look late and not through others, and IEEE 802.11p with shadows, fading,
+                bursts and a busy channel, over which everybody hears everybody; every message is recorded
     place       the sample's map imported from its file, with nothing kept from before; where the ways of its vehicles run
                 close to each other
     scene       one update of the sample's vehicles in the 3D picture, which at 60 Hz has 16.7 ms for everything
@@ -73,6 +75,12 @@ ROADS = {"eastbound": "motorway", "westbound": "-motorway"}
 MEASURED, LEAST_TICKS, MOST_TICKS = 20_000, 10, 60  # vehicle ticks that one repeat takes; ticks at least and at most
 WARM = 100  # ticks before the first repeat: until then everything that is compiled has been loaded, and the first car brakes
 OFTEN = 25  # repeats of an advance, which are short
+FOUR_SENSORS = {
+    "front": {"kind": "front_radar", "preset": "long_range_radar"},
+    "left": {"kind": "blind_spot", "preset": "left"},
+    "lane": {"kind": "lane_markings", "preset": "camera"},
+    "place": {"kind": "satellite_receiver", "preset": "gnss"},
+}
 DEVICE_FLEETS = (1000, 10_000, 100_000)
 REPEATS = 5
 SPAN = 0.2  # [s] of real time that one repeat takes at least
@@ -117,13 +125,13 @@ def whole_tick(sample: Setting) -> float:
 # -- the whole advance -----------------------------------------------------------------------------
 
 
-def crowd(count: int) -> Setting:
+def crowd(count: int, equipment: Callable[[dict[str, Any]], dict[str, Any]] = lambda document: document) -> Setting:
     """`count` cars in platoons on all lanes of both directions of a motorway, everything on in each of them."""
     rows = -(-count // (PLATOON * 2 * LANES))
     with tempfile.TemporaryDirectory() as folder:
         road = motorway(length=2.0 * MARGIN + rows * EVERY, lanes=LANES)
         (Path(folder) / "motorway.xodr").write_text(road, encoding="utf-8")
-        return setting(setup.complete(crowd_document(count), "the crowd"), Path(folder), "the crowd")
+        return setting(setup.complete(equipment(crowd_document(count)), "the crowd"), Path(folder), "the crowd")
 
 
 def crowd_document(count: int) -> dict[str, Any]:
@@ -154,12 +162,19 @@ def crowd_vehicle(i: int) -> dict[str, Any]:
     return {"route": route, "position": {"road": road, "lane": lane % LANES, "offset": offset}, "speed": 30}
 
 
-def advance(count: int) -> dict[str, Any]:
+def equipped(document: dict[str, Any]) -> dict[str, Any]:
+    """A crowd with four sensors on every car and a real radio, over which all hear all."""
+    vehicles = {name: each | {"sensors": FOUR_SENSORS} for name, each in document["vehicles"].items()}
+    groups = {name: {key: part for key, part in each.items() if key != "listens_to"} for name, each in document["applications"].items()}
+    return document | {"vehicles": vehicles, "applications": groups, "radio": {"kind": "wlan", "preset": "motorway"}}
+
+
+def advance(setting: Setting) -> dict[str, Any]:
     """Vehicle ticks a second of the whole advance, its cost over that of the integration alone, and what each part costs.
 
     `parts` are shares of the integration's cost. Both are measured in turn, so that a machine that is busy is so for both.
     """
-    running = simulation(crowd(count))
+    running, count = simulation(setting), len(setting.cars)
     ticks = min(max(MEASURED // count, LEAST_TICKS), MOST_TICKS)
     touch_memory(running, WARM + (OFTEN + 2) * ticks)
     running.advance(WARM)
@@ -294,7 +309,8 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
     scene = {"update": picture(prepared)}
     progress(1 - 1 / (len(FLEETS) + 3))
     with one_core_only():
-        crowds = {str(count): advance(count) for count in CROWDS}
+        crowds = {str(count): advance(crowd(count)) for count in CROWDS}
+        full = {str(count): advance(crowd(count, equipped)) for count in CROWDS}
     return {
         "machine": machine(),
         "versions": versions(),
@@ -309,6 +325,7 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
         "dynamics": {"one_core": one_core, "all_cores": all_cores()},
         "tick": {"one_core": tick_rate},
         "advance": {"one_core": crowds},
+        "equipped": {"one_core": full},
         "place": place,
         "scene": scene,
     }

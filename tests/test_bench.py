@@ -32,6 +32,8 @@ def test_the_report_has_all_figures(monkeypatch, sample):
     assert set(figures["dynamics"]["one_core"]) == {"1", "8"}
     crowd = figures["advance"]["one_core"]["7"]
     assert crowd["rate"] > 0 and crowd["ratio"] > 1 and {"look", "sense", "move", "collide", "record", "report"} <= set(crowd["parts"])
+    full = figures["equipped"]["one_core"]["7"]
+    assert full["parts"]["sense"] > crowd["parts"]["sense"] and full["ratio"] > 1
     assert figures["tick"]["one_core"] > 0 and figures["dynamics"]["all_cores"] > 0
     assert set(figures["place"]) == {"import", "conflicts"} and set(figures["scene"]) == {"update"}
     assert min(*figures["place"].values(), *figures["scene"].values()) > 0

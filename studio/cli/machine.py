@@ -65,11 +65,12 @@ def bench_rows(figures: dict[str, Any]) -> list[list[str]]:
         rows.append(["conflicts of the sample's ways", f"{figures['place']['conflicts']:.3f}", "s"])
     if "scene" in figures:
         rows.append(["update of the sample's vehicles in the picture", f"{figures['scene']['update']:.5f}", "s"])
-    for n, each in figures.get("advance", {}).get("one_core", {}).items():
-        rows.append([f"whole advance, {n} vehicles, one core", f"{each['rate']:,.0f}", "vehicle ticks/s"])
-        rows.append([f"whole advance over integration, {n} vehicles", f"{each['ratio']:.2f}", "1"])
-        shares = ", ".join(f"{name} {share:.2f}" for name, share in each["parts"].items())
-        rows.append([f"parts over integration, {n} vehicles", shares, "1"])
+    for name, words in (("advance", "whole advance"), ("equipped", "whole advance, equipped")):
+        for n, each in figures.get(name, {}).get("one_core", {}).items():
+            rows.append([f"{words}, {n} vehicles, one core", f"{each['rate']:,.0f}", "vehicle ticks/s"])
+            rows.append([f"{words} over integration, {n} vehicles", f"{each['ratio']:.2f}", "1"])
+            shares = ", ".join(f"{part} {share:.2f}" for part, share in each["parts"].items())
+            rows.append([f"{words}, parts over integration, {n} vehicles", shares, "1"])
     if "difference" in figures:
         rows.append(["distance to the CPU's result after 10 s", f"{figures['difference']:.1e}", "m"])
     return rows

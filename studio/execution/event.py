@@ -78,7 +78,23 @@ def watched(settings: Sequence[Setting], world: World) -> Watch:
         number = numbers[each.world]
         column = int(world.worlds.first[each.world]) + number[each.name]
         listening.append((column, tuple(number[name] for name in each.members)))
-    return notice.watch(world, np.concatenate(named).astype(np.int64), listening)
+    return notice.watch(world, np.concatenate(named).astype(np.int64), listening, listened(settings, world))
+
+
+def listened(settings: Sequence[Setting], world: World) -> list[np.ndarray]:
+    """Per post, the links whose sender the receiver's applications listen to by name.
+
+    That one of everybody else's messages was lost is no event but a line of the log of messages.
+    """
+    number = world.units.number
+    pairs = {
+        (number(unit, w), number(sender, w))
+        for w, each in enumerate(settings)
+        for group in each.scenario.applications.values()
+        for i, unit in enumerate(group.units)
+        for sender in group.senders(i)
+    }
+    return [np.array([link for pair, link in post.links.items() if pair in pairs], dtype=np.int64) for post in world.units.posts]
 
 
 def hopeless(setting: Setting) -> Iterator[Happening]:

@@ -78,6 +78,7 @@ class Watch:
     hands: np.ndarray  # int64[hand, vehicle]: who has it as told last, -1 while nobody has been seen to have it
     hands_since: np.ndarray  # [s] float64[hand, vehicle]: when this was told
     between: np.ndarray  # per follower, the number of the car between it and the one that it listens to
+    listened: list[np.ndarray]  # per post, the links whose losses are told
     shown: list[tuple[Hosted, np.ndarray]]  # applications that show notices, with what each unit showed at the tick before
     hits: int  # collisions that there is room for in one tick
     table: np.ndarray
@@ -95,11 +96,11 @@ class Watch:
             self.hits = hits
 
 
-def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int, ...]]]) -> Watch:
-    """Looks out for everything; followers are columns, each with the numbers of the vehicles of its chain."""
+def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int, ...]]], listened: list[np.ndarray]) -> Watch:
+    """Looks out for everything; followers are columns, each with the numbers of its chain's vehicles; `listened` are links, per post."""
     w, e, s, n = world.worlds, world.events, world.script, world.size
     sizes = np.array([len(members) for _, members in followers], dtype=np.int64)
-    links, shown = sum(post.link_receiver.size for post in world.units.posts), [each for each in world.hosted if each.shows]
+    links, shown = sum(each.size for each in listened), [each for each in world.hosted if each.shows]
     on_board = links + sum(each.unit.size for each in shown)
     most = 2 * s.phase.size + e.hits.shape[1] + TOLD_OF_A_VEHICLE * n + sizes.size + on_board
     return Watch(
@@ -119,6 +120,7 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         hands=np.full((HANDS, n), -1),
         hands_since=np.full((HANDS, n), -inf),
         between=np.full(sizes.size, -1),
+        listened=listened,
         shown=[(each, np.zeros(each.unit.size, dtype=np.int64)) for each in shown],
         hits=e.hits.shape[1],
         table=np.zeros((len(NOTICE), 2 * most)),
@@ -141,9 +143,9 @@ def notice(world: World, at: Watch) -> None:
             time, world.clock.tick, v.state, v.mind, v.parameter, w.of, w.number, at.named, r.path_first, r.stop_first, r.stop_count,
             r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
         )  # fmt: skip
-    for post in u.posts:
-        notice_messages(now, world.clock.tick, post.inbox, post.link_receiver, post.sender, post.link_sender, u.world, u.first, u.now,
-                        at.table, at.count)  # fmt: skip
+    for post, links in zip(u.posts, at.listened, strict=True):
+        notice_messages(now, world.clock.tick, links, post.inbox, post.link_receiver, post.sender, post.link_sender, u.world, u.first,
+                        u.now, at.table, at.count)  # fmt: skip
     for i, (hosted, told) in enumerate(at.shown):
         notice_shown(now, i, hosted.shown, told, hosted.unit, u.world, u.first, u.now, at.table, at.count)
 
@@ -304,9 +306,9 @@ def is_new_hand(i, v, time, mind, hands, since):
 
 
 @lean
-def notice_messages(time, tick, inbox, link_receiver, sender, link_sender, unit_world, unit_first, now, table, count):
+def notice_messages(time, tick, links, inbox, link_receiver, sender, link_sender, unit_world, unit_first, now, table, count):
     """Messages that came at this tick after others had been lost, as their numbers tell."""
-    for link in range(link_receiver.size):
+    for link in links:
         if inbox[H_MISSED, link] > 0.0 and time - tick < inbox[H_CAME, link] - EARLY <= time:
             u, s = link_receiver[link], sender[link_sender[link]]
             w = unit_world[u]
