@@ -36,7 +36,7 @@ def stage(**parts: Any) -> Simulation:
 
 
 def everything() -> Simulation:
-    """A stage with a script of every condition and maneuver that comes with the studio, with drawn settings."""
+    """A stage with every sensor, and a script of every condition and maneuver, that come with the studio; those with drawn settings."""
     seed = np.random.default_rng(1)
     brake = {"kind": "brake", "vehicle": "far", "deceleration": 1.0, "duration": 0.1}
     script: dict[str, Any] = {"first": {"when": {"kind": "time", "at": 0.0}, "do": brake}}
@@ -46,7 +46,8 @@ def everything() -> Simulation:
             script[kind.name] = {"when": chosen, "do": brake}
         elif hasattr(kind.module, "act"):
             script[kind.name] = {"when": {"kind": "time", "at": 0.0}, "do": chosen}
-    return stage(script=script)
+    sensors = {name: {"kind": name} for name, kind in registry.known("sensor").items() if kind.is_built_in}
+    return stage(script=script, vehicles={"own": {"sensors": sensors}})
 
 
 def vehicle(lane: int, along: float) -> dict[str, Any]:
