@@ -1,10 +1,10 @@
-"""The front sensor: the nearest object in the own driving corridor, as a radar with target selection reports it.
+"""The own driving corridor, in which a radar with target selection looks for the car ahead.
 
 The corridor is the arc that the own motion predicts, y = kappa x²/2 with kappa = r/v: a car on the next lane of a bend
 is not the car ahead.
 """
 
-from math import atan2, cos, sin, sqrt
+from math import cos, sin
 
 from studio.compiled import compiled
 
@@ -28,13 +28,6 @@ def turned(dx, dy, c, s):
 def own_curvature(v, r):
     """Curvature [1/m] of the own path from speed [m/s] and yaw rate [rad/s]."""
     return r / v if v > V_CURVE else 0.0
-
-
-@compiled
-def in_view(forward, left, reach, half_angle):
-    """Whether a point lies inside the cone: reach [m], half of the opening angle [rad]."""
-    distance = sqrt(forward * forward + left * left)
-    return forward > 0.0 and distance < reach and abs(atan2(left, forward)) < half_angle
 
 
 @compiled

@@ -1,6 +1,6 @@
 """Sensor, radio, actuators, brakes and air: their laws."""
 
-from math import exp, pi
+from math import exp
 
 import pytest
 
@@ -59,13 +59,6 @@ def test_the_corridor_bends_with_the_road():
     assert kappa == pytest.approx(1 / 50)
     forward, left = 30.0, 30.0**2 / 100
     assert sensor.in_corridor(forward, left, kappa) and not sensor.in_corridor(forward, 0.0, kappa)
-
-
-def test_the_cone():
-    assert sensor.in_view(10.0, 0.0, 50.0, 0.3)
-    assert not sensor.in_view(10.0, 0.0, 9.0, 0.3)
-    assert not sensor.in_view(10.0, 4.0, 50.0, 0.3)
-    assert not sensor.in_view(-10.0, 0.0, 50.0, pi)
 
 
 def test_radio_limits():
