@@ -21,7 +21,7 @@ def told(path, text, old, new):
 
 
 @pytest.mark.parametrize(("old", "new", "what"), [
-    ("def transmit(settings, way, draw, memory)", "def transmit(settings, way, draw)", "transmit takes (settings, way, draw); it is called"),
+    ("def transmit(settings, way, draw, memory)", "def transmit(settings, way, draw)", "transmit takes (settings, way, draw); it is"),
     ("class Memory(", "class Forgets(", "transmit takes (settings, way, draw, memory); it is called"),
     ("class Control(", "class Controls(", "has control, but no Control"),
     ("class Cell(", "class Cells(", "has admit, but no Cell"),
