@@ -377,7 +377,7 @@ class World:
             yield slots[:, :, u.world[post.sender] == number]
             yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))
             yield post.kept[:, u.world[post.sender] == number]
-        for air in u.airs:
+        for air in (each for each in u.airs if number in each.worlds):
             of_units, cells = air.state[:-1], air.state[-1]
             yield from (part[..., u.world == number] for part in of_units)
             yield cells[:, number]

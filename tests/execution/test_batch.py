@@ -50,6 +50,17 @@ def test_three_seeds_are_as_three_runs():
     assert len({one.state_hash for one in together}) == 3
 
 
+def test_worlds_with_different_radios():
+    """What a radio remembers of channels, links and cells is its world's alone."""
+    platoon = {"applications": {"pair": {"application": "cacc", "units": ["north"], "listens_to": ["straight"]}}, "radio.range": 5000.0}
+    wlan = platoon | {"radio.kind": "wlan", "radio.preset": "urban", "radio.congestion_control": "oscar"}
+    cellular = {"applications": platoon["applications"], "radio.kind": "cellular", "radio.bandwidth": 2000.0}
+    each = [loaded(1, **wlan), loaded(2, **cellular), loaded(3, **platoon), loaded(4, **wlan)]
+    for one, alone in zip(outcomes(each), (outcomes([one])[0] for one in each), strict=True):
+        same(one, alone)
+        assert one.status == "done" and one.record.messages.cause.size > 0
+
+
 def test_variants_with_other_vehicles_and_applications():
     """One with a platoon and traffic that is recorded, one without applications: other numbers of columns and links."""
     platoon = {"application": "cacc", "units": ["north"], "listens_to": ["straight"]}

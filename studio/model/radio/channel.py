@@ -1,7 +1,7 @@
 """A channel that all share: how busy it is, how long one waits for it, how often two speak at once (IEEE 802.11, outside a cell).
 
-**Busy.** With units that each send r messages a second of T seconds, and do not speak at once, the share of time in which the channel is
-busy (channel busy ratio) is the sum of r T; it cannot be above 1.
+**Busy.** The share b of time in which somebody can be heard (channel busy ratio). The studio adds it up of times on the air; N units that
+hear each other and send f messages a second of T seconds make N f T.
 
 **Waiting.** Whoever finds the channel idle for AIFS sends. Whoever finds it busy, with the probability b of its ratio, waits for its end,
 for AIFS, and for n of 0 to CW slots, during which others may begin: with r, a draw, the wait is
@@ -26,12 +26,6 @@ from studio.compiled import compiled
 SLOT, CW = 13e-6, 15.0  # [s], slots: aCWmin of IEEE 802.11p
 AIFS = 58e-6  # [s] of the highest access category (voice): 32 + 2 slots
 BUSIEST = 0.95  # ratio from which on waiting grows no longer
-
-
-@compiled
-def busy(rate, airtime, units):
-    """The channel busy ratio [1] of so many units that send at `rate` [1/s]."""
-    return min(rate * airtime * units, 1.0)
 
 
 @compiled

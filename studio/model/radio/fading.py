@@ -30,12 +30,6 @@ def m_of(distance, near, far, change):
 
 
 @compiled
-def above(m, margin):
-    """The share of messages with a power above a threshold that lies `margin` [dB] below the mean."""
-    return 1.0 - lower(m, m * 10.0 ** (-0.1 * margin), lgamma(m))
-
-
-@compiled
 def power(m, draw):
     """Power over its mean [1] of one message; draw in (0, 1)."""
     x, log_gamma = start(m, draw), lgamma(m)

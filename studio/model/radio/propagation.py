@@ -71,12 +71,6 @@ def two_ray(distance, lambda_, h_t, h_r, eps_r):
 
 
 @compiled
-def crossover(lambda_, h_t, h_r):
-    """The distance [m] beyond which the ground only weakens: 4 h_t h_r/lambda."""
-    return 4.0 * h_t * h_r / lambda_
-
-
-@compiled
 def attenuation(walls, inside):
     """What buildings take from a signal [dB]: walls crossed, metres inside."""
     return WALL_LOSS * walls + METRE_LOSS * inside

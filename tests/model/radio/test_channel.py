@@ -11,12 +11,6 @@ from studio.model.radio.congestion import OSCAR, VANETZA, Control, interval, lev
 from studio.model.random import uniform
 
 
-def test_how_busy_the_channel_is():
-    """100 cars, ten messages a second, 350 bytes at 6 Mbit/s."""
-    assert channel.busy(10.0, packet.airtime(350.0, 2), 100.0) == pytest.approx(0.512, abs=1e-12)
-    assert channel.busy(10.0, packet.airtime(350.0, 2), 500.0) == 1.0
-
-
 @compiled
 def waits(ratio, airtime, n):
     """n waits [s]."""

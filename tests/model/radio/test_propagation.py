@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from studio.model.radio.propagation import attenuation, crossover, felt_distance, free_space, slopes, two_ray, wavelength
+from studio.model.radio.propagation import attenuation, felt_distance, free_space, slopes, two_ray, wavelength
 
 LAMBDA = wavelength(5.89e9)
 
@@ -23,10 +23,6 @@ def test_far_away_two_rays_fall_with_the_fourth_power():
     """Over a perfect mirror: L = 40 lg(d) - 20 lg(h_t h_r) beyond the crossover (Rappaport, section 4.6)."""
     far = two_ray(20_000.0, LAMBDA, 1.5, 2.0, 1e9)
     assert far == pytest.approx(40.0 * np.log10(20_000.0) - 20.0 * np.log10(1.5 * 2.0), abs=0.05)
-
-
-def test_crossover():
-    assert [crossover(LAMBDA, h, h) for h in (1.895, 1.5)] == pytest.approx([282.0, 177.0], abs=0.5)
 
 
 def test_one_slope_of_two_is_free_space():
