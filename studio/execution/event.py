@@ -15,6 +15,7 @@ from studio.execution.happening import Happening, happening
 from studio.execution.record import Chain
 from studio.scenario.schema import REASONS
 from studio.world.commander import PARTS, commanders, standing
+from studio.world.effect import Place
 from studio.world.passes import notice
 from studio.world.passes.notice import NUMBERS, Watch
 from studio.world.setting import Setting
@@ -24,9 +25,11 @@ from studio.world.table.event import (
     COMPANY_CAME,
     COMPANY_LEFT,
     EVENTS,
+    HOPELESS,
     MESSAGE_LOST,
     NOTICE_SHOWN,
     SCRIPT_BEGUN,
+    SCRIPT_CUT,
     SCRIPT_ENDED,
     TAKES_OVER,
 )  # fmt: skip
@@ -78,6 +81,15 @@ def watched(settings: Sequence[Setting], world: World) -> Watch:
     return notice.watch(world, np.concatenate(named).astype(np.int64), listening)
 
 
+def hopeless(setting: Setting) -> Iterator[Happening]:
+    """What is told before a run: entries of the script that can never begin, or never end."""
+    place = Place(setting.scenario, setting.network)
+    for site in setting.sites:
+        for turn, part in (("begin", site.entry.when), ("end", site.entry.until)):
+            if part is not None and (reason := place.never(part)):
+                yield happening(HOPELESS, 0.0, site.vehicles, place=site.place, entry=site.name, turn=turn, reason=reason)
+
+
 class Teller:
     """Makes happenings of notices."""
 
@@ -89,6 +101,7 @@ class Teller:
         self.special = {
             SCRIPT_BEGUN: self.turned,
             SCRIPT_ENDED: self.turned,
+            SCRIPT_CUT: self.turned,
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
             TAKES_OVER: self.takes_over,
@@ -111,10 +124,10 @@ class Teller:
         units = tuple(self.world.name_of(number, world) for number in (subject, other) if number != NOBODY)
         return happening(kind, when, units, place=place, **dict.fromkeys(EVENTS[kind].numbers, value))
 
-    def turned(self, kind, when, _world, subject, _other, place, _value) -> Happening:
-        """An entry of the script has begun or ended."""
-        site = self.sites[subject]
-        return happening(kind, when, site.vehicles, place=place or site.place, entry=site.name, action=site.text)
+    def turned(self, kind, when, _world, subject, other, place, _value) -> Happening:
+        """An entry of the script has begun or ended, by itself or because another has begun."""
+        site, by = self.sites[subject], "" if other == NOBODY else self.sites[other].name
+        return happening(kind, when, site.vehicles, place=place or site.place, entry=site.name, action=site.text, other=by)
 
     def company(self, kind, when, world, subject, other, place, _value) -> Happening:
         """Somebody has come between a follower and the car that it listens to, or has gone again."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
-from studio.execution.event import Teller, chains, watched
+from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.message import messages
 from studio.execution.record import Body, Mount, Record, Recorder
@@ -21,7 +21,7 @@ from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
-from studio.world.table.event import FAILED
+from studio.world.table.event import FAILED, RUN_ENDED
 from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
@@ -92,6 +92,9 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
+        self.end_by_script()
+        if self.is_over:
+            return
         between(self.world, self.refuse)
         part(self.world)
         self.check_wishes()
@@ -99,6 +102,17 @@ class Simulation:
         notice.notice(self.world, self.watch)
         if self.world.clock.k >= self.ticks and not self.is_over:
             self.end("done")
+
+    def end_by_script(self) -> None:
+        """Ends the worlds whose script does so at this instant, at which everybody has looked around already."""
+        s = self.world.script
+        for entry in np.flatnonzero((s.ends != 0) & (s.turned[0] == self.time)).tolist():
+            number = int(s.world[entry])
+            if not self.cases[number].is_over:
+                self.tell()
+                self.cases[number].happen(happening(RUN_ENDED, self.time, entry=self.teller.sites[entry].name))
+                self.close(number, "done")
+                self.world.leave(number)
 
     def tell(self) -> None:
         """Makes events of what has been noticed; what happens in a world that is over is not told."""
@@ -227,7 +241,7 @@ def simulation(*settings: Setting) -> Simulation:
     scenario = settings[0].scenario
     world = build(settings)
     return Simulation(
-        cases=[Case(each) for each in settings],
+        cases=[Case(each, list(hopeless(each))) for each in settings],
         world=world,
         recorder=recorder(settings, world),
         watch=watched(settings, world),

@@ -43,11 +43,22 @@ class StationOf:
     field: str
 
 
+@dataclass(frozen=True)
+class Nested:
+    """Of a field: kinds of a sort stand in it, which have settings of their own."""
+
+    sort: str
+
+
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40)]
 VehicleName = Annotated[Name, Names("vehicle")]
 UnitName = Annotated[Name, Names("unit")]
 RouteName = Annotated[Name, Names("route")]
 EntryName = Annotated[Name, Names("entry")]
+BodyName = Annotated[Name, Names("body")]  # a vehicle, or a mover that an entry of the script brings
+GroupName = Annotated[Name, Names("application")]
+SignalName = Annotated[str, Field(max_length=100), Names("signal")]  # a road with lights at its end
+ValueName = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9][A-Za-z0-9_]*)+$", max_length=120), Names("value")]
 
 
 class Reference(NamedTuple):
@@ -73,6 +84,14 @@ def within(value: Any, what: str, path: str) -> Iterator[Reference]:
             yield from within(each, what, f"{path}.{key}")
     elif what and isinstance(value, str):
         yield Reference(path, what, value)
+
+
+def inner(part: BaseModel) -> Iterator[tuple[str, Any]]:
+    """The kinds that stand in the fields of a part, each with the path to it."""
+    for name, field in type(part).model_fields.items():
+        if marks(field, Nested):
+            value = getattr(part, name)
+            yield from ((f"{name}.{i}", each) for i, each in enumerate(value)) if isinstance(value, list) else [(name, value)]
 
 
 def named(field: FieldInfo) -> str:

@@ -7,7 +7,7 @@ The schema of a document is made when it is first needed, and again when a kind 
 """
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, create_model
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
@@ -15,7 +15,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 from studio.errors import UnknownError
 from studio.kind import preset, registry
 from studio.kind.registry import Kind
-from studio.kind.settings import Part
+from studio.kind.settings import Nested, Part
 
 
 def chosen(kind: Kind) -> type[BaseModel]:
@@ -32,10 +32,9 @@ def chosen(kind: Kind) -> type[BaseModel]:
 
 
 @dataclass(frozen=True)
-class Slot:
+class Slot(Nested):
     """A place for one kind of a sort. `usual` is the kind of a document that names none."""
 
-    sort: str
     usual: str | None = None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -59,6 +58,9 @@ class Slot:
         except UnknownError as error:
             raise PydanticCustomError("unknown_kind", "{what}", {"what": error.message}) from None
         return preset.filled(found.module, named)
+
+
+AnyCondition = Annotated[Any, Slot("condition")]  # within another: a class that has one is declared with defer_build=True
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from studio.kind.metric import Scope
 from studio.kind.number import unplain
 from studio.kind.quantity import quantities
 from studio.kind.sensor import Sensor
-from studio.kind.settings import named
+from studio.kind.settings import Nested, marks, named
 
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
 
@@ -134,6 +134,15 @@ def waited(value: Any) -> str:
     return needy(value) or unplain(value)
 
 
+def asked_or_joined(module: ModuleType) -> str:
+    """A condition is asked itself, or joins others that stand in its settings."""
+    fields = getattr(module, "Settings", BaseModel).model_fields.values()
+    is_around, joins, holds = any(marks(field, Nested) for field in fields), hasattr(module, "joins"), hasattr(module, "holds")
+    if joins == holds:
+        return "has both holds and joins" if joins else "has neither holds nor joins"
+    return "" if joins == is_around else "joins no conditions" if joins else "has conditions in it, and no joins"
+
+
 def told_and_done(module: ModuleType) -> str:
     """An action commands a vehicle, or does something to the road."""
     if not hasattr(module, "act"):
@@ -177,6 +186,16 @@ def remembered(value: Any) -> str:
 def mask(value: Any) -> str:
     """A sum of bits."""
     return "" if isinstance(value, int) and not isinstance(value, bool) and 0 < value < 256 else f"is {value!r}, no actuators"
+
+
+def yes(value: Any) -> str:
+    """What is said of a kind by being there."""
+    return "" if value is True else f"is {value!r}; leave it out where it is not so"
+
+
+def hands(value: Any) -> str:
+    """Pedals, wheel, or both."""
+    return "" if value in (1, 2, 3) and not isinstance(value, bool) else f"is {value!r}; allowed: PEDALS, WHEEL, PEDALS | WHEEL"
 
 
 def sentences(value: Any) -> str:
@@ -313,16 +332,23 @@ SORTS = {
         Sort("condition", "when something begins or ends", (
             TITLE,
             Need("Settings", "what it waits for", waited, "class Settings(Part): ..."),
-            Need("holds", "whether it is so at this tick", function("view", "settings", compiled=True), "def holds(view, settings)"),
+            Need("holds", "whether it is so at this tick", function("view", "settings", compiled=True), "def holds(view, settings)",
+                 optional=True),
+            Need("joins", "of one about other conditions: whether it is so, for what is known of these", function(
+                "settings", "parts", compiled=True), "def joins(settings, parts)", optional=True),
             Need("moment", "the time [s] from which on it is so, where the settings alone tell it", function("settings"),
                  "def moment(settings)", optional=True),
-        )),
+            Need("never", "why it can never be so in a scenario, in words; empty when it may be", function("settings", "place"),
+                 "def never(settings, place)", optional=True),
+        ), asked_or_joined, "write holds, or joins with a field of the type AnyCondition (studio.kind.slot), or a list of these"),
         Sort("action", "what is done", (
             TITLE,
             Need("Settings", "what exactly", needy, "class Settings(Part): ..."),
             Need("act", "what a vehicle is told at one tick while it lasts", function("settings", "sees", compiled=True),
                  "def act(settings, sees)", optional=True),
             Need("effects", "what it does to the road", function("settings", "place"), "def effects(settings, place)", optional=True),
+            Need("TAKES", "what act commands: PEDALS, WHEEL, or both where it does not say", hands, "TAKES = PEDALS", optional=True),
+            Need("MOMENTARY", "that it is done at once, and does not last", yes, "MOMENTARY = True", optional=True),
             Need("told", "the action in words, for the list of events", function("settings"), "def told(settings)", optional=True),
         ), told_and_done, "write act for a vehicle that is named by vehicle: VehicleName, or effects on the road"),
         Sort("metric", "a number that a run is judged by", (

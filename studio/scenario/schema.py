@@ -273,6 +273,9 @@ class Entry(Part, defer_build=True):
         None, title="Until", description="left out: as long as the action lasts, which for the road is to the end of the run"
     )
     do: Annotated[Any, Slot("action")] = Field(..., title="Do")
+    again: bool = Field(
+        False, title="Again", description="begins anew whenever `when` has not held and holds again, once the time before is over"
+    )
 
     @model_validator(mode="after")
     def ends_after_its_start(self):
@@ -375,8 +378,10 @@ WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)
 
 def make_anew() -> None:
     """A kind has come in: what may stand in a slot is another. Before anybody has asked nothing is made."""
-    for model in WITH_SLOTS if Scenario.__pydantic_complete__ else ():
-        model.model_rebuild(force=True)
+    if Scenario.__pydantic_complete__:
+        around = [kind.module.Settings for kind in registry.known("condition").values() if hasattr(kind.module, "joins")]
+        for model in (*around, *WITH_SLOTS):
+            model.model_rebuild(force=True)
 
 
 registry.listen(make_anew)

@@ -4,22 +4,27 @@ import math
 from contextlib import suppress
 from dataclasses import replace
 from types import ModuleType
-from typing import Any
+from typing import Any, get_args, get_origin
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 
 from studio.execution.record import Body, Chain, Record
-from studio.kind.number import numbers, shapes, tuple_of
+from studio.kind.area import Area
+from studio.kind.number import AREA, POINTS, numbers, plain, shapes, tuple_of
 from studio.kind.quantity import Quantity, quantities
-from studio.kind.settings import named
+from studio.kind.settings import Nested, marks, named
 from studio.world.channel import CHANNELS
 
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
 UNBOUND = 300.0  # how far one is drawn that has no first value either
 TRIES = 50
 NAMES = tuple("abcdefghijklmnopqrstuvwxyz")  # of drawn cars
-STAGE = {"vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway"}
+STAGE: dict[str, Any] = {
+    "vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway", "body": "ahead", "value": "own.speed",
+}  # fmt: skip
+POOL = np.array([np.arange(0.0, 40.0), np.linspace(10.0, 30.0, 40)])  # of pairs, where settings are told apart from their lists
 USUAL = {  # range of a quantity by its unit, wider than any that is met
     "m": (-10.0, 300.0), "m/s": (-10.0, 60.0), "m/s²": (-10.0, 6.0), "rad": (-0.6, 0.6), "rad/s": (-1.0, 1.0), "1/m": (-0.1, 0.1),
     "s": (0.0, 100.0), "rad s²/m": (0.0, 0.01),
@@ -37,7 +42,22 @@ def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
 def given(model: type[BaseModel], draw: np.random.Generator) -> dict[str, Any]:
     """A drawn value for every field, each for itself; names are those of the stage."""
     schema = model.model_json_schema()["properties"]
-    return {name: staged(named(field), schema[name]) or value(schema[name], draw, name) for name, field in model.model_fields.items()}
+    return {
+        name: staged(named(field), schema[name]) or whole(field, draw) or value(schema[name], draw, name)
+        for name, field in model.model_fields.items()
+    }
+
+
+def whole(field: FieldInfo, draw: np.random.Generator) -> Any:
+    """What is more than a number: conditions, areas and lists of pairs; None for another field."""
+    kind = plain(field.annotation)
+    if marks(field, Nested):
+        found = [{"kind": "time", "at": float(draw.uniform(0.0, 5.0))} for _ in range(2)]
+        return found if get_origin(kind) is list else found[0]
+    if kind is Area:
+        return {"x": float(draw.uniform(200.0, 500.0)), "y": 0.0, "radius": float(draw.uniform(1.0, 200.0))}
+    is_pairs = get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float]
+    return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if is_pairs else None
 
 
 def staged(what: str, node: dict[str, Any]) -> Any:
@@ -47,9 +67,12 @@ def staged(what: str, node: dict[str, Any]) -> Any:
 
 def settings_tuple(module: ModuleType, settings: BaseModel) -> Any:
     """Settings as compiled code gets them."""
-    rows = iter(numbers(settings, lambda what, name: 0.0))
+    rows = iter(numbers(settings, lambda what, name: DRAWN.get(what, 0.0)))
     sizes = [each.size for each in shapes(type(settings))]
     return tuple_of(module, type(settings))(*[next(rows) if size == 1 else tuple(next(rows) for _ in range(size)) for size in sizes])
+
+
+DRAWN = {POINTS: (0.0, 4.0), AREA: (300.0, 0.0, 50.0, 0.0, 0.0)}  # as pairs of the pool, as a circle
 
 
 def quantity_tuple(of: type, draw: np.random.Generator) -> Any:

@@ -23,11 +23,12 @@ from studio.world.board.equipment import units_of
 from studio.world.chart import chart_of
 from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
-from studio.world.obstacle import obstacles_of
+from studio.world.obstacle import movers, obstacles_of
 from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
 from studio.world.passes.neighbour import neighbours
 from studio.world.passes.queue import queues
+from studio.world.probe import reader_of
 from studio.world.script import script_of
 from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
@@ -61,7 +62,7 @@ def build(settings: Sequence[Setting]) -> World:
         roads=roads,
         units=units,
         events=events_of(settings),
-        script=script_of(settings, worlds, lines),
+        script=script_of(settings, worlds, lines, movers(settings, obstacles.first)),
         detours=detours_of(settings, worlds, lines, table, known),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
@@ -72,6 +73,7 @@ def build(settings: Sequence[Setting]) -> World:
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
     )
+    world.script.reader = reader_of(world)
     settle(world)
     world.origin = origin_of(settings, world)
     gather(world)

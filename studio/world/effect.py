@@ -1,16 +1,19 @@
-"""Effects: what an action may do to the road. An action gives a list of these, as many and as different as it likes.
+"""Effects: what an action may do to the world. An action gives a list of these, as many and as different as it likes.
 
 Limit, Slippery, Row        about a stretch of a route or lane
 Closing, Shift              about a stretch of one lane, with tapers
+End                         about the run
 
 They are data: names and stations, which the world looks up on its map.
 """
 
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from studio.errors import Problem, RouteError, nearest
+from studio.kind import registry
+from studio.kind.area import Area
 from studio.kind.stretch import LaneStretch, Stretch
 from studio.road.network import Network
 from studio.road.ways import path as road_path
@@ -60,7 +63,12 @@ class Shift(NamedTuple):
     offset: float
 
 
-Effect = Limit | Slippery | Row | Closing | Shift
+class End(NamedTuple):
+    """The run ends."""
+
+
+OnRoad = Limit | Slippery | Row | Closing | Shift  # which lie somewhere
+Effect = OnRoad | End
 
 
 class Place:
@@ -68,6 +76,25 @@ class Place:
 
     def __init__(self, scenario: Scenario, network: Network) -> None:
         self.scenario, self.network = scenario, network
+
+    def never(self, condition: Any) -> str:
+        """Why a condition can never hold here, in words; empty when it may."""
+        module = registry.find("condition", condition.kind).module
+        return module.never(condition, self) if hasattr(module, "never") else ""
+
+    @property
+    def duration(self) -> float:
+        """Of the run [s]."""
+        return self.scenario.clock.duration
+
+    def is_off_map(self, area: Area) -> bool:
+        """Whether no part of the box around an area lies on the map."""
+        if area.x is None or area.y is None or area.radius is None:
+            sides = [(min(each), max(each)) for each in zip(*area.corners, strict=True)]
+        else:
+            sides = [(middle - area.radius, middle + area.radius) for middle in (area.x, area.y)]
+        x0, y0, x1, y1 = self.network.bounds
+        return any(high < first or low > last for (low, high), first, last in zip(sides, (x0, y0), (x1, y1), strict=False))
 
     def lanes(self, road: str) -> int:
         """How many lanes a road has; 0 when there is no such road."""
@@ -79,6 +106,11 @@ class Place:
             return self.line(stretch).length
         except (KeyError, IndexError, RouteError):
             return np.inf
+
+    @property
+    def lit(self) -> set[str]:
+        """The roads with lights at their end."""
+        return {self.network.lanes[lane].road for lane in self.network.signals.link_lane}
 
     @property
     def roads(self) -> set[str]:

@@ -1,17 +1,20 @@
 """Maneuvers: what an action may look at and command, while it lasts, of the vehicle that it is about; and the loop that asks it.
 
-A scripted maneuver goes before application and driver. A vehicle has one at a time: one that begins ends the one before.
+A scripted maneuver goes before application and driver. A vehicle has one at a time that takes its pedals, and one that takes its wheel,
+which may be the same: one that begins ends those before it that have what it takes.
 """
 
 from collections.abc import Callable
 from math import isfinite
-from typing import NamedTuple
+from types import ModuleType
+from typing import Any, NamedTuple
 
-from studio.compiled import inlined, lean
+from studio.compiled import compiled, inlined, lean
 from studio.kind.loop import written
 from studio.kind.number import sizes, spelled, tuple_of
 from studio.kind.registry import Kind
-from studio.vehicle.state import A_X, ACTIVE, DELTA, V_X
+from studio.vehicle.parameter import L_F, L_R
+from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, X, Y
 from studio.world.table.mind import (
     AHEAD_SPEED,
     D_PSI,
@@ -26,6 +29,13 @@ from studio.world.table.mind import (
     STEERS,
     WISH,
 )  # fmt: skip
+
+PEDALS, WHEEL = 1, 2  # what a maneuver may take of its vehicle: TAKES = PEDALS in the file of an action; both where it does not say
+
+
+def takes(module: ModuleType) -> int:
+    """What maneuvers of a kind take, together or one of them."""
+    return getattr(module, "TAKES", PEDALS | WHEEL)
 
 
 class Sees(NamedTuple):
@@ -43,6 +53,11 @@ class Sees(NamedTuple):
     path_curvature: float  # [1/m]
     driver_acceleration: float  # [m/s²] that the driver would ask for
     driver_steering: float  # [rad] road wheel angle that the driver would ask for
+    x: float  # [m] of its centre of gravity, east
+    y: float  # [m] north
+    heading: float  # [rad]
+    wheelbase: float  # [m]
+    pool: Any  # [2, pair]: the lists of pairs that stand in settings
 
 
 class Maneuver(NamedTuple):
@@ -79,8 +94,8 @@ def over():
     return Maneuver(0.0, 0.0, False, False, True)
 
 
-@lean
-def seen(v, time, began, state, mind):
+@compiled  # not lean: it gives an array on
+def seen(v, time, began, state, mind, parameter, pool):
     """What the maneuver of a vehicle sees, that began at a time [s]."""
     return Sees(
         time - began,
@@ -95,16 +110,23 @@ def seen(v, time, began, state, mind):
         mind[PATH_KAPPA, v],
         mind[WISH, v],
         mind[STEER_WISH, v],
+        state[X, v],
+        state[Y, v],
+        state[PSI, v],
+        parameter[L_F, v] + parameter[L_R, v],
+        pool,
     )
 
 
 @inlined
-def put(told, v, script):
-    """Writes what is commanded of a vehicle."""
-    script[DRIVES, v] = 1.0 if told.drives else 0.0
-    script[SCRIPT_ACCELERATION, v] = told.acceleration
-    script[STEERS, v] = 1.0 if told.steers else 0.0
-    script[SCRIPT_STEERING, v] = told.steering
+def put(told, v, takes, script):
+    """Writes what is commanded of a vehicle; what the maneuver does not take is left to another."""
+    if takes & PEDALS != 0:
+        script[DRIVES, v] = 1.0 if told.drives else 0.0
+        script[SCRIPT_ACCELERATION, v] = told.acceleration
+    if takes & WHEEL != 0:
+        script[STEERS, v] = 1.0 if told.steers else 0.0
+        script[SCRIPT_STEERING, v] = told.steering
 
 
 @inlined
@@ -128,17 +150,20 @@ from {module} import SettingsTuple, act
 
 
 @compiled
-def run(time, entry, vehicle, settings, phase, turned, state, mind, script, come, unfit):
+def run(time, entry, vehicle, settings, pool, phase, turned, state, mind, parameter, script, come, unfit):
     any_over = False
     for j in range(entry.size):
         e, v = entry[j], vehicle[j]
         if phase[e] != ACTING:
             continue
-        told = over() if has_left(v, state) else act(SettingsTuple({settings}), seen(v, time, turned[0, e], state, mind))
+        if has_left(v, state):
+            told = over()
+        else:
+            told = act(SettingsTuple({settings}), seen(v, time, turned[0, e], state, mind, parameter, pool))
         if not is_fit(told):
             unfit[e] = 1
             told = over()
-        put(told, v, script)
+        put(told, v, {takes}, script)
         if told.is_over:
             come[e] = 1
             any_over = True
@@ -150,5 +175,5 @@ def loop(kind: Kind) -> Callable:
     """The loop of a kind of maneuver: commands its vehicles, and marks the entries that are over, and those that command no numbers."""
     module = kind.module
     tuple_of(module, module.Settings)
-    source = LOOP.format(name=kind.name, module=module.__name__, settings=spelled(sizes(module.Settings), "settings"))
+    source = LOOP.format(name=kind.name, module=module.__name__, settings=spelled(sizes(module.Settings), "settings"), takes=takes(module))
     return written(f"{kind.sort}_{kind.name}", source, kind).run

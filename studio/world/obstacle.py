@@ -9,7 +9,7 @@ from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Pa
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting
 from studio.world.table.street import ACTING, O_ENTRY, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
-from studio.world.thing import SIZES, names, things
+from studio.world.thing import MOVERS, SIZES, names, things
 from studio.world.world import Obstacles
 
 NEAR = 3.0  # [m] an object farther from a path is in nobody's way
@@ -22,7 +22,9 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
     counts = np.array([len(each) for each in found])
     first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
-        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.entry) for w, some in enumerate(found) for each in some
+        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.entry, 0.0)
+        for w, some in enumerate(found)
+        for each in some
     ]
     table = np.array(rows).reshape(-1, len(OBSTACLE)).T.copy()
     swept = [sweep(each.path, table, first[each.world], counts[each.world]) for each in lines.laid]
@@ -38,6 +40,14 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
         sweep_count=lengths[lines.base],
         names=tuple(name for each, some in zip(settings, found, strict=True) for name in names(each.sites, some)),
     )
+
+
+def movers(settings: Sequence[Setting], first: np.ndarray) -> list[dict[str, int]]:
+    """For each world the numbers of what moves among all objects, by the entries of the script that bring it."""
+    return [
+        {each.sites[thing.entry].name: int(first[w]) + i for i, thing in enumerate(things(each.sites)) if thing.kind in MOVERS}
+        for w, each in enumerate(settings)
+    ]
 
 
 def sweep(path: Path, table: np.ndarray, first: int, count: int) -> np.ndarray:

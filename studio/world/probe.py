@@ -15,9 +15,11 @@ import numpy as np
 
 from studio.compiled import lean
 from studio.kind.quantity import Quantity, width
+from studio.vehicle.state import VEHICLE
 from studio.world.board.air import Air
 from studio.world.board.host import Hosted
 from studio.world.board.sensing import Mounted
+from studio.world.table.mind import MIND
 from studio.world.table.unit import MEASURED
 from studio.world.world import Units, World
 
@@ -160,3 +162,28 @@ def pick(array, first, count, slot, columns, where, values):
         there = slot < 0 or array[0, c] > slot
         for r in range(count):
             values[at + r] = array[first + r, c] if there else nan
+
+
+# -- for conditions --------------------------------------------------------------------------------------
+
+
+def reader_of(world: World) -> Reader | None:
+    """Reads the values that the conditions of a script look at; None when they look at none."""
+    watched = world.script.watched
+    if not watched:
+        return None
+    known = [{each.name: each for each in some} for some in probes(world)]
+    return Reader([known[w][name] if name in known[w] else of_vehicle(w, name, world) for w, name in watched])
+
+
+def of_vehicle(number: int, name: str, world: World) -> Probe:
+    """A row of a vehicle's state, or of what its driver has in mind."""
+    vehicle, _, quantity = name.partition(".")
+    for array, table in ROWS.items():
+        for row, each in enumerate(table):
+            if each.name == quantity and each.label:
+                return Probe(name, each.unit, each.label, world.vehicles, array, row, world.column(vehicle, number))
+    raise KeyError(name)  # names are looked at before: setting.py
+
+
+ROWS = {"state": VEHICLE, "mind": MIND}

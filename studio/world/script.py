@@ -7,26 +7,27 @@ Conditions and maneuvers are asked only while somebody waits for them.
 """
 
 from collections.abc import Iterator, Sequence
+from math import inf
 
 import numpy as np
 
 from studio.compiled import lean
 from studio.kind import registry
-from studio.kind.number import Find, numbers, row_of, stations
-from studio.road.network import Network
+from studio.kind.number import numbers, row_of, stations
 from studio.road.ways.detour import limited
 from studio.road.ways.path import PATH_SPEED
-from studio.scenario.schema import Scenario
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE
 from studio.world import condition, maneuver, obstacle
 from studio.world.condition import View
-from studio.world.effect import Limit
-from studio.world.line import Lines, conflicts
+from studio.world.effect import End, Limit
+from studio.world.find import Finder, finders
+from studio.world.line import Lines, conflicts, starts
+from studio.world.node import Node, nodes_of
 from studio.world.setting import Setting
-from studio.world.site import Laid, joined_at
+from studio.world.site import Laid
 from studio.world.table.mind import SCRIPT, STATION
-from studio.world.table.street import ACTING, OVER, PIECE_ACTS, PIECE_ENTRY
+from studio.world.table.street import ACTING, BEFORE, OVER, PIECE_ACTS, PIECE_ENTRY
 from studio.world.world import Asked, Maneuvers, Script, World, Worlds
 
 
@@ -44,14 +45,42 @@ def turn(world: World) -> None:
 
 
 def ask(world: World) -> None:
-    """Asks the conditions that somebody waits for."""
-    s, v, r, time = world.script, world.vehicles, world.roads, world.clock.time
-    view = View(time, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned)
+    """Asks the conditions that somebody waits for, those within others before these."""
+    s, time = world.script, world.clock.time
+    if s.reader:
+        s.reader.read(s.values)
+    view = view_of(world)
     for each in (s.asked[i] for i in s.waiting):
-        each.run(view, each.entry, each.turn, each.settings, s.phase, s.come)
-    if proceed(time, s.come, s.vehicle, s.phase, s.turned):
+        each.run(
+            view, each.node, each.entry, each.turn, each.settings, each.part_first, each.part_count, each.part, s.phase, s.again, s.since,
+            s.met, s.held,
+        )  # fmt: skip
+    decide(s.root, s.node_entry, s.again, s.held, s.phase, s.since, s.met, s.come)
+    if proceed(time, s.come, s.vehicle, s.takes, s.momentary, s.phase, s.turned, s.cut):
         s.commands[:] = 0.0
         post(world)
+
+
+def view_of(world: World) -> View:
+    """What conditions look at now."""
+    v, r, o, s, clock = world.vehicles, world.roads, world.obstacles, world.script, world.clock
+    return View(
+        clock.time, clock.tick, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned, r.shown, o.table, o.standing,
+        s.pool, s.values,
+    )  # fmt: skip
+
+
+@lean
+def decide(root, node_entry, again, held, phase, since, met, come):
+    """Whose turn has come; an entry that is over waits anew once what it waited for does not hold any more."""
+    for e in range(phase.size):
+        if phase[e] != OVER:
+            come[e] = 1 if root[phase[e], e] >= 0 and held[root[phase[e], e]] != 0 else 0
+        elif again[e] != 0 and held[root[BEFORE, e]] == 0:
+            phase[e] = BEFORE
+            for n in range(node_entry.size):
+                if node_entry[n] == e:
+                    since[n] = met[n] = inf
 
 
 def act(world: World) -> None:
@@ -61,16 +90,30 @@ def act(world: World) -> None:
         return
     any_over = False
     for each in (s.maneuvers[i] for i in s.acting):
-        any_over |= each.run(time, each.entry, each.vehicle, each.settings, s.phase, s.turned, v.state, v.mind, s.commands, s.come, s.unfit)
+        any_over |= each.run(
+            time,
+            each.entry,
+            each.vehicle,
+            each.settings,
+            s.pool,
+            s.phase,
+            s.turned,
+            v.state,
+            v.mind,
+            v.parameter,
+            s.commands,
+            s.come,
+            s.unfit,
+        )
     if any_over:
         world.unfit += int(s.unfit.sum())
-        proceed(time, s.come, s.vehicle, s.phase, s.turned)
+        proceed(time, s.come, s.vehicle, s.takes, s.momentary, s.phase, s.turned, s.cut)
         post(world)
 
 
 @lean
-def proceed(time, come, vehicle, phase, turned):
-    """Entries whose turn has come begin or end; whether one did. A maneuver that begins ends the one of its vehicle before it."""
+def proceed(time, come, vehicle, takes, momentary, phase, turned, cut):
+    """Entries whose turn has come begin or end; whether one did. A maneuver that begins ends the one before it that has what it takes."""
     any_turned = False
     for e in range(phase.size):
         is_due, come[e] = come[e] != 0 and phase[e] != OVER, 0
@@ -79,11 +122,23 @@ def proceed(time, come, vehicle, phase, turned):
         any_turned = True
         turned[phase[e], e] = time
         phase[e] += 1
-        for other in range(phase.size):
-            if phase[e] == ACTING and other != e and phase[other] == ACTING and vehicle[other] == vehicle[e] >= 0:
-                turned[1, other] = time
-                phase[other] = OVER
+        if phase[e] == ACTING:
+            cut[e] = -1
+            cut_short(e, time, vehicle, takes, phase, turned, cut)
+            if momentary[e] != 0:
+                turned[1, e] = time
+                phase[e] = OVER
     return any_turned
+
+
+@lean
+def cut_short(e, time, vehicle, takes, phase, turned, cut):
+    """Ends the maneuvers that have what entry e takes of the same vehicle."""
+    for other in range(phase.size):
+        if other != e and phase[other] == ACTING and vehicle[other] == vehicle[e] >= 0 and takes[other] & takes[e] != 0:
+            turned[1, other] = time
+            phase[other] = OVER
+            cut[other] = e
 
 
 @lean
@@ -167,8 +222,14 @@ def post(world: World) -> None:
     s, pieces = world.script, world.roads.pieces
     post_limits(s, world.roads.points)
     pieces[PIECE_ACTS] = s.phase[pieces[PIECE_ENTRY].astype(np.int64)] == ACTING
-    s.waiting = np.flatnonzero([(s.phase[each.entry] == each.turn).any() for each in s.asked])
+    s.waiting = np.flatnonzero([is_waited_for(each, s).any() for each in s.asked])
     s.acting = np.flatnonzero([(s.phase[each.entry] == ACTING).any() for each in s.maneuvers])
+
+
+def is_waited_for(each: Asked, s: Script) -> np.ndarray:
+    """Which of the conditions of a kind somebody waits for."""
+    phase = s.phase[each.entry]
+    return (phase == each.turn) | ((phase == OVER) & (each.turn == 0) & (s.again[each.entry] != 0))
 
 
 def post_limits(script: Script, points: np.ndarray) -> None:
@@ -183,24 +244,40 @@ def post_limits(script: Script, points: np.ndarray) -> None:
 # -- at the start --------------------------------------------------------------------------------------
 
 
-def script_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines) -> Script:
+def script_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, movers: list[dict[str, int]]) -> Script:
     """The scripts of all worlds before anything begins."""
     placed = [(w, site) for w, each in enumerate(settings) for site in each.sites]
     limits = [each for number, (w, site) in enumerate(placed) for laid in site.laid for each in limits_of(number, laid, w, lines)]
     limited_at = np.unique(np.concatenate([np.zeros(0, np.int64), *(columns for _, columns, _ in limits)]))
-    finds = finds_of(settings, worlds)
-    maneuvers, vehicle = maneuvers_of(settings, finds)
-    asked = asked_of(settings, finds)
+    finds, found = finders(settings, worlds, movers)
+    maneuvers, vehicle, takes = maneuvers_of(settings, finds)
+    nodes, root = nodes_of(settings, finds)
+    asked = asked_of(nodes)
+    n = len(placed)
     return Script(
         world=np.array([w for w, _ in placed], dtype=np.int64),
         vehicle=vehicle,
-        phase=np.zeros(len(placed), dtype=np.int64),
-        turned=np.full((2, len(placed)), np.nan),
-        come=np.zeros(len(placed), dtype=np.int64),
-        unfit=np.zeros(len(placed), dtype=np.int64),
+        takes=takes,
+        again=np.array([int(site.entry.again) for _, site in placed], dtype=np.int64),
+        momentary=np.array([int(site.is_momentary) for _, site in placed], dtype=np.int64),
+        ends=np.array([int(any(isinstance(each, End) for each in site.effects)) for _, site in placed], dtype=np.int64),
+        phase=np.zeros(n, dtype=np.int64),
+        turned=np.full((2, n), np.nan),
+        cut=np.full(n, -1),
+        come=np.zeros(n, dtype=np.int64),
+        unfit=np.zeros(n, dtype=np.int64),
         commands=np.zeros((len(SCRIPT), worlds.of.size)),
+        root=root,
+        node_entry=np.array([each.entry for each in nodes], dtype=np.int64),
+        held=np.zeros(len(nodes), dtype=np.int64),
+        since=np.full(len(nodes), np.inf),
+        met=np.full(len(nodes), np.inf),
         asked=asked,
         maneuvers=maneuvers,
+        pool=found.pool,
+        watched=found.watched,
+        values=np.zeros(len(found.watched)),
+        reader=None,
         limits=limits,
         free=(limited_at, lines.points[PATH_SPEED, limited_at]),
         waiting=np.flatnonzero([(each.turn == 0).any() for each in asked]),
@@ -208,62 +285,38 @@ def script_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines) -> Scri
     )
 
 
-def finds_of(settings: Sequence[Setting], worlds: Worlds) -> list[Find]:
-    """For each world: names as columns of vehicles, numbers of entries and of routes."""
-    found, entries = [], 0
-    for each, first in zip(settings, worlds.first.tolist(), strict=True):
-        columns = {name: first + i for i, name in enumerate(each.names)}
-        numbers = {
-            "vehicle": columns,
-            "unit": columns,
-            "entry": {name: entries + i for i, name in enumerate(each.scenario.script)},
-            "route": {name: i for i, name in enumerate(each.scenario.routes)},
-        }
-        found.append(lambda what, name, numbers=numbers: float(numbers[what][name]))
-        entries += len(each.scenario.script)
-    return found
+def asked_of(nodes: list[Node]) -> list[Asked]:
+    """All conditions, kind by kind, those that are about others behind these."""
+    together: dict[tuple[int, str], list[int]] = {}
+    for number, each in enumerate(nodes):
+        together.setdefault((each.height, each.kind), []).append(number)
+    return [asked(name, numbers, nodes) for (_, name), numbers in sorted(together.items(), key=lambda each: each[0][0])]
 
 
-def asked_of(settings: Sequence[Setting], finds: list[Find]) -> list[Asked]:
-    """All conditions, kind by kind."""
-    together: dict[str, list[tuple[int, int, list[float]]]] = {}
-    number = 0
-    for each, find in zip(settings, finds, strict=True):
-        for entry in each.scenario.script.values():
-            for which, part in enumerate((entry.when, entry.until)):
-                if part is not None:
-                    row = numbers_of(part, each.scenario, each.network, find)
-                    together.setdefault(part.kind, []).append((number, which, row))
-            number += 1
-    return [asked(name, rows) for name, rows in together.items()]
-
-
-def asked(name: str, rows: list[tuple[int, int, list[float]]]) -> Asked:
+def asked(name: str, numbers: list[int], nodes: list[Node]) -> Asked:
     """Everybody who waits for one kind of condition."""
     kind = registry.find("condition", name)
-    made = kind.module.Settings
+    made, some = kind.module.Settings, [nodes[each] for each in numbers]
+    counts = np.array([len(each.parts) for each in some])
     return Asked(
         kind=kind,
-        entry=np.array([entry for entry, _, _ in rows]),
-        turn=np.array([which for _, which, _ in rows]),
-        settings=np.array([row for _, _, row in rows]).T.copy(),
+        node=np.array(numbers),
+        entry=np.array([each.entry for each in some]),
+        turn=np.array([each.turn for each in some]),
+        settings=np.array([each.row for each in some], dtype=float).reshape(len(some), -1).T.copy(),
+        part_first=starts(counts),
+        part_count=counts,
+        part=np.array([number for each in some for number in each.parts], dtype=np.int64),
         stations=[(row_of(made, station), row_of(made, vehicle)) for station, vehicle in stations(made)],
         run=condition.loop(kind),
     )
 
 
-def numbers_of(part, scenario: Scenario, network: Network, find: Find) -> list[float]:
-    """A condition's settings as numbers; stations count on the path that the vehicle drives, which may begin later than its route."""
-    made = numbers(part, find)
-    for station, vehicle in stations(type(part)):
-        made[row_of(type(part), station)] -= joined_at(getattr(part, vehicle), scenario, network)
-    return made
-
-
-def maneuvers_of(settings: Sequence[Setting], finds: list[Find]) -> tuple[list[Maneuvers], np.ndarray]:
-    """All maneuvers, kind by kind, and the vehicle of every entry, -1 for none."""
+def maneuvers_of(settings: Sequence[Setting], finds: list[Finder]) -> tuple[list[Maneuvers], np.ndarray, np.ndarray]:
+    """All maneuvers, kind by kind; the vehicle of every entry, -1 for none; what each takes of it."""
     together: dict[str, list[tuple[int, int, list[float]]]] = {}
     vehicles: list[int] = []
+    taken: list[int] = []
     for each, find in zip(settings, finds, strict=True):
         for entry in each.scenario.script.values():
             module = registry.find("action", entry.do.kind).module
@@ -271,7 +324,9 @@ def maneuvers_of(settings: Sequence[Setting], finds: list[Find]) -> tuple[list[M
             if column >= 0:
                 together.setdefault(entry.do.kind, []).append((len(vehicles), column, numbers(entry.do, find)))
             vehicles.append(column)
-    return [maneuvers(name, rows) for name, rows in together.items()], np.array(vehicles, dtype=np.int64)
+            taken.append(maneuver.takes(module))
+    found = [maneuvers(name, rows) for name, rows in together.items()]
+    return found, np.array(vehicles, dtype=np.int64), np.array(taken, dtype=np.int64)
 
 
 def maneuvers(name: str, rows: list[tuple[int, int, list[float]]]) -> Maneuvers:

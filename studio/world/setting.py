@@ -8,11 +8,13 @@ import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
+from typing import Any
 
 import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
+from studio.kind import registry
 from studio.kind.driver import Driver
 from studio.kind.settings import references
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
@@ -27,10 +29,12 @@ from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
 from studio.world import crew
 from studio.world.channel import catalogue as channels
+from studio.world.cycle import circles
 from studio.world.footprint import Footprint, Overlap, depth, overlaps
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
 from studio.world.thing import SIZES, Thing, names, things
+from studio.world.value import values
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
@@ -157,14 +161,28 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
         "unit": ({**scenario.vehicles, **scenario.stations}, "unit of this scenario"),
         "route": (scenario.routes, "route of this scenario"),
         "entry": (scenario.script, "entry of the script"),
+        "body": ({**scenario.vehicles, **brought(scenario)}, "vehicle of this scenario, nor an entry of the script that brings somebody"),
+        "application": (scenario.applications, "group of applications"),
+        "value": (values(scenario), "value that is measured, logged or recorded here"),
     }
-    found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario)]
+    found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario) if each.what in names]
     models = set(catalogue.vehicle_names())
     for path, model in models_named(scenario):
         found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
     for i, name in enumerate(scenario.recording.channels):
         found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
-    return [each for each in found if each] + reserved(scenario, where) + untimely(scenario, where) + crew.problems(scenario, where)
+    return (
+        [each for each in found if each]
+        + reserved(scenario, where)
+        + circles(scenario, where)
+        + untimely(scenario, where)
+        + crew.problems(scenario, where)
+    )
+
+
+def brought(scenario: Scenario) -> dict[str, Any]:
+    """The entries of the script that bring somebody who moves."""
+    return {name: each for name, each in scenario.script.items() if hasattr(registry.find("action", each.do.kind).module, "MOVES")}
 
 
 def unknown(where: str, path: str, name: str, known: Collection[str], kind: str) -> Problem | None:

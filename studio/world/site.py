@@ -8,13 +8,14 @@ import traceback
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import get_args
+from typing import Any, get_args
 
 import numpy as np
 
-from studio.errors import Problem, RouteError, ScenarioError
+from studio.errors import Problem, RouteError, ScenarioError, nearest
 from studio.kind import registry
-from studio.kind.settings import StationOf, marks, references
+from studio.kind.area import Area
+from studio.kind.settings import StationOf, inner, marks, named, references
 from studio.kind.stretch import LaneStretch
 from studio.road.assembly.alignment import SHARPEST
 from studio.road.network import Lane, Network
@@ -23,7 +24,7 @@ from studio.road.ways.detour import STEEPEST, Work, lane_line
 from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.road.ways.route import connect
 from studio.scenario.schema import Entry, Scenario, moment_of
-from studio.world.effect import Closing, Effect, Place, Row, Shift, length_problem, row_problem
+from studio.world.effect import Closing, Effect, OnRoad, Place, Row, Shift, length_problem, row_problem
 
 Effects = dict[str, list[Effect]]  # by the name of the entry
 
@@ -35,7 +36,7 @@ class Laid:
     `edges` are the sides of a closed lane (1 left, -1 right) on which another lane stays open beside it.
     """
 
-    effect: Effect
+    effect: OnRoad
     line: Path
     work: Work | None = None
     edges: tuple[int, ...] = ()
@@ -43,11 +44,17 @@ class Laid:
 
 @dataclass(frozen=True, eq=False)
 class Site:
-    """One entry of the script, and all its effects on the road."""
+    """One entry of the script, all its effects, and where those on the road lie."""
 
     name: str
     entry: Entry
+    effects: tuple[Effect, ...]
     laid: tuple[Laid, ...]
+
+    @property
+    def is_momentary(self) -> bool:
+        """Whether it is over as it begins."""
+        return hasattr(registry.find("action", self.entry.do.kind).module, "MOMENTARY")
 
     @property
     def is_there_from_the_start(self) -> bool:
@@ -64,7 +71,7 @@ class Site:
     @property
     def vehicles(self) -> tuple[str, ...]:
         """Those that it is about: the one that acts, else those that it waits for."""
-        found = [each.name for part in (self.entry.do, self.entry.when) for each in references(part) if each.what == "vehicle"]
+        found = [each.name for part in (self.entry.do, self.entry.when) for each in references(part) if each.what in ("vehicle", "body")]
         return tuple(dict.fromkeys(found))
 
     @property
@@ -82,7 +89,12 @@ def sites(scenario: Scenario, network: Network) -> tuple[Site, ...]:
     place = Place(scenario, network)
     effects = {name: list(effects_of(entry, place)) for name, entry in scenario.script.items()}
     closed = closings(effects)
-    return tuple(Site(name, scenario.script[name], tuple(laid(each, place, closed) for each in found)) for name, found in effects.items())
+    return tuple(site(name, scenario.script[name], found, place, closed) for name, found in effects.items())
+
+
+def site(name: str, entry: Entry, effects: list[Effect], place: Place, closed: list[LaneStretch]) -> Site:
+    """One entry in its place."""
+    return Site(name, entry, tuple(effects), tuple(laid(each, place, closed) for each in effects if isinstance(each, OnRoad)))
 
 
 def effects_of(entry: Entry, place: Place) -> list[Effect]:
@@ -91,7 +103,7 @@ def effects_of(entry: Entry, place: Place) -> list[Effect]:
     return list(module.effects(entry.do, place)) if hasattr(module, "effects") else []
 
 
-def laid(effect: Effect, place: Place, closed: list[LaneStretch]) -> Laid:
+def laid(effect: OnRoad, place: Place, closed: list[LaneStretch]) -> Laid:
     """An effect in its place."""
     line = place.line(effect.stretch)
     return laid_work(effect, line, place, closed) if isinstance(effect, Closing | Shift) else Laid(effect, line)
@@ -162,10 +174,11 @@ def place_problems(scenario: Scenario, network: Network, where: str) -> list[Pro
     closed = closings(effects)
     for name, entry in scenario.script.items():
         at = f"{where}: script.{name}"
-        for effect in effects[name]:
+        for effect in [each for each in effects[name] if isinstance(each, OnRoad)]:
             found += effect_problems(effect, place, f"{at}.do") or work_problems(effect, closed, place, f"{at}.do")
-        for field in ("when", "until"):
-            found += station_problems(getattr(entry, field), scenario, network, f"{at}.{field}")
+        for path, part in conditions(entry, at):
+            found += station_problems(part, scenario, network, path) + ground_problems(part, place, path)
+        found += ground_problems(entry.do, place, f"{at}.do")
     return found + list(overlap_problems(effects, place, where))
 
 
@@ -186,7 +199,7 @@ def attempted(entry: Entry, place: Place, at: str) -> tuple[list[Effect], list[P
     return found, []
 
 
-def effect_problems(effect: Effect, place: Place, at: str) -> list[Problem]:
+def effect_problems(effect: OnRoad, place: Place, at: str) -> list[Problem]:
     """What is wrong with the place of an effect."""
     stretch = effect.stretch
     if getattr(stretch, "route", None) is not None and stretch.route not in place.scenario.routes:
@@ -194,7 +207,7 @@ def effect_problems(effect: Effect, place: Place, at: str) -> list[Problem]:
     return length_problem(stretch, place, at) + (row_problem(effect, at) if isinstance(effect, Row) else [])
 
 
-def work_problems(effect: Effect, closed: list[LaneStretch], place: Place, at: str) -> Iterator[Problem]:
+def work_problems(effect: OnRoad, closed: list[LaneStretch], place: Place, at: str) -> Iterator[Problem]:
     """The tapers must lie on the road, and be long enough for a car to go over."""
     if not isinstance(effect, Closing | Shift):
         return
@@ -230,9 +243,48 @@ def is_one_site(one: Closing | Shift, other: Closing | Shift) -> bool:
     return same and isinstance(one, Closing) and isinstance(other, Closing) and a.lane != b.lane
 
 
-def station_problems(part, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
+def conditions(entry: Entry, at: str) -> Iterator[tuple[str, Any]]:
+    """All conditions of an entry with their paths, those within others too."""
+    waiting = [(f"{at}.{field}", part) for field in ("when", "until") if (part := getattr(entry, field)) is not None]
+    while waiting:
+        path, part = waiting.pop(0)
+        yield path, part
+        waiting += [(f"{path}.{name}", each) for name, each in inner(part)]
+
+
+def ground_problems(part: Any, place: Place, at: str) -> list[Problem]:
+    """Areas on lanes that do not exist, and lights where there are none."""
+    found = []
+    for name, field in type(part).model_fields.items():
+        value = getattr(part, name)
+        if isinstance(value, Area) and value.road is not None:
+            found += area_problem(value, place, f"{at}.{name}")
+        elif value is not None and named(field) == "signal" and value not in place.lit:
+            found.append(Problem(f"{at}.{name}", "names no road of this map with lights", repr(value), remedy=nearest(value, place.lit)))
+    return found
+
+
+def area_problem(area: Area, place: Place, at: str) -> list[Problem]:
+    """Road, lane, and the length of it."""
+    assert area.road is not None
+    if area.road not in place.roads:
+        return [Problem(f"{at}.road", "names no road of this map", repr(area.road), remedy=nearest(area.road, place.roads))]
+    if area.lane >= place.lanes(area.road):
+        return [Problem(f"{at}.lane", f"names no lane of road {area.road!r}", str(area.lane), f"0 to {place.lanes(area.road) - 1}")]
+    length, last = float(np.floor(place.network.lanes_of(area.road)[area.lane].length)), area.end or area.start
+    what = f"lies beyond the end of road {area.road!r}"
+    field = "end" if area.end is not None else "start"
+    return [Problem(f"{at}.{field}", what, f"{last} m", f"≤ {length:.0f} m")] if last > length else []
+
+
+def station_problems(part, scenario: Scenario, network: Network, at: str) -> list[Problem]:
     """A vehicle must come by the stations of its route."""
-    for name, field in type(part).model_fields.items() if part is not None else ():
+    return list(too_far(part, scenario, network, at))
+
+
+def too_far(part, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
+    """The stations of a condition that its vehicle never comes to."""
+    for name, field in type(part).model_fields.items():
         for mark in marks(field, StationOf):
             vehicle, station = getattr(part, mark.field), getattr(part, name)
             length = route_length(vehicle, scenario, network)

@@ -16,6 +16,7 @@ from studio.world.table.street import BARRIER, CONE
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width
 WORDS = {CONE: "cone", BARRIER: "barrier"}
+MOVERS = ()
 CONE_SPACING, ROW_SPACING = 3.0, 6.0  # [m] on a taper, along a closed lane
 CONE_INSET, ROW_INSET = 0.15, 0.35  # [m] from the edge of the ground that is left to the cars
 

@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -112,14 +113,24 @@ class Conflicts:
     zone_span: np.ndarray  # float64[4, zone]: where it is entered and left on the track, and on its partner [m]
 
 
+class Reader(Protocol):
+    """Reads values of sensors, applications and vehicles at once."""
+
+    def read(self, values: np.ndarray) -> None: ...
+
+
 @dataclass
 class Asked:
     """Everybody who waits for one kind of condition: which turn of which entry, and the settings, [field, who]."""
 
     kind: Kind
+    node: np.ndarray  # number of each among all conditions
     entry: np.ndarray
     turn: np.ndarray  # 0 to begin, 1 to end
     settings: Moving  # stations move with the paths that they lie on
+    part_first: np.ndarray  # of the conditions that it is about, where they begin in `part`
+    part_count: np.ndarray
+    part: np.ndarray  # their nodes
     stations: list[tuple[int, int]]  # which fields are stations of which vehicles
     run: Callable
 
@@ -141,13 +152,27 @@ class Script:
 
     world: np.ndarray  # number of the world, per entry
     vehicle: np.ndarray  # column of the vehicle whose maneuver it is, -1 for none
+    takes: np.ndarray  # int64[entry]: what it takes of it, PEDALS, WHEEL or both
+    again: np.ndarray  # int64[entry]: 1 when it may begin again
+    momentary: np.ndarray  # int64[entry]: 1 when it is over as it begins
+    ends: np.ndarray  # int64[entry]: 1 when it ends the run of its world
     phase: Moving  # int64[entry]: BEFORE, ACTING, OVER
-    turned: Moving  # [s] float64[2, entry]: when it began and ended, not a number before
+    turned: Moving  # [s] float64[2, entry]: when it began and ended last, not a number before
+    cut: Moving  # int64[entry]: the entry that has ended it, -1 for none
     come: np.ndarray  # scratch, int64[entry]: 1 when its turn has come
     unfit: np.ndarray  # scratch, int64[entry]: 1 when its maneuver commands what is no number
     commands: Moving  # [row, vehicle] of maneuvers
+    root: np.ndarray  # int64[2, entry]: the condition that its beginning and its end wait for, -1 for none
+    node_entry: np.ndarray  # per condition, the entry that it belongs to
+    held: np.ndarray  # scratch, int64[condition]: 1 when it holds
+    since: Moving  # [s] per condition about others: when these began to hold all at once; infinite while they do not
+    met: Moving  # [s] when they did so for the first time
     asked: list[Asked]
     maneuvers: list[Maneuvers]
+    pool: np.ndarray  # float64[2, pair]: the lists of pairs in settings
+    watched: list[tuple[int, str]]  # values that conditions look at: number of the world, name
+    values: np.ndarray  # scratch: these now
+    reader: Reader | None  # of these; None when there are none
     limits: list[tuple[int, np.ndarray, np.ndarray]]  # entry, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
     waiting: np.ndarray  # places in `asked` of what somebody waits for now
@@ -326,7 +351,7 @@ class World:
         radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
         sensed = [part for each in u.mounted for part in (each.out, each.ring, each.output)]
         units = [u.satellite, u.now, *sensed, *radio, *(part for air in u.airs for part in air.state)]
-        happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, o.standing, self.detours.choice]
+        happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, s.since, s.met, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
@@ -359,6 +384,8 @@ class World:
         yield e.of(number)
         yield s.phase[s.world == number]
         yield s.turned[:, s.world == number]
+        mine = s.world[s.node_entry] == number
+        yield from (s.since[mine], s.met[mine])
         yield o.standing[self.objects(number)]
         yield d.choice[of[d.vehicle] == number]
         yield from (memory for group, memory in self.memories() if group.world == number)

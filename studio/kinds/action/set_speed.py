@@ -5,10 +5,11 @@ from pydantic import Field
 from studio.compiled import compiled
 from studio.kind.settings import Part, VehicleName, number
 from studio.world.condition import ROUNDING
-from studio.world.maneuver import drive, over
+from studio.world.maneuver import PEDALS, drive, over
 
 KIND = "action"
 TITLE = "Drive to a speed"
+TAKES = PEDALS
 
 
 class Settings(Part):

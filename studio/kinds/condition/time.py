@@ -20,6 +20,11 @@ def holds(view, settings):
     return view.time >= settings.at - ROUNDING
 
 
+def never(settings, place):
+    """Not when the run is over before."""
+    return f"the run ends at {place.duration:g} s" if settings.at >= place.duration else ""
+
+
 def moment(settings):
     """It is known beforehand."""
     return settings.at

@@ -17,6 +17,7 @@ RANGES = {  # what a vehicle may be like, in the units of `Sees`
     "elapsed": (0.0, 100.0), "speed": (-5.0, 60.0), "acceleration": (-10.0, 6.0), "steering": (-0.6, 0.6), "gap": (-1.0, 300.0),
     "ahead_speed": (0.0, 60.0), "station": (0.0, 3000.0), "offset": (-4.0, 4.0), "heading_error": (-1.0, 1.0),
     "path_curvature": (-0.1, 0.1), "driver_acceleration": (-8.0, 4.0), "driver_steering": (-0.6, 0.6),
+    "x": (-500.0, 500.0), "y": (-500.0, 500.0), "heading": (-3.1, 3.1), "wheelbase": (2.0, 6.0),
 }  # fmt: skip
 
 
@@ -37,7 +38,7 @@ def checks(kind: Kind) -> Iterator[Check]:
 
 def seen(seed: np.random.Generator) -> Sees:
     """A vehicle at a tick; now and then nobody is ahead of it."""
-    values = {name: float(seed.uniform(*span)) for name, span in RANGES.items()}
+    values: dict[str, Any] = {name: float(seed.uniform(*span)) for name, span in RANGES.items()} | {"pool": draw.POOL}
     if seed.random() < 0.3:
         values |= {"gap": float("nan"), "ahead_speed": float("nan")}
     return Sees(**values)

@@ -12,9 +12,11 @@ from studio.kind.registry import Kind
 from studio.workshop import draw, twice
 from studio.workshop.check import Check, tried
 from studio.workshop.stage import stage
-from studio.world.condition import View
+from studio.world.condition import ROUNDING, Parts
+from studio.world.script import view_of
 
 WAITING = 8  # entries that wait for it, with drawn settings each
+PARTS = 40  # draws of what is known of others, for each of these settings
 LOOKS, APART = 12, 20  # how often is looked, and how many ticks lie between
 
 
@@ -22,6 +24,10 @@ def checks(kind: Kind) -> Iterator[Check]:
     """All of them."""
     seed = np.random.default_rng(1)
     chosen = [draw.settings(kind.module.Settings, seed) for _ in range(WAITING)]
+    if hasattr(kind.module, "joins"):
+        draws = [(draw.settings_tuple(kind.module, each), parts(seed)) for each in chosen for _ in range(PARTS)]
+        yield tried("joins() gives the same compiled and as Python", lambda: twice.agree(kind.module.joins, draws))
+        yield tried("joins() gives the same to the same", lambda: twice.steady(kind.module.joins, draws))
     found: dict[str, str | None] = {}
     yield tried("is asked in the script of a scenario", lambda: looks(kind, chosen, found))
     for what, wrong in found.items():
@@ -34,12 +40,22 @@ def looks(kind: Kind, chosen: list[Any], found: dict[str, str | None]) -> None:
     """Looks now and then during a run, and keeps the first thing that is wrong of each sort."""
     current = stage(script=script(kind, chosen))
     compared, steady = "holds() gives the same compiled and as Python", "holds() gives the same to the same"
-    found |= {compared: None, steady: None}
+    found |= {compared: None, steady: None} if hasattr(kind.module, "holds") else {}
     for _ in range(LOOKS):
         current.advance(APART)
-        draws = asked(kind, current)
-        found[compared] = found[compared] or twice.agree(kind.module.holds, draws)
-        found[steady] = found[steady] or twice.steady(kind.module.holds, draws)
+        if found:
+            draws = asked(kind, current)
+            found[compared] = found[compared] or twice.agree(kind.module.holds, draws)
+            found[steady] = found[steady] or twice.steady(kind.module.holds, draws)
+
+
+def parts(seed: np.random.Generator) -> Parts:
+    """What may be known of some conditions at a time."""
+    time, count = float(seed.uniform(0.0, 60.0)), int(seed.integers(1, 5))
+    true = int(seed.integers(0, count + 1))
+    met = float(seed.uniform(0.0, time)) if true == count or seed.random() < 0.5 else math.inf
+    since = float(seed.uniform(min(met, time), time + ROUNDING)) if true == count else math.inf
+    return Parts(time, true, count, since, met)
 
 
 def script(kind: Kind, chosen: list[Any]) -> dict[str, Any]:
@@ -51,10 +67,8 @@ def script(kind: Kind, chosen: list[Any]) -> dict[str, Any]:
 
 def asked(kind: Kind, current: Simulation) -> list[tuple]:
     """What it would be asked now, for everybody who waits for it."""
-    world, v, r = current.world, current.world.vehicles, current.world.roads
-    view = View(world.clock.time, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, world.script.turned)
-    module = kind.module
-    rows = next(each for each in world.script.asked if each.kind is kind).settings.T.tolist()
+    view, module = view_of(current.world), kind.module
+    rows = next(each for each in current.world.script.asked if each.kind is kind).settings.T.tolist()
     return [(view, tuple_of(module, module.Settings)(*folded(module, row))) for row in rows]
 
 

@@ -6,7 +6,7 @@ passed.
 """
 
 from dataclasses import dataclass
-from math import inf, nan
+from math import inf, isnan, nan
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from studio.world.table.event import (
     RED_PASSED,
     ROLLED_OVER,
     SCRIPT_BEGUN,
+    SCRIPT_CUT,
     SCRIPT_ENDED,
     TAKES_OVER,
     WAITS,
@@ -67,7 +68,7 @@ class Watch:
     member_first: np.ndarray  # of its chain, per follower
     member_count: np.ndarray
     member: np.ndarray  # numbers of the chains' vehicles in their world
-    script_told: np.ndarray  # [begun or over, entry]
+    script_told: np.ndarray  # [s] float64[begun or over, entry]: when the turn that was told last came, not a number before
     hits_told: np.ndarray  # per world
     vehicles_told: np.ndarray  # [rolled over or arrived, vehicle]
     waiting: np.ndarray  # int64[vehicle], 1 while it stands at a red light
@@ -108,7 +109,7 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
         member_first=np.cumsum(sizes) - sizes,
         member_count=sizes,
         member=np.array([number for _, members in followers for number in members], dtype=np.int64),
-        script_told=np.zeros((2, s.phase.size), dtype=np.int64),
+        script_told=np.full((2, s.phase.size), nan),
         hits_told=np.zeros(w.first.size, dtype=np.int64),
         vehicles_told=np.zeros((2, n), dtype=np.int64),
         waiting=np.zeros(n, dtype=np.int64),
@@ -131,7 +132,7 @@ def notice(world: World, at: Watch) -> None:
     at.make_room(e.hits.shape[1])
     u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
     notice_events(
-        time, now, s.phase, s.turned, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
+        time, now, s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
         at.named, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, at.hands,
         at.hands_since, v.state, v.mind, at.table, at.count,
     )  # fmt: skip
@@ -178,11 +179,11 @@ def is_news(true, told, i):
 
 
 @lean
-def notice_events(time, now, phase, turned, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
+def notice_events(time, now, turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
                   vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind, table,
                   count):  # fmt: skip
     """What may happen in every world, in one call: what the script, collisions, routes, chains and drivers have brought."""
-    notice_script(phase, turned, vehicle, state, script_world, script_told, table, count)
+    notice_script(turned, cut, vehicle, state, script_world, script_told, table, count)
     notice_hits(found, hits, first, state, hits_told, table, count)
     notice_vehicles(time, state, world_of, number, named, vehicles_told, table, count)
     notice_company(now, state, mind, world_of, follower, member_first, member_count, member, between, table, count)
@@ -191,15 +192,18 @@ def notice_events(time, now, phase, turned, vehicle, script_world, script_told, 
 
 
 @lean
-def notice_script(phase, turned, vehicle, state, script_world, told, table, count):
-    """Entries of the script that have begun or ended."""
-    for i in range(phase.size):
+def notice_script(turned, cut, vehicle, state, script_world, told, table, count):
+    """Entries of the script that have begun or ended, and who has ended them."""
+    for i in range(cut.size):
         v = vehicle[i]
         x, y = (state[X, v], state[Y, v]) if v >= 0 else (nan, nan)
-        if is_news(phase[i] > 0, told[0], i):
-            note(turned[0, i], SCRIPT_BEGUN, script_world[i], i, -1, x, y, nan, table, count)
-        if is_news(phase[i] > 1, told[1], i):
-            note(turned[1, i], SCRIPT_ENDED, script_world[i], i, -1, x, y, nan, table, count)
+        for turn in range(2):
+            when = turned[turn, i]
+            if when == told[turn, i] or isnan(when):
+                continue
+            told[turn, i] = when
+            kind = SCRIPT_BEGUN if turn == 0 else SCRIPT_CUT if cut[i] >= 0 else SCRIPT_ENDED
+            note(when, kind, script_world[i], i, cut[i], x, y, nan, table, count)
 
 
 @lean

@@ -24,16 +24,17 @@ PIECE_WORLD = PIECE.row("world", "1", "number of the world")
 PIECE_ENTRY = PIECE.row("entry", "1", "number of the entry of the script that it belongs to")
 PIECE_ACTS = PIECE.row("acts", "1", "1 while this entry does", role=Role.STATE)
 
-# Objects on the road: boxes at rest.
+# Objects on the road: boxes at rest, and movers.
 OBSTACLE = Table("obstacle", Role.PARAMETER, per="object on the road")
 O_X = OBSTACLE.row("x", "m", "middle of the object")
 O_Y = OBSTACLE.row("y", "m", "middle of the object")
 O_HEADING = OBSTACLE.row("heading", "rad", "of its length")
 O_LENGTH = OBSTACLE.row("length", "m", "of the object")
 O_WIDTH = OBSTACLE.row("width", "m", "of the object")
-O_KIND = OBSTACLE.row("kind", "1", "0 a cone, 1 a barrier")
+O_KIND = OBSTACLE.row("kind", "1", "0 a cone, 1 a barrier, 2 somebody on foot, 3 a cyclist, 4 a box")
 O_ENTRY = OBSTACLE.row("entry", "1", "number of the entry of the script that it belongs to")
-CONE, BARRIER = range(2)
+O_SPEED = OBSTACLE.row("speed", "m/s", "along its heading", role=Role.STATE)
+CONE, BARRIER, PEDESTRIAN, CYCLIST, BOX = range(5)
 OBJECT = -2  # where the number of a vehicle may stand, object i of its world is OBJECT - i; -1 is nothing
 
 # Objects that a vehicle on its path may run into.

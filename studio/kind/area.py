@@ -1,0 +1,39 @@
+"""Areas: a part of the map, as a circle, a polygon, or a stretch of a lane from edge to edge."""
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from studio.kind.settings import Part, number
+
+Corner = Annotated[tuple[float, float], Field(json_schema_extra={"unit": "m"})]
+
+
+class Area(Part):
+    """Where: `x`, `y` and `radius`; or `corners`; or `road` with `lane`, `start` and `end`."""
+
+    x: float | None = Field(None, title="Middle, east", json_schema_extra={"unit": "m"})
+    y: float | None = Field(None, title="Middle, north", json_schema_extra={"unit": "m"})
+    radius: float | None = Field(None, gt=0, le=100_000, title="Radius", json_schema_extra={"unit": "m"})
+    corners: list[Corner] = Field([], max_length=64, title="Corners", description="of a polygon, east and north, in either direction")
+    road: str | None = Field(None, max_length=100, title="Road")
+    lane: int = Field(0, ge=0, le=9, title="Lane", description="of the road; 0 is the lane at the kerb")
+    start: float = number(0.0, unit="m", title="From station", description="of the road", ge=0)
+    end: float | None = Field(None, gt=0, title="To station", description="left out: to its end", json_schema_extra={"unit": "m"})
+
+    @model_validator(mode="after")
+    def is_somewhere(self):
+        circle = [self.x is not None, self.y is not None, self.radius is not None]
+        if [any(circle), bool(self.corners), self.road is not None].count(True) != 1 or any(circle) != all(circle):
+            raise ValueError("give either `x`, `y` and `radius`, or `corners`, or `road`")
+        if self.corners and extent(self.corners) <= 0.0:
+            raise ValueError("the area has no extent: give at least three corners that do not lie on one line")
+        if self.end is not None and self.end <= self.start:
+            raise ValueError(f"the area has no extent: it must end ({self.end} m) behind its start ({self.start} m)")
+        return self
+
+
+def extent(corners: list[tuple[float, float]]) -> float:
+    """Content [m²] of a polygon, of one that crosses itself what it has more on one side."""
+    pairs = zip(corners, corners[1:] + corners[:1], strict=True)
+    return 0.5 * abs(sum(x * b - a * y for (x, y), (a, b) in pairs))
