@@ -11,6 +11,7 @@ either side of the crossing point:
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -142,7 +143,7 @@ def candidates(pieces: Pieces) -> np.ndarray:
     cell, piece = touched(pieces.ends[:2])
     first = np.flatnonzero(np.diff(cell, prepend=-1))
     found = [np.zeros((0, 2), dtype=int)]
-    for start, stop in zip(first, [*first[1:], cell.size], strict=True):
+    for start, stop in pairwise([*first.tolist(), cell.size]):
         inside = piece[start:stop]
         if is_mixed(pieces, inside):
             pairs = inside[np.stack(np.triu_indices(inside.size, 1), axis=1)]
