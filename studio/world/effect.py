@@ -2,11 +2,13 @@
 
 Limit, Slippery, Row        about a stretch of a route or lane
 Closing, Shift              about a stretch of one lane, with tapers
+Walk                        somebody who moves, on a line of the map
 End                         about the run
 
 They are data: names and stations, which the world looks up on its map.
 """
 
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -18,7 +20,7 @@ from studio.kind.stretch import LaneStretch, Stretch
 from studio.road.network import Network
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import lane_line
-from studio.road.ways.path import Path
+from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.road.ways.route import connect
 from studio.scenario.schema import Scenario
 
@@ -63,12 +65,22 @@ class Shift(NamedTuple):
     offset: float
 
 
+class Walk(NamedTuple):
+    """Somebody who moves along a line [m] on the map with a speed [m/s], and `stays` at its end or is gone; length and width [m]."""
+
+    who: Literal["pedestrian", "cyclist", "box"]
+    line: tuple[tuple[float, float], ...]
+    speed: float
+    stays: bool
+    size: tuple[float, float]
+
+
 class End(NamedTuple):
     """The run ends."""
 
 
 OnRoad = Limit | Slippery | Row | Closing | Shift  # which lie somewhere
-Effect = OnRoad | End
+Effect = OnRoad | Walk | End
 
 
 class Place:
@@ -123,9 +135,22 @@ class Place:
             return lane_line(self.network, self.network.lanes_of(stretch.road)[stretch.lane])
         return self.route(str(stretch.route))
 
+    def on_map(self, route: str | None, line: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+        """Places that are given as station along a route and distance to its left, or on the map as they are."""
+        if route is None or route not in self.scenario.routes:  # a name that there is not is told elsewhere
+            return tuple(line)
+        return tuple(beside(self.route(route), along, left)[:2] for along, left in line)
+
     def route(self, name: str) -> Path:
         """The line of a route; raises KeyError or RouteError."""
         return road_path.path(self.network, connect(self.network, self.scenario.routes[name].roads))
+
+
+def beside(line: Path, station: float, offset: float) -> tuple[float, float, float]:
+    """Place [m] at a station of a line, `offset` [m] to its left, and its heading there [rad]."""
+    grid = np.arange(line.points.shape[1]) * PATH_SPACING
+    x, y, heading = (float(np.interp(station, grid, line.points[row])) for row in (PATH_X, PATH_Y, PATH_HEADING))
+    return x - offset * float(np.sin(heading)), y + offset * float(np.cos(heading)), heading
 
 
 def length_problem(stretch: Stretch | LaneStretch, place: Place, at: str) -> list[Problem]:

@@ -42,6 +42,9 @@ def turn(world: World) -> None:
     if choose(s.phase, d.vehicle, d.work, d.base, d.span, v.state, v.parameter, v.mind, d.held, d.choice, chosen):
         go_over(world, chosen)
     obstacle.put_up(o.table, s.phase, d.held, o.standing)
+    m = o.movers
+    if m.object.size:
+        obstacle.walk(world.clock.time, s.turned, m.object, m.first, m.count, m.corner, m.speed, m.stays, o.table, o.standing)
 
 
 def ask(world: World) -> None:
@@ -65,8 +68,8 @@ def view_of(world: World) -> View:
     """What conditions look at now."""
     v, r, o, s, clock = world.vehicles, world.roads, world.obstacles, world.script, world.clock
     return View(
-        clock.time, clock.tick, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned, r.shown, o.table, o.standing,
-        s.pool, s.values,
+        clock.time, clock.tick, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned, r.shown, r.stop_first,
+        r.stop_count, r.stop_station, r.stop_link, o.table, o.standing, s.pool, s.values,
     )  # fmt: skip
 
 

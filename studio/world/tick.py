@@ -85,6 +85,11 @@ def look(world: World) -> None:
         )  # fmt: skip
     if o.standing.size:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
+    if o.movers.object.size:
+        traffic.movers(
+            v.state, v.parameter, r.points, r.path_first, r.path_count, o.movers.object, o.table, o.standing, o.first, o.count, w.of,
+            v.drivers, v.mind,
+        )  # fmt: skip
 
 
 def think(world: World) -> None:

@@ -193,10 +193,22 @@ class Detours:
 
 
 @dataclass
+class Movers:
+    """Objects that move: which they are, where the corners of their lines begin and how many there are, speeds [m/s]."""
+
+    object: np.ndarray
+    first: np.ndarray
+    count: np.ndarray
+    corner: np.ndarray  # [row, corner], as obstacle.py names the rows
+    speed: np.ndarray
+    stays: np.ndarray  # 1 for one who stays at the end of his line
+
+
+@dataclass
 class Obstacles:
     """Objects on the road, world after world, and for every vehicle those that it may run into on its path."""
 
-    table: np.ndarray  # [row, object]
+    table: Moving  # [row, object]
     first: np.ndarray  # per world
     count: np.ndarray
     standing: Moving  # int64[object], 1 while it stands there
@@ -204,6 +216,7 @@ class Obstacles:
     counts: np.ndarray  # of these per line
     sweep_first: Moving  # per vehicle, on the line it is on
     sweep_count: Moving
+    movers: Movers
     names: tuple[str, ...]
 
 
