@@ -9,7 +9,8 @@ from math import exp
 
 from studio.compiled import compiled
 from studio.kind.settings import Part, number
-from studio.world.view import Transmission
+from studio.world.table.cause import FADING, RECEIVED, TOO_WEAK
+from studio.world.view import Transmission, chance
 
 KIND = "radio"
 TITLE = "Radio with Rayleigh fading"
@@ -44,4 +45,5 @@ def largest(settings):
 def transmit(settings, way, draw):
     """One message to one receiver."""
     heard = exp(-((way.distance / settings.distance) ** settings.exponent))
-    return Transmission(draw.first > heard or heard < ALMOST_NEVER, settings.delay + settings.contention * draw.second)
+    lost = TOO_WEAK if heard < ALMOST_NEVER else FADING if chance(draw, 0) > heard else RECEIVED
+    return Transmission(lost, settings.delay + settings.contention * chance(draw, 1))

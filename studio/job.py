@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from studio.assess.danger import with_dangers
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
@@ -203,6 +204,7 @@ def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
     wall = time.perf_counter() - finished.started
     case, record = finished.cases[number], finished.record(number)
     told: list[str] = [case.error] if case.error else []
+    record = with_dangers(record)
     record.derived.make(told.append)
     metrics = measure_all(record, loaded.scenario.measures, told.append)
     return Run(

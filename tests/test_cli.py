@@ -52,7 +52,10 @@ def test_run_prints_one_object(folder):
     }
     assert wanted <= set(run)
     assert run["status"] == "done" and run["sim_time_s"] == 3.0 and run["parameters"] == {"clock.duration": 3}
-    assert run["metrics"]["min_gap"]["unit"] == "m" and run["metrics"]["min_gap"]["goal"] == "higher"
+    gap = run["metrics"]["min_gap"]
+    assert (gap["unit"], gap["goal"], gap["kind"]) == ("m", "higher", "min_gap")
+    assert len(gap["subject"]) == 2 and 0 <= gap["time"] <= 3 and gap["about"].startswith(" behind ".join(gap["subject"]))
+    assert run["metrics"]["mean_speed"]["subject"] == [] and run["metrics"]["mean_speed"]["time"] is None
     assert re.fullmatch("[0-9a-f]{64}", run["state_hash"])
 
 
@@ -100,6 +103,21 @@ def test_tables_for_people(folder):
     assert "min TTC [s]" in studio("runs", cwd=cwd)[1]
     assert "min_gap [m]" in studio("show", 1, cwd=cwd)[1]
     assert "headway" in studio("compare", 1, 2, cwd=cwd)[1]
+
+
+def test_explain(sample, tmp_path):
+    """A leader that brakes with 8 m/s² at 0.2 s: for people in sentences, for scripts as a list; what there is not is refused."""
+    brake = ("script.hard_brake.do.deceleration=8", "script.hard_brake.when.at=0.2", "clock.duration=4")
+    assert studio("run", sample, *(part for each in brake for part in ("--set", each)), cwd=tmp_path)[0] == 0
+    code, out, _ = studio("explain", 1, "--json", cwd=tmp_path)
+    found = json.loads(out)
+    assert code == 0 and {"event", "time", "units", "known", "commanded_by", "tyre_at_limit"} <= set(found[0])
+    known = next(each for one in found if one["units"][0] == "follower_1" for each in one["known"])
+    assert (known["unit"], known["about"]) == ("follower_1", "leader") and {"source", "age", "lost"} <= set(known)
+    assert json.loads(studio("explain", 1, 1, "--json", cwd=tmp_path)[1]) == found[:1]
+    text = studio("explain", 1, "hard_brake", cwd=tmp_path)[1]
+    assert "leader: brakes hard" in text and "follower_1 knew leader by front" in text
+    assert studio("explain", 1, "hard_brak", cwd=tmp_path)[0] == 2 and studio("explain", 1, 77, cwd=tmp_path)[0] == 2
 
 
 def test_check_and_schema(folder, sample):

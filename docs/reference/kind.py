@@ -31,7 +31,7 @@ GIVES = {  # modules that say what functions of a kind are given and give back
     "driver": ("studio.kind.driver",),
     "condition": ("studio.world.condition",),
     "action": ("studio.world.maneuver", "studio.world.effect"),
-    "metric": ("studio.execution.record",),
+    "metric": ("studio.kind.metric", "studio.execution.record"),
     "channel": ("studio.execution.record",),
 }
 
@@ -67,7 +67,22 @@ def needs(sort: Sort) -> str:
 def page(sort: Sort) -> str:
     """A sort with its contract and its kinds."""
     head = f"# {sort.name.capitalize()}\n\n{sort.does.capitalize()}.\n\n## The contract\n\n{needs(sort)}"
-    return "\n\n".join([head, *contract_of(sort), *map(section, built_in(sort))])
+    return "\n\n".join([head, *contract_of(sort), *shared(sort), *map(section, built_in(sort))])
+
+
+def shared(sort: Sort) -> Iterator[str]:
+    """What is set of every kind of a sort, and the parts of it."""
+    if sort.usual:
+        node = sort.usual.model_json_schema()
+        yield f"## Settings of all\n\n{filled(sort.usual.__doc__)}\n\n{fields(node).rstrip()}"
+        for name, each in node.get("$defs", {}).items():
+            yield f"### {name}\n\n{filled(each.get('description', ''))}\n\n{fields(each).rstrip()}"
+
+
+def own(node: dict[str, Any], sort: Sort) -> dict[str, Any]:
+    """The schema of settings without what all of the sort have."""
+    usual = sort.usual.model_fields if sort.usual else {}
+    return node | {"properties": {name: each for name, each in node.get("properties", {}).items() if name not in usual}}
 
 
 def contract_of(sort: Sort) -> Iterator[str]:
@@ -82,7 +97,8 @@ def contract_of(sort: Sort) -> Iterator[str]:
 
 def section(kind: Kind) -> str:
     """One kind: what its docstring says, what it is measured in, what may be set, what it gives."""
-    tables = [text for name in (*SET, *GIVEN) if (text := described(name, getattr(kind.module, name, None)))]
+    sort = SORTS[kind.sort]
+    tables = [text for name in (*SET, *GIVEN) if (text := described(name, getattr(kind.module, name, None), sort))]
     return "\n\n".join([f"## {kind.name}", f"**{kind.title}**{measured(kind)}", kind.explanation, *tables])
 
 
@@ -92,11 +108,11 @@ def measured(kind: Kind) -> str:
     return f", in {unit}" * bool(unit) + f", {better} is better" * bool(better)
 
 
-def described(name: str, part: Any) -> str:
+def described(name: str, part: Any, sort: Sort) -> str:
     """The fields of a part of a kind; "" when it has none."""
     if part is None:
         return ""
-    listed = fields(part.model_json_schema()) if name in SET else numbers(part)
+    listed = fields(own(part.model_json_schema(), sort)) if name in SET else numbers(part)
     return f"`{name}`: {filled(part.__doc__)}\n\n{listed.rstrip()}" if listed else ""
 
 

@@ -85,6 +85,27 @@ def show(
 
 
 @commands.command()
+def explain(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    event: Annotated[str, typer.Argument(help="Number of an event in this list, or a kind: collision, near_miss, hard_brake.")] = "",
+    db: Db = DEFAULT_DB,
+    as_json: AsJson = False,
+) -> None:
+    """Explains collisions, near misses and hard brakes: what was known, what was lost, who commanded, which tyre was at its limit."""
+    from studio.store.explanation import explanation
+
+    found = explanation(existing(db), run, event)
+    if as_json:
+        print_json([each.as_json() for each in found])
+    elif not found:
+        print(f"Run {run}: no collision, near miss or hard brake.")
+    for i, each in enumerate([] if as_json else found):
+        number = event if event.isdecimal() else i + 1
+        print(f"{number}. {each.event.time:.2f} s, {' and '.join(each.event.units)}: {each.event.text}")
+        print("".join(f"   {line}\n" for line in each.lines))
+
+
+@commands.command()
 def compare(
     a: Annotated[int, typer.Argument(help="Number of a run.")],
     b: Annotated[int, typer.Argument(help="Number of another run.")],
@@ -212,8 +233,8 @@ def print_run(row) -> None:
         print(f"goal not met: {each}")
     if row.metrics:
         print_table(
-            ["metric", "value", "better"],
-            [[f"{name} [{each.unit}]", text(each.value), each.goal or ""] for name, each in row.metrics.items()],
+            ["metric", "value", "whom and when", "better"],
+            [[f"{name} [{each.unit}]", text(each.value), each.about, each.goal or ""] for name, each in row.metrics.items()],
         )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
+from studio.execution.message import Messages, none
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
@@ -56,6 +57,14 @@ class Body(NamedTuple):
     radius: float  # [m]
 
 
+class Mount(NamedTuple):
+    """Where a sensor is, from the middle of the front of its vehicle, and where it looks."""
+
+    forward: float  # [m]
+    left: float  # [m]
+    yaw: float  # [rad] to the left
+
+
 def no_ages() -> np.ndarray:
     """Of no links."""
     return np.zeros((0, 0))
@@ -66,7 +75,8 @@ class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings.
 
     `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
-    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channel `ahead` stand for.
+    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channel `ahead` stand for, `commanders`
+    those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
     """
 
     time: np.ndarray
@@ -77,8 +87,11 @@ class Record:
     links: tuple[str, ...] = ()
     ages: np.ndarray = field(default_factory=no_ages)
     probes: dict[str, Traced] = field(default_factory=dict)
+    messages: Messages = field(default_factory=none)
     bodies: dict[str, Body] = field(default_factory=dict)
     called: dict[int, str] = field(default_factory=dict)
+    commanders: tuple[str, ...] = ()
+    mounts: dict[str, Mount] = field(default_factory=dict)
 
     @cached_property
     def derived(self) -> "Derived":
@@ -127,13 +140,17 @@ class Record:
             values=self.values[:, :, where],
             happenings=tuple(event for event in self.happenings if begin <= event.time <= end),
             ages=self.ages[:, where],
+            messages=self.messages.part(
+                (self.messages.time >= begin) & (self.messages.time <= end), np.ones(self.messages.receiver.size, dtype=bool)
+            ),
             probes={name: each._replace(values=each.values[where]) for name, each in self.probes.items()},
         )
 
     def of(self, vehicles: Collection[str]) -> "Record":
-        """Some vehicles only: their channels, what happened to them or to nobody, chains and links between them."""
+        """Some vehicles only: their channels, what happened to them or to nobody, chains of them, links and messages to them."""
         rows = [i for i, name in enumerate(self.vehicles) if name in vehicles]
         links = [i for i, name in enumerate(self.links) if name.partition("→")[2] in vehicles]
+        units = [i for i, name in enumerate(self.messages.units) if name in vehicles]
         return replace(
             self,
             values=self.values[:, rows],
@@ -142,6 +159,7 @@ class Record:
             chains=tuple(part for chain in self.chains for part in chain.parts(vehicles)),
             links=tuple(self.links[i] for i in links),
             ages=self.ages[links],
+            messages=self.messages.part(np.ones(self.messages.time.size, dtype=bool), np.isin(self.messages.receiver, units)),
         )
 
     def names(self) -> list[str]:

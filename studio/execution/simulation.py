@@ -8,17 +8,21 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
-from studio.execution.record import Body, Record, Recorder
+from studio.execution.message import messages
+from studio.execution.record import Body, Mount, Record, Recorder
+from studio.kind.sensor import Looking
+from studio.scenario.schema import Scenario
 from studio.vehicle import broken
 from studio.world.board.host import Fault
 from studio.world.build import build
+from studio.world.commander import commanders
 from studio.world.line import starts
 from studio.world.passes import notice
 from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED, RUN_ENDED
-from studio.world.tick import environment, gather, look, meet, part, sense, think
+from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
 
@@ -91,6 +95,7 @@ class Simulation:
         self.end_by_script()
         if self.is_over:
             return
+        between(self.world, self.refuse)
         part(self.world)
         self.check_wishes()
         self.check()
@@ -185,8 +190,11 @@ class Simulation:
             links=tuple(links.values()),
             ages=recorder.ages(list(links), count),
             probes=recorder.traced(number, count),
+            messages=messages(self.world, number),
             bodies=self.bodies(number),
             called=self.called(number),
+            commanders=commanders(case.setting.scenario),
+            mounts=mounts(case.setting.scenario),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
@@ -219,6 +227,12 @@ class Simulation:
     def bodies(self, number: int) -> dict[str, Body]:
         """The bodies of all vehicles of one world."""
         return {name: Body(*each) for name, each in zip(self.world.names[number], self.world.bodies(number).T.tolist(), strict=True)}
+
+
+def mounts(scenario: Scenario) -> dict[str, Mount]:
+    """Where the sensors of vehicles are that look around."""
+    sensors = {f"{name}.{sensor}": each for name, vehicle in scenario.vehicles.items() for sensor, each in vehicle.sensors.items()}
+    return {name: Mount(each.forward, each.left, each.yaw) for name, each in sensors.items() if isinstance(each, Looking)}
 
 
 def simulation(*settings: Setting) -> Simulation:

@@ -3,6 +3,7 @@
 PRESETS = {"long_range": Preset("Long range radar", "3GPP TR 22.837", {"range": 250.0})}
 
 sensors: {front: {kind: front_radar, preset: long_range, range: 200}}
+applications: {pair: {application: acc, preset: series, parameters: {headway: 1.4}, units: [behind]}}
 """
 
 from types import ModuleType
@@ -50,13 +51,14 @@ def wrong(value: Any) -> str:
 
 
 def unfit(module: ModuleType) -> str:
-    """Which preset the Settings of a kind do not take; "" when they take all."""
-    if wrong(presets(module) or None) or not hasattr(module, "Settings"):
+    """Which preset the Settings, or Parameters, of a kind do not take; "" when they take all."""
+    taken = next((each for each in ("Settings", "Parameters") if hasattr(module, each)), "")
+    if wrong(presets(module) or None) or not taken:
         return ""
     for name, each in presets(module).items():
         try:
-            module.Settings.model_validate(each.values)
+            getattr(module, taken).model_validate(each.values)
         except ValidationError as error:
             first = error.errors()[0]
-            return f"the preset {name!r} does not fit the Settings: {'.'.join(map(str, first['loc']))}: {first['msg']}"
+            return f"the preset {name!r} does not fit the {taken}: {'.'.join(map(str, first['loc']))}: {first['msg']}"
     return ""

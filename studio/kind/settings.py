@@ -44,6 +44,11 @@ class StationOf:
 
 
 @dataclass(frozen=True)
+class Pooled:
+    """Of a list of pairs: however long, it stands in the pool of the script, and not among the numbers of the settings."""
+
+
+@dataclass(frozen=True)
 class Nested:
     """Of a field: kinds of a sort stand in it, which have settings of their own."""
 

@@ -227,6 +227,37 @@ def function(*names: str, compiled: bool = False) -> Test:
     return test
 
 
+def compiled_function(value: Any) -> str:
+    """A compiled function; what it takes hangs on other parts."""
+    return "" if hasattr(value, "py_func") else "is not compiled: write @compiled (from studio.compiled) above it"
+
+
+def radio_parts(module: ModuleType) -> str:
+    """What the parts of a radio are together: what remembers, and what it remembers."""
+    if what := lacking(module, "Control", "control", "airtime") or lacking(module, "Cell", "admit") or preset.unfit(module):
+        return what
+    arguments = ("settings", "way", "draw", *(["memory"] if hasattr(module, "Memory") else []))
+    found = getattr(module, "transmit", None)
+    return f"transmit {what}" if found and (what := function(*arguments)(found)) else ""
+
+
+def message_parts(module: ModuleType) -> str:
+    """What the parts of a message are together: what is due is a beacon, and remembers what it has sent."""
+    if what := lacking(module, "Settings", "beacon") or lacking(module, "Memory", "due", "beacon"):
+        return what
+    arguments = ("own", "settings", *(["memory"] if hasattr(module, "Memory") else []))
+    found = getattr(module, "beacon", None)
+    return f"beacon {what}" if found and (what := function(*arguments)(found)) else ""
+
+
+def lacking(module: ModuleType, part: str, partner: str, *others: str) -> str:
+    """What is missing of two parts that come together, and of others that both need; "" when nothing is, or none is there."""
+    if not hasattr(module, part) and not hasattr(module, partner):
+        return ""
+    missing = [each for each in (part, partner, *others) if not hasattr(module, each)]
+    return f"has {partner if missing[0] == part else part}, but no {missing[0]}" if missing else ""
+
+
 TITLE = Need("TITLE", "one line for people", text, 'TITLE = "Side radar"')
 UNIT = Need("UNIT", "of the values", text, 'UNIT = "m"')
 
@@ -259,21 +290,39 @@ SORTS = {
         Sort("radio", "decides which messages arrive, and when", (
             TITLE,
             Need("Settings", "what is set for all units of a scenario", plain, "class Settings(Part): ..."),
+            Need("PRESETS", "named sets of settings, with their sources", preset.wrong, 'PRESETS = {"urban": Preset(...)}', optional=True),
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
             Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
             Need("largest", "the largest message [bytes]", function("settings"), "def largest(settings)"),
-            Need("transmit", "one message on its way to one receiver", function("settings", "way", "draw", compiled=True),
-                 "def transmit(settings, way, draw)"),
-        )),
+            Need("transmit", "one message on its way to one receiver: Transmission(lost, delay); with a Memory also Memory(...)",
+                 compiled_function, "def transmit(settings, way, draw)"),
+            Need("Memory", "what it remembers of one link from message to message", record, "class Memory(NamedTuple): ...", optional=True),
+            Need("airtime", "how long [s] a message of `size` bytes keeps the channel busy; left out: no channel is ever busy",
+                 function("settings", "size", compiled=True), "def airtime(settings, size)", optional=True),
+            Need("heard_within", "the distance [m] within which a message keeps the channel busy; left out: reach", function("settings"),
+                 "def heard_within(settings)", optional=True),
+            Need("Control", "what the congestion control of one unit remembers", record, "class Control(NamedTuple): ...",
+                 optional=True),
+            Need("control", "every tenth of a second, of the load of the last: the least time [s] between messages of a unit, Control(...)",
+                 function("settings", "load", "control", compiled=True), "def control(settings, load, control)", optional=True),
+            Need("Cell", "what the network remembers from message to message", record, "class Cell(NamedTuple): ...", optional=True),
+            Need("admit", "one message on its way into the network: how long [s] it waits, Cell(...)",
+                 function("settings", "sent", "cell", compiled=True), "def admit(settings, sent, cell)", optional=True),
+        ), radio_parts, "write what belongs together, or none of it; with a Memory it is transmit(settings, way, draw, memory)"),
         Sort("message", "what units tell each other", (
             TITLE,
             Need("SIZE", "bytes on the channel, with everything", count, "SIZE = 200"),
             Need("Payload", "what it carries, with units", record, "class Payload(NamedTuple): ..."),
             Need("Settings", "what is set for a message that every unit sends by itself", plain, "class Settings(Part): ...",
                  optional=True),
-            Need("beacon", "the payload that every unit sends once per `period` of the settings", function(
-                "own", "settings", compiled=True), "def beacon(own, settings)", optional=True),
-        )),
+            Need("beacon", "the payload that every unit sends once per `period` of the settings; with a Memory it is given that too",
+                 compiled_function, "def beacon(own, settings)", optional=True),
+            Need("Memory", "what a unit remembers of those that it has sent", record, "class Memory(NamedTuple): ...", optional=True),
+            Need("due", "once per `period`: whether the beacon is sent now, Memory(...); left out: always",
+                 function("own", "settings", "memory", "turn", compiled=True), "def due(own, settings, memory, turn)", optional=True),
+            Need("size", "bytes of one message, SIZE at most; left out: SIZE", function("payload", compiled=True), "def size(payload)",
+                 optional=True),
+        ), message_parts, "write beacon(own, settings) with Settings, or due with Memory and beacon(own, settings, memory)"),
         Sort("driver", "a person at the wheel", (
             TITLE,
             Need("Settings", "what a driver is like", person, "class Settings(Driver): ..."),
@@ -319,13 +368,14 @@ SORTS = {
         Sort("application", "what a developer invents", (
             TITLE,
             Need("Parameters", "what its developer tunes, with unit and range", plain, "class Parameters(Part): ..."),
+            Need("PRESETS", "named sets of parameters, with their sources", preset.wrong, 'PRESETS = {"calm": Preset(...)}', optional=True),
             Need("Memory", "what it remembers from tick to tick", remembered, "class Memory(NamedTuple): ..."),
             Need("Sees", "its ports: what it sees", bundle, "class Sees(NamedTuple): ..."),
             Need("Does", "its ports: what it does", bundle, "class Does(NamedTuple): ..."),
             Need("COMMANDS", "the actuators that it may command", mask, "COMMANDS = ACCELERATION | STEERING", optional=True),
             Need("NOTICES", "the sentences that it may show to the driver", sentences, 'NOTICES = ("Brake!",)', optional=True),
             Need("decide", "one tick", function("parameters", "memory", "sees"), "def decide(parameters, memory, sees)"),
-        )),
+        ), preset.unfit, "give values that the Parameters take"),
     )
 }  # fmt: skip
 

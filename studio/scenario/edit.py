@@ -3,6 +3,7 @@
 from typing import Any
 
 from studio.errors import Problem, ScenarioError, nearest
+from studio.kind.preset import FIELD
 from studio.scenario.text import source
 from studio.scenario.text.patch import Operation, operation
 
@@ -62,7 +63,10 @@ def assignment(document: Any, full: dict, path: str, value: Any) -> list[Operati
     for depth in range(1, len(parts)):
         part = ".".join(parts[:depth])
         if is_left_out(document, full, part):
-            return [operation("add", parts[:depth], value=get(full, part)), operation("replace", parts, value=value)]
+            whole = get(full, part)
+            if parts[depth:] == [FIELD]:
+                whole = {"kind": whole["kind"], FIELD: None}  # values that are laid out would hide those of the preset
+            return [operation("add", parts[:depth], value=whole), operation("replace", parts, value=value)]
     return [operation("replace" if has(document, path) else "add", parts, value=value)]
 
 

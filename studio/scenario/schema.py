@@ -217,7 +217,18 @@ class Application(Part):
     listens_to: list[UnitName | list[UnitName]] = Field(
         [], title="Listening to", description="whose messages each of them uses: a unit or a list of units for each; none: everybody's"
     )
-    parameters: dict = Field({}, title="Parameters", description="of the application; what is not given has its default")
+    preset: str | None = Field(None, title="Preset", description="a set of parameters that the application has a name for")
+    parameters: dict = Field(
+        {}, title="Parameters", description="of the application; what is not given is the preset's, or has its default"
+    )
+    cycle: float | None = number(
+        None, unit="s", title="Cycle", gt=0, le=0.1,
+        description="how often it decides: a tick, or a whole part of one, for what talks faster than the world moves; left out: the tick",
+    )  # fmt: skip
+    keeps: float | None = number(
+        None, unit="s", title="Keeps messages for", gt=0, le=LONGEST,
+        description="older ones are forgotten; left out: the newest of each sender is kept to the end",
+    )  # fmt: skip
     priority: int = Field(
         0, ge=-100, le=100, title="Priority", description="of several applications that command an actuator, the highest does"
     )
@@ -340,6 +351,9 @@ class Scenario(Part, defer_build=True):
     weather: Weather = Field(default_factory=Weather, title="Weather")
     script: dict[Name, Entry] = Field({}, title="Script", description="what happens, to vehicles and to the road")
     radio: Annotated[Any, Slot("radio", usual="ad_hoc")] = Field(default_factory=dict, validate_default=True, title="Radio")
+    radios: dict[Name, Annotated[Any, Slot("radio")]] = Field(
+        {}, title="Radios of messages", description="by the kind of message that goes over another radio, a cellular one for instance"
+    )
     messages: Annotated[Any, Every("message")] = Field(
         default_factory=dict, validate_default=True, title="Messages", description="that units send by themselves"
     )
@@ -353,6 +367,10 @@ class Scenario(Part, defer_build=True):
         """The seed of a stream: its own, or that of everything."""
         own = getattr(self.seeds, stream)
         return self.seed if own is None else own
+
+    def radio_of(self, message: str) -> Any:
+        """The radio that a kind of message goes over."""
+        return self.radios.get(message, self.radio)
 
 
 WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)

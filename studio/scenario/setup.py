@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from studio.errors import Problem, ScenarioError, UnknownError
-from studio.kind import registry
+from studio.kind import preset, registry
 from studio.scenario import edit, file, finding
 from studio.scenario.schema import Application, Scenario, sort_at
 from studio.scenario.text.patch import operation, patched
@@ -32,8 +32,14 @@ def filled(where: str, path: str, group: Application) -> tuple[Application, list
         application = registry.find("application", group.application)
     except UnknownError as error:
         return group, [Problem(f"{where}: {path}.application", error.message)]
+    known = preset.presets(application.module)
+    if group.preset is not None and group.preset not in known:
+        allowed = ", ".join(known) or f"none: {application.name!r} has no presets"
+        return group, [Problem(f"{where}: {path}.preset", "is no preset of the application", repr(group.preset), allowed)]
+    values = known[group.preset].values if group.preset else {}
     try:
-        return group.model_copy(update={"parameters": application.module.Parameters.model_validate(group.parameters).model_dump()}), []
+        given = application.module.Parameters.model_validate(values | group.parameters)
+        return group.model_copy(update={"parameters": given.model_dump()}), []
     except ValidationError as error:
         return group, finding.problems(error, where, application.module.Parameters, under=f"{path}.parameters.")
 

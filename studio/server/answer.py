@@ -256,6 +256,45 @@ def event(happened: Happening) -> Event:
     return Event.model_validate(happened.as_json())
 
 
+class Lost(BaseModel):
+    """A message that did not come."""
+
+    time: float = Field(description="[s] when it was sent")
+    why: str
+
+
+class Known(BaseModel):
+    """What a unit knew about another, from which sensor or message."""
+
+    unit: str
+    about: str
+    source: str = Field(description="name of the sensor, or kind of the message")
+    age: float | None = Field(description="[s]; null when nothing had come")
+    what: dict[str, Number]
+    lost: list[Lost] = Field(description="messages since the newest that had come")
+
+
+class Wheel(BaseModel):
+    """A tyre at its limit."""
+
+    unit: str
+    wheel: str
+    use: float = Field(description="[1] greatest share of its adhesion in the second before")
+
+
+class Explanation(BaseModel):
+    """Why something happened: what was known about the other, who commanded, which tyre was at its limit; and all of it in sentences."""
+
+    event: str = Field(description="kind of the event")
+    time: float = Field(description="[s]")
+    text: str
+    units: list[str]
+    known: list[Known]
+    commanded_by: dict[str, dict[str, str]] = Field(description="who had wheel, brake, drive and gear, by vehicle")
+    tyre_at_limit: list[Wheel]
+    lines: list[str]
+
+
 class Revision(BaseModel):
     """What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was."""
 

@@ -22,6 +22,7 @@ from studio.server.worker import pace_factor
 from studio.source import code_version
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
+from studio.store.explanation import explanation
 from studio.world import channel
 
 REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
@@ -175,6 +176,14 @@ def run_trace(
     columns = trace.decimate(kept.trace(run, names), points)
     values = {name: answer.TraceColumn(unit=units[name], values=plain(columns[name])) for name in names}
     return answer.Trace(time=columns["time"].tolist(), channels=values)
+
+
+@router.get("/runs/{run}/explanation")
+def run_explanation(
+    run: int, desk: AtDesk, event: Annotated[str, Query(description="number in this list, or kind; all without it")] = ""
+) -> list[answer.Explanation]:
+    """Why collisions, near misses and hard brakes happened in a run."""
+    return [answer.Explanation(**each.as_json(), lines=each.lines) for each in explanation(desk.runs(), run, event)]
 
 
 @router.get("/compare")

@@ -28,6 +28,7 @@ from studio.store.tables import open_database, reopen_database, unusable
 if TYPE_CHECKING:
     import numpy as np
 
+    from studio.execution.message import Messages
     from studio.execution.record import Record
     from studio.kind.registry import Kind
     from studio.provenance import Provenance
@@ -126,7 +127,7 @@ class Runs:
     def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing."""
-        from studio.store import trace
+        from studio.store import message, trace
 
         ending = {
             "status": status,
@@ -136,12 +137,13 @@ class Runs:
             "wall_time_s": wall_time_s,
             "unmet": json.dumps(unmet, ensure_ascii=False),
         }
-        parquet = trace.write(record, channels)
+        parquet, (sent, entries) = trace.write(record, channels), message.write(record.messages)
         with self.writing():
             self.database.table("runs").update(run, ending)
             self.database.table("metrics").insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
             self.database.table("events").insert_all(event_row(run, each) for each in record.happenings)
             self.database.table("traces").insert({"run": run, "parquet": parquet}, pk="run", replace=True)
+            self.database.table("messages").insert({"run": run, "sent": sent, "entries": entries}, pk="run", replace=True)
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
@@ -226,6 +228,22 @@ class Runs:
         if not found:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
         return found[0]["parquet"]
+
+    def record(self, run: int) -> "Record":
+        """All that is kept of a run in one piece, but for the ages of links; raises UnknownError when there is none."""
+        from studio.store import trace
+
+        return trace.record_of(self.parquet(run), self.events(run), self.messages(run))
+
+    def messages(self, run: int) -> "Messages":
+        """What was sent in a run, and what became of it; raises UnknownError when that was not kept."""
+        from studio.store import message
+
+        self.find(run)
+        found = self.rows("select sent, entries from messages where run = ?", [run])
+        if not found:
+            raise UnknownError(f"Run {run} has no log of messages: it did not come to its end, or an older studio ran it.")
+        return message.read(found[0]["sent"], found[0]["entries"])
 
     def channels(self, run: int) -> list[dict[str, str]]:
         """Recorded channels of a run; none when it has no traces."""

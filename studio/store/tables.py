@@ -5,6 +5,7 @@
     metrics     run, name → value, unit, goal, subject, time, kind, about
     events      run → time, kind, text, vehicle, units, x, y, numbers, words
     traces      run → one Parquet file with a column per channel
+    messages    run → two Parquet files: what was sent, and what became of it at everybody in range
     kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
     texts       digest → text                  files of kinds, and patches; equal ones stand once
 
@@ -83,6 +84,7 @@ TABLES = {
         (("run", "runs", "run"),),
     ),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
+    "messages": ({"run": int, "sent": bytes, "entries": bytes}, "run", (("run", "runs", "run"),)),
     "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
     "texts": ({"digest": str, "text": str}, "digest", ()),
 }  # fmt: skip

@@ -1,7 +1,9 @@
 """Traces as one Parquet file per run: a column per channel with its unit, readable by pandas, polars and MATLAB."""
 
 import io
+import json
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -9,10 +11,13 @@ import pyarrow.parquet as pq
 from tsdownsample import MinMaxDownsampler
 
 from studio.errors import UnknownError, nearest
-from studio.execution.record import Record
-from studio.world.channel import catalogue
+from studio.execution.happening import Happening
+from studio.execution.message import Messages
+from studio.execution.record import Body, Chain, Mount, Record, Traced
+from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
+ABOUT = b"record"  # what the columns are about, as JSON
 
 
 def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
@@ -23,10 +28,55 @@ def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
     for name in names:
         channel = record.probes.get(name) or catalogue()[name.partition(".")[2]]
         fields.append(field(name, channel.unit, channel.label))
-    table = pa.table(list(columns.values()), schema=pa.schema(fields))
+    schema = pa.schema(fields, metadata={ABOUT: json.dumps(about(record), ensure_ascii=False).encode()})
+    table = pa.table(list(columns.values()), schema=schema)
     buffer = io.BytesIO()
     pq.write_table(table, buffer, compression="zstd", use_dictionary=False, use_byte_stream_split=True)
     return buffer.getvalue()
+
+
+def about(record: Record) -> dict[str, Any]:
+    """What of a record is no column: vehicles, chains, bodies, and the names that numbers stand for."""
+    return {
+        "vehicles": record.vehicles,
+        "chains": [vars(each) for each in record.chains],
+        "bodies": record.bodies,
+        "called": list(record.called.items()),
+        "commanders": record.commanders,
+        "mounts": record.mounts,
+    }
+
+
+def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Messages) -> Record:
+    """The record that was written; channels that were not kept are not numbers. Raises UnknownError for one of an older studio."""
+    table = pq.read_table(io.BytesIO(parquet))
+    if ABOUT not in (table.schema.metadata or {}):
+        raise UnknownError("The record of this run does not say who its vehicles are: an older studio wrote it. Run it again.")
+    known = json.loads(table.schema.metadata[ABOUT])
+    vehicles = tuple(known["vehicles"])
+    values = np.full((len(CHANNELS), len(vehicles), table.num_rows), np.nan)
+    for channel, row, name in ((c, v, f"{vehicle}.{each.name}") for c, each in enumerate(CHANNELS) for v, vehicle in enumerate(vehicles)):
+        if name in table.column_names:
+            values[channel, row] = table[name].to_numpy()
+    return Record(
+        time=table["time"].to_numpy(),
+        values=values,
+        vehicles=vehicles,
+        happenings=tuple(happenings),
+        chains=tuple(Chain(each["group"], each["application"], tuple(each["vehicles"])) for each in known["chains"]),
+        probes=probes_of(table),
+        bodies={name: Body(*each) for name, each in known["bodies"].items()},
+        called={int(number): name for number, name in known["called"]},
+        messages=messages,
+        commanders=tuple(known["commanders"]),
+        mounts={name: Mount(*each) for name, each in known["mounts"].items()},
+    )
+
+
+def probes_of(table: pa.Table) -> dict[str, Traced]:
+    """The columns that are no channels of vehicles."""
+    own = [each for each in table.schema if each.name != "time" and each.name.partition(".")[2] not in catalogue()]
+    return {each.name: Traced(table[each.name].to_numpy(), each.metadata[UNIT].decode(), each.metadata[LABEL].decode()) for each in own}
 
 
 def field(name: str, unit: str, label: str) -> pa.Field:

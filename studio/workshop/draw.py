@@ -4,7 +4,7 @@ import math
 from contextlib import suppress
 from dataclasses import replace
 from types import ModuleType
-from typing import Any, get_args, get_origin
+from typing import Any, get_origin
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -14,7 +14,7 @@ from studio.execution.record import Body, Chain, Record
 from studio.kind.area import Area
 from studio.kind.number import AREA, POINTS, numbers, plain, shapes, tuple_of
 from studio.kind.quantity import Quantity, quantities
-from studio.kind.settings import Nested, marks, named
+from studio.kind.settings import Nested, Pooled, marks, named
 from studio.world.channel import CHANNELS
 
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
@@ -56,8 +56,7 @@ def whole(field: FieldInfo, draw: np.random.Generator) -> Any:
         return found if get_origin(kind) is list else found[0]
     if kind is Area:
         return {"x": float(draw.uniform(200.0, 500.0)), "y": 0.0, "radius": float(draw.uniform(1.0, 200.0))}
-    is_pairs = get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float]
-    return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if is_pairs else None
+    return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if marks(field, Pooled) else None
 
 
 def staged(what: str, node: dict[str, Any]) -> Any:

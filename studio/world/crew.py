@@ -20,17 +20,30 @@ def problems(scenario: Scenario, where: str) -> list[Problem]:
     groups = {name: (group, known[group.application]) for name, group in scenario.applications.items() if group.application in known}
     found = list(large(groups, scenario, where))
     found += [each for name, (group, kind) in groups.items() for each in unfit(name, group, kind, scenario, where)]
-    return found + list(quarrels(groups, where))
+    return found + list(quarrels(groups, where)) + list(astray(scenario, where))
+
+
+def astray(scenario: Scenario, where: str) -> Iterator[Problem]:
+    """Radios of messages that there are not, and two of a kind that are set differently: they would be one air with two natures."""
+    known = registry.known("message")
+    for message, radio in scenario.radios.items():
+        if message not in known:
+            yield Problem(f"{where}: radios.{message}", "names no kind of message", repr(message), remedy=nearest(message, known))
+        others = {"radio": scenario.radio} | {f"radios.{name}": each for name, each in scenario.radios.items() if name < message}
+        for path, other in others.items():
+            if other.kind == radio.kind and other != radio:
+                what = f"is set differently from {path}, which is of the same kind and shares its air"
+                yield Problem(f"{where}: radios.{message}", what, radio.kind, remedy="set both alike, or choose another kind")
 
 
 def large(groups: dict[str, tuple[Application, Kind]], scenario: Scenario, where: str) -> Iterator[Problem]:
     """Messages that the radio does not take."""
-    largest = registry.find("radio", scenario.radio.kind).module.largest(scenario.radio)
     for name, (_, kind) in groups.items():
         for one in port.done(kind.module):
-            found = registry.known("message").get(one.kind) if one.what == OUTBOX else None
+            found, radio = registry.known("message").get(one.kind) if one.what == OUTBOX else None, scenario.radio_of(one.kind)
+            largest = registry.find("radio", radio.kind).module.largest(radio)
             if found and largest < found.module.SIZE:
-                what = f"{kind.name!r} sends {one.kind!r}, which is larger than the radio {scenario.radio.kind!r} takes"
+                what = f"{kind.name!r} sends {one.kind!r}, which is larger than the radio {radio.kind!r} takes"
                 yield Problem(f"{where}: applications.{name}.application", what, f"{found.module.SIZE} bytes", f"≤ {largest} bytes")
 
 

@@ -19,11 +19,11 @@ from studio.world.passes.notice import NOTICE
 from studio.world.passes.sight import SIGHT
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
 from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
-from studio.world.table.unit import GPS_SET, HEARD, OUTPUT, SATELLITE, SENSOR, SENT, UNIT, UNIT_SET
+from studio.world.table.unit import GPS_SET, HEARD, LOGGED, OUTPUT, SATELLITE, SENSOR, SENT, TROUBLE, UNIT, UNIT_SET
 
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
-    MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD,
+    MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD, LOGGED,
     LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE, SIGHT, CHART,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"

@@ -1,7 +1,7 @@
 """Probes: what the sensors and applications of units give to be recorded, besides the channels that every vehicle has.
 
 A sensor's first target is `follower_1.front.range`, its second `follower_1.front.2.range`; where there can be
-several, `follower_1.front.count` says how many.
+several, `follower_1.front.count` says how many. `follower_1.front.measured` is the time at which all of this was so.
 What an application logs stands under the name of its group, `follower_1.platoon.spacing_error`; what it shows to the driver
 is `follower_1.platoon.notice`.
 """
@@ -16,9 +16,11 @@ import numpy as np
 from studio.compiled import lean
 from studio.kind.quantity import Quantity, width
 from studio.vehicle.state import VEHICLE
+from studio.world.board.air import Air
 from studio.world.board.host import Hosted
 from studio.world.board.sensing import Mounted
 from studio.world.table.mind import MIND
+from studio.world.table.unit import MEASURED
 from studio.world.world import Units, World
 
 
@@ -47,6 +49,7 @@ def probes(world: World) -> list[list[Probe]]:
     for each in (
         *(probe for one in units.mounted for probe in of_sensor(one, units)),
         *(p for one in world.hosted for p in of_log(one, units)),
+        *(p for one in units.airs if one.is_loaded for p in of_air(one, units)),
     ):
         number, probe = each
         found[number].append(probe)
@@ -57,6 +60,7 @@ def of_sensor(each: Mounted, units: Units) -> Iterator[tuple[int, Probe]]:
     """Those of the sensors of a kind, with the number of their world."""
     for column, (name, unit) in enumerate(zip(each.names, each.unit.tolist(), strict=True)):
         at, world = f"{units.name_of(unit)}.{name}", int(units.world[unit])
+        yield world, Probe(f"{at}.measured", "s", f"Time at which {name} measured", each, "health", MEASURED, column)
         if each.capacity > 1:
             yield world, Probe(f"{at}.count", "1", f"Targets of {name}", each, "out", 0, column)
         for slot in range(each.capacity):
@@ -77,6 +81,13 @@ def of_log(each: Hosted, units: Units) -> Iterator[tuple[int, Probe]]:
             yield world, Probe(f"{at}.{part}", unit_of, label, each, "said", i, column)
         if each.shows:
             yield world, Probe(f"{at}.notice", "1", f"Notice of {group}", each, "shown", -1, column)
+
+
+def of_air(each: Air, units: Units) -> Iterator[tuple[int, Probe]]:
+    """How busy the channel is where every unit is, with the number of the world, in worlds with this kind of radio."""
+    for unit, world in enumerate(units.world.tolist()):
+        if world in each.worlds:
+            yield world, Probe(f"{units.name_of(unit)}.channel_load", "1", "Load of the channel", each, "load", -1, unit)
 
 
 def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:

@@ -229,6 +229,12 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         ratio = period / tick
         if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
             found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
+    for name, group in scenario.applications.items():
+        parts = tick / (group.cycle or tick)
+        if parts < 1 - 1e-9 or abs(parts - round(parts)) > 1e-6 * parts:
+            found.append(
+                Problem(f"{where}: applications.{name}.cycle", "is not a whole part of a tick", f"{group.cycle} s", f"{tick} s / n")
+            )
     return found
 
 

@@ -16,6 +16,7 @@ from studio.errors import Problem, SnapshotError
 from studio.rows import MOVES
 from studio.source import source_digest
 from studio.world import script
+from studio.world.board.air import EARLY
 from studio.world.setting import Setting
 from studio.world.world import World
 
@@ -72,6 +73,8 @@ def restore(world: World, kept: Snapshot) -> None:
     world.events.hits = kept.hits.copy()
     world.clock.k = kept.k
     script.follow(world)
+    for post in world.units.posts:
+        post.log.forget(world.clock.time - EARLY)
 
 
 def check(world: World, kept: Snapshot) -> None:

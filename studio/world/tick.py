@@ -1,15 +1,18 @@
 """One tick of the world: the table of contents of the simulator.
 
 At a tick everybody meets: the script goes on, lights change, drivers look around, sensors measure, messages arrive,
-applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps.
+applications and drivers decide, commands go out. Between two ticks every vehicle integrates alone, in small steps; units that talk
+faster than that hear, decide and send once or several times before.
 """
 
 from collections.abc import Callable
+from fractions import Fraction
+from functools import cache
 from math import nan
 
 from studio.vehicle import fleet
 from studio.world import script
-from studio.world.board.host import Fault
+from studio.world.board.host import Fault, Hosted
 from studio.world.board.post import freshest
 from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
@@ -26,6 +29,7 @@ def let_through(fault: Fault) -> None:
 def tick(world: World) -> None:
     """Advances the world by one tick. Raises ApplicationError when an application does."""
     meet(world)
+    between(world)
     part(world)
 
 
@@ -43,6 +47,31 @@ def meet(world: World, refuse: Refuse = let_through) -> None:
     applications(world, refuse)
     dispatch(world, refuse)
     act(world)
+
+
+def between(world: World, refuse: Refuse = let_through) -> None:
+    """Units whose cycle is shorter than the tick hear, decide and send at instants between two ticks.
+
+    They know of themselves and around them what they knew at the tick, and what they command counts at the next one.
+    """
+    clock, hosted = world.clock, list(world.hosted)
+    moments = instants(tuple(each.cycles for each in hosted))
+    if not moments:
+        return
+    commands = world.vehicles.app_command.copy()
+    for share, places in moments:
+        time = clock.time + share * clock.tick
+        listen(world, time)
+        decide(world, time, [hosted[place] for place in places], refuse)
+        dispatch(world, refuse)
+    world.vehicles.app_command[:] = commands
+
+
+@cache
+def instants(cycles: tuple[int, ...]) -> list[tuple[float, list[int]]]:
+    """When between two ticks somebody decides, as shares of a tick, and who, of several that decide so often within each."""
+    shares = sorted({Fraction(i, count) for count in cycles for i in range(1, count)})
+    return [(float(share), [place for place, count in enumerate(cycles) if (share * count).denominator == 1]) for share in shares]
 
 
 def part(world: World) -> None:
@@ -109,27 +138,46 @@ def sense(world: World, refuse: Refuse = let_through) -> None:
 
 def communicate(world: World, refuse: Refuse = let_through) -> None:
     """Beacons go out; what has come in is taken, and laid before the applications."""
-    clock = world.clock
-    for post in world.units.posts:
-        for fault in post.exchanged(clock.k, clock.time, clock.tick, world.air):
+    clock, u = world.clock, world.units
+    for air in u.airs:
+        air.turn(clock.time, u.world)
+    for post in u.posts:
+        for fault in post.exchanged(clock.k, clock.time, u.airs[post.air], world.air):
             refuse(fault)
+    lay(world, clock.time)
+
+
+def lay(world: World, time: float) -> None:
+    """What everybody has heard is laid before the applications that hear everybody."""
     for each in world.open_inboxes:
-        freshest(each.first, each.count, each.links, each.post.inbox, each.heard, each.slots)
+        freshest(time, each.first, each.count, each.links, each.kept, each.post.inbox, each.heard, each.slots)
+
+
+def listen(world: World, time: float) -> None:
+    """What has come in between two ticks is taken, and laid before the applications."""
+    for post in world.units.posts:
+        post.received(time)
+    lay(world, time)
 
 
 def dispatch(world: World, refuse: Refuse = let_through) -> None:
     """The radio decides about what applications have sent."""
     for post in world.units.posts:
-        for fault in post.dispatched(world.clock.time, world.air):
+        for fault in post.dispatched(world.units.airs[post.air], world.air):
             refuse(fault)
 
 
 def applications(world: World, refuse: Refuse = let_through) -> None:
-    """Every application sees and decides, the highest priority last."""
-    v, u, clock = world.vehicles, world.units, world.clock
-    v.app_command[:] = nan
-    for hosted in list(world.hosted):
-        for fault in hosted.decide(clock.time, clock.tick, (u.fixed, u.now, v.app_command)):
+    """Every application sees and decides."""
+    world.vehicles.app_command[:] = nan
+    decide(world, world.clock.time, list(world.hosted), refuse)
+
+
+def decide(world: World, time: float, which: list[Hosted], refuse: Refuse) -> None:
+    """Some applications see and decide, the highest priority last."""
+    u, tick = world.units, world.clock.tick
+    for hosted in which:
+        for fault in hosted.decide(time, tick, (u.fixed, u.now, world.vehicles.app_command)):
             refuse(fault)
 
 

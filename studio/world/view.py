@@ -2,7 +2,7 @@
 
 A sensor looks at the true world and makes its own errors. `around` finds who is near; `look` and `glimpse` tell which bodies can be seen,
 and what of them; `report` writes a target down; random numbers come from `draw` and `draw_normal`, each with a number of its own, 0 to 15,
-and one that tells the targets apart.
+and one that tells the targets apart. A radio draws with `chance` and `chance_normal`, which count likewise.
 """
 
 from math import cos, sin
@@ -20,6 +20,7 @@ from studio.world.passes.sight import target as target
 from studio.world.table.unit import BUMPER, COSINE, HEADING, SINE, TRUE_X, TRUE_Y
 
 MISSHAPEN = -1.0  # in place of a count
+PAIR = 65536  # a link is numbered receiver · PAIR + sender
 LATE, LOST = range(2)  # draws of the studio for a sensor: its delay, whether a look fails
 OF_THE_STUDIO = 2**32 - 1  # tells them from those of a kind
 
@@ -93,27 +94,89 @@ class Me(NamedTuple):
 
 
 class Way(NamedTuple):
-    """The way of one message to one receiver."""
+    """The way of one message to one receiver, at the moment of sending."""
 
     distance: float  # [m] from antenna to antenna
     walls: float  # [1] walls of buildings that it passes
     inside: float  # [m] within buildings
     size: float  # [bytes]
     speed: float  # [m/s] of the receiver
+    approach: float  # [m/s] at which both come nearer to each other; negative while they part
+    time: float  # [s] since the start
+    from_x: float  # [m] the sender's antenna
+    from_y: float  # [m]
+    from_height: float  # [m] above the road
+    to_x: float  # [m] the receiver's antenna
+    to_y: float  # [m]
+    to_height: float  # [m]
+    from_load: float  # [1] share of the last tenth of a second in which the channel was busy, where the sender is
+    load: float  # [1] likewise, where the receiver is
+    wait: float  # [s] for the cell, as `admit` of the radio gave it; 0 for a radio without cells
 
 
 class Draw(NamedTuple):
-    """Chance's part in one message on one link: numbers in (0, 1)."""
+    """Chance's part in one message on one link: by these numbers it is told apart. `chance` and the like draw from it."""
 
-    first: float
-    second: float
+    seed: int
+    receiver: int
+    sender: int
+    stream: int  # the first of those of this kind of message
+    number: int  # of the message among those of its sender
+    common: int  # the first stream of the radio, for what does not hang on the kind of message
+
+
+class Sent(NamedTuple):
+    """One message on its way into a cell."""
+
+    time: float  # [s]
+    x: float  # [m] the sender's antenna
+    y: float  # [m]
+    size: float  # [bytes]
+
+
+class Turn(NamedTuple):
+    """The moment at which a unit is asked whether a message is due."""
+
+    time: float  # [s] on its own clock
+    gap: float  # [s] least time between two messages, as the congestion control of the radio says; 0 without
+    load: float  # [1] share of the last tenth of a second in which the channel was busy
 
 
 class Transmission(NamedTuple):
-    """What becomes of a message: lost, or there after a delay [s]."""
+    """What becomes of a message: a cause (world/table/cause.py), RECEIVED or why it is lost; the delay [s] of one that is received."""
 
-    lost: bool
+    lost: int
     delay: float
+
+
+@inlined
+def chance(draw, number):
+    """A number in (0, 1); `number`, 0 to 15, tells the draws about one message on one link apart."""
+    return uniform(draw.seed, draw.receiver * PAIR + draw.sender, draw.stream + number, draw.number)
+
+
+@inlined
+def chance_normal(draw, number):
+    """A number of the standard normal distribution; `number`, 0 to 15, tells the draws about one message on one link apart."""
+    return normal(draw.seed, draw.receiver * PAIR + draw.sender, draw.stream + number, draw.number)
+
+
+@inlined
+def chance_of_pair(draw, number, step):
+    """A number in (0, 1) that hangs on the two units and a whole number `step`, and neither on the message nor on who sends."""
+    return uniform(draw.seed, pair_of(draw), draw.common + number, step)
+
+
+@inlined
+def normal_of_pair(draw, number, step):
+    """A number of the standard normal distribution, drawn as `chance_of_pair` does."""
+    return normal(draw.seed, pair_of(draw), draw.common + number, step)
+
+
+@inlined
+def pair_of(draw):
+    """The number of a pair of units, the same in both directions."""
+    return max(draw.receiver, draw.sender) * PAIR + min(draw.receiver, draw.sender)
 
 
 @inlined

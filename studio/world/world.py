@@ -17,6 +17,7 @@ from studio.vehicle.command import RING
 from studio.vehicle.fleet import Fleet
 from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
+from studio.world.board.air import Air
 from studio.world.board.host import Fault, Group, Hosted
 from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
@@ -233,9 +234,11 @@ class Units:
     now: Moving  # where they are and what they know of themselves, [row, unit]
     gps_set: np.ndarray  # per vehicle
     satellite: Moving  # errors of the satellite position, [row, vehicle]
+    trouble: Moving  # what the script does to their radio, [row, unit]
     sight: np.ndarray  # room for what one sensor sees, [row, body]
     mounted: list[Mounted]
     posts: list[Post]
+    airs: list[Air]
 
     def number(self, name: str, world: int = 0) -> int:
         """A unit by its name; raises ValueError."""
@@ -313,7 +316,7 @@ class World:
     def air(self) -> tuple:
         """What radios see of the world, likewise."""
         u, w, r = self.units, self.worlds, self.roads
-        return u.world, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now
+        return u.world, u.first, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
 
     @cached_property
     def carry(self) -> Callable:
@@ -358,12 +361,9 @@ class World:
     def hashed_parts(self) -> list[np.ndarray]:
         """What the hash of a run is made of: all that moves, but for what follows from it at the next tick."""
         v, u, e, s, o = self.vehicles, self.units, self.events, self.script, self.obstacles
-        units = [
-            u.satellite,
-            u.now,
-            *(part for each in u.mounted for part in (each.out, each.ring, each.output)),
-            *(part for post in u.posts for part in (post.ring, post.inbox)),
-        ]
+        radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
+        sensed = [part for each in u.mounted for part in (each.out, each.ring, each.output)]
+        units = [u.satellite, u.now, *sensed, *radio, *(part for air in u.airs for part in air.state)]
         happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, s.since, s.met, o.standing, self.detours.choice]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
@@ -388,7 +388,12 @@ class World:
         for post in u.posts:
             slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
             yield slots[:, :, u.world[post.sender] == number]
-            yield post.inbox[:, u.world[post.link_receiver] == number]
+            yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))
+            yield post.kept[:, u.world[post.sender] == number]
+        for air in u.airs:
+            of_units, cells = air.state[:-1], air.state[-1]
+            yield from (part[..., u.world == number] for part in of_units)
+            yield cells[:, number]
         yield e.of(number)
         yield s.phase[s.world == number]
         yield s.turned[:, s.world == number]

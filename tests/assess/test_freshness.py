@@ -1,9 +1,18 @@
 """Ages of information against their closed forms: messages every T, delayed by L, of which some are lost."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from studio.assess import freshness
+from studio.assess.measure import measure_all
+from studio.execution.message import none
+from studio.execution.record import Traced
+from studio.kind import registry
+from studio.kind.slot import chosen
+from studio.world.table.cause import FADING, RECEIVED
+from tests.assess.drive import record
 
 T, L, MANY = 0.1, 0.02, 400_000
 
@@ -81,3 +90,36 @@ def test_sampled_ages():
     ages = np.array([[0.1, 0.2, 0.3, 0.4], [np.nan, 0.5, 0.7, np.nan]])
     assert freshness.mean(ages) == pytest.approx([0.25, 0.6])
     assert freshness.share_older(ages, 0.25) == pytest.approx([0.5, 1.0])
+
+
+def sent(rows, link=("a", "b")):
+    """A record of two cars and messages of one to the other: when sent, what became of it, delay, distance [m]."""
+    times, causes, delays, distances = (np.array(each) for each in zip(*rows, strict=True))
+    ones = np.ones(times.size, dtype=np.int32)
+    messages = replace(
+        none(("awareness",), link), time=times, sender=0 * ones, kind=0 * ones, number=np.arange(times.size), size=200.0 * ones,
+        count=ones, receiver=ones, cause=causes, delay=delays, distance=distances,
+    )  # fmt: skip
+    made = record(np.linspace(0.0, 1.0, 51), link)
+    return replace(made, messages=messages, links=("→".join(link),), ages=np.full((1, 51), 0.1))
+
+
+def test_measures_of_messages():
+    """Of five messages three came: 60 %, within 100 m two of three; receptions at 0.01, 0.21 and 0.41 s are 0.2 s apart."""
+    rows = [(0.1 * i, RECEIVED if i % 2 == 0 else FADING, 0.01 if i % 2 == 0 else np.nan, 60.0 * i) for i in range(5)]
+    made, metrics = sent(rows), registry.known("metric")
+    near = chosen(metrics["packet_delivery"])(farthest=150)
+    found = measure_all(made, {"near": near})
+    assert found["packet_delivery"].value == pytest.approx(0.6) and found["near"].value == pytest.approx(2 / 3)
+    assert found["inter_reception"].value == pytest.approx(0.2, abs=1e-6) and found["inter_reception"].subject == ("a", "b")
+    first = measure_all(made, {"first": chosen(metrics["packet_delivery"])(end={"at": 0.15})})["first"]
+    assert first.value == 0.5
+    nobody = measure_all(made, {"to_a": chosen(metrics["packet_delivery"])(vehicles=["a"])})["to_a"]
+    assert nobody.value is None
+
+
+def test_the_load_of_the_channel_where_it_is_greatest():
+    made = sent([(0.0, RECEIVED, 0.01, 10.0)])
+    loads = {f"{unit}.channel_load": Traced(np.full(51, load), "1", "") for unit, load in (("a", 0.2), ("b", 0.3))}
+    found = measure_all(replace(made, probes=loads))["channel_load"]
+    assert (found.value, found.subject) == (pytest.approx(0.3), ("b",))

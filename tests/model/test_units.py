@@ -5,7 +5,8 @@ from math import exp, pi
 import pytest
 
 from studio.conventions import AIR_DENSITY
-from studio.model import actuator, aerodynamics, brake, radio, sensor
+from studio.model import actuator, aerodynamics, brake, sensor
+from studio.model.radio import arrival
 
 
 def test_a_lag_follows_its_exponential():
@@ -68,8 +69,8 @@ def test_the_cone():
 
 
 def test_radio_limits():
-    assert radio.is_lost(301.0, 300.0, 0.0, 0.0, 0.999)
-    assert not radio.is_lost(299.0, 300.0, 0.0, 0.0, 1e-9)
-    assert radio.is_lost(100.0, 300.0, 0.1, 0.001, 0.19) and not radio.is_lost(100.0, 300.0, 0.1, 0.001, 0.21)
-    assert radio.delay(0.02, 0.005, 0.0) == pytest.approx(0.015)
-    assert radio.delay(0.001, 0.005, 0.0) == 0.0
+    assert arrival.is_lost(301.0, 300.0, 0.0, 0.0, 0.999)
+    assert not arrival.is_lost(299.0, 300.0, 0.0, 0.0, 1e-9)
+    assert arrival.is_lost(100.0, 300.0, 0.1, 0.001, 0.19) and not arrival.is_lost(100.0, 300.0, 0.1, 0.001, 0.21)
+    assert arrival.delay(0.02, 0.005, 0.0) == pytest.approx(0.015)
+    assert arrival.delay(0.001, 0.005, 0.0) == 0.0

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from studio.model import radio
+from studio.model.radio import propagation
 from studio.road import load
 from studio.road.network import Building
 from studio.road.network.shadow import (
@@ -44,15 +44,15 @@ def test_a_house_of_twenty_metres_costs_26_decibels():
     """Two walls and 20 m: 18 dB + 8 dB (check value for the model of Sommer et al.)."""
     walls, inside = crossed([HOUSE], (0, 0), (100, 0))
     assert (walls, inside) == (2, pytest.approx(20.0))
-    assert radio.attenuation(walls, inside) == pytest.approx(26.0)
+    assert propagation.attenuation(walls, inside) == pytest.approx(26.0)
 
 
 @pytest.mark.parametrize("exponent", [2.0, 2.75, 4.0])
 def test_a_weaker_signal_is_a_longer_way(exponent):
     """10 n log10 of the felt over the true distance is the attenuation again; without buildings nothing changes."""
-    felt = radio.felt_distance(80.0, 26.0, exponent)
+    felt = propagation.felt_distance(80.0, 26.0, exponent)
     assert 10.0 * exponent * np.log10(felt / 80.0) == pytest.approx(26.0)
-    assert radio.felt_distance(80.0, 0.0, exponent) == 80.0
+    assert propagation.felt_distance(80.0, 0.0, exponent) == 80.0
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,15 @@ def test_the_sample_is_valid_and_complete(document):
     assert again == scenario
 
 
+def test_a_preset_gives_what_is_not_given(document):
+    group = document["applications"]["platoon"] | {"application": "acc", "preset": "series", "parameters": {"headway": 2.0}}
+    group.pop("listens_to", None)
+    found = setup.complete(document | {"applications": {"platoon": group}}, "sample").applications["platoon"].parameters
+    assert (found["headway"], found["response_time"], found["cruise_gain"]) == (2.0, 0.48, 0.5)
+    group["preset"] = "serial"
+    assert "series" in refusal(document | {"applications": {"platoon": group}})
+
+
 @pytest.mark.parametrize(
     ("path", "value", "words"),
     [
@@ -44,6 +53,7 @@ def test_the_sample_is_valid_and_complete(document):
         ("applications.platoon.parameters", {"headway": 9}, ["applications.platoon.parameters.headway", "9", "≤ 5"]),
         ("applications.platoon.parameters", {"hedway": 1}, ["parameters.hedway", "did you mean 'headway'"]),
         ("applications.platoon.listens_to", ["leader"], ["4 units but 1"]),
+        ("applications.platoon.preset", "series", ["applications.platoon.preset", "'series'", "'cacc' has no presets"]),
         ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
         ("version", 1, ["version", "1"]),
         ("vehicles.leader.sped", 2, ["vehicles.leader.sped", "did you mean 'speed'"]),

@@ -68,7 +68,8 @@ def test_kinds(client):
     assert own["source"].endswith("flawless.py") and "A radar without noise" in own["description"]
     clearance = {"name": "clearance", "unit": "m", "size": 1, "meaning": "to the rear of the car ahead"}
     assert own["gives"][0] == clearance and [each["name"] for each in own["gives"]] == ["clearance", "closing"]
-    assert kinds["metric", "min_ttc"]["settings"] is None
+    assert {"begin", "end", "vehicles"} == set(kinds["metric", "min_ttc"]["settings"]["properties"])
+    assert kinds["metric", "time_exposed_ttc"]["settings"]["properties"]["limit"]["unit"] == "s"
     (broken,) = found["broken"]
     assert broken["name"] == "torn" and broken["file"].endswith("torn.py")
     assert "ModuleNotFoundError" in broken["what"] and "torn.py" in broken["traceback"] and "line 3" in broken["traceback"]
@@ -124,6 +125,24 @@ def test_trace_is_decimated_on_request(client, pair):
     assert len(full["channels"]["leader.gap"]["values"]) == 151
     thin = client.get(path, params={"channels": "follower_1.speed", "points": 20}).json()
     assert len(thin["time"]) <= 22
+
+
+def test_whom_a_measure_is_about(pair):
+    """Subject and time beside the value; none of what is about the whole run."""
+    gap, speed = (pair[0]["metrics"][name] for name in ("min_gap", "mean_speed"))
+    assert len(gap["subject"]) == 2 and 0 <= gap["time"] <= 3 and gap["about"] and gap["kind"] == "min_gap"
+    assert (speed["subject"], speed["time"], speed["about"]) == ([], None, "")
+
+
+def test_why_it_happened(client):
+    """A hard brake, told with what was known; a run without one has nothing to tell, a wrong question is refused."""
+    brake = {"script.hard_brake.do.deceleration": 8, "script.hard_brake.when.at": 0.2, "clock.duration": 2}
+    run = finished(client, client.post("/api/runs", json={"scenario": SCENARIO, "set": brake}).json()["run"])["run"]
+    found = client.get(f"/api/runs/{run}/explanation").json()
+    assert {each["event"] for each in found} <= {"hard_brake", "near_miss", "collision"} and found[0]["lines"]
+    assert client.get(f"/api/runs/{run}/explanation", params={"event": "1"}).json() == found[:1]
+    refused = client.get(f"/api/runs/{run}/explanation", params={"event": "colision"})
+    assert refused.status_code == 404 and "did you mean 'collision'" in refused.text
 
 
 def test_compare(client, pair):

@@ -17,13 +17,14 @@ from studio.world.tick import tick
 
 
 def newest(world):
-    """When the newest message on the first link was sent [s]; minus infinity while none has come."""
-    inbox = world.units.posts[0].inbox
-    return inbox[H_TIME, 0] if inbox[H_NUMBER, 0] >= 0 else -np.inf
+    """When the newest message of the leader to its follower was sent [s]; minus infinity while none has come."""
+    post, units = world.units.posts[0], world.units
+    link = post.links[units.number("follower_1"), units.number("leader")]
+    return post.inbox[H_TIME, link] if post.inbox[H_NUMBER, link] >= 0 else -np.inf
 
 
 def received(sample, ticks=500, buildings=None, shadow=True, **radio):
-    """Send times of the newest message on the first link, tick by tick; `buildings` stand there instead of the map's."""
+    """Send times of the newest message of the leader, tick by tick; `buildings` stand there instead of the map's."""
     period = {"messages.awareness.period": radio.pop("period")} if "period" in radio else {}
     changes = {f"radio.{name}": value for name, value in radio.items()} | period | {"traffic.count": 0, "radio.buildings": shadow}
     setting = job.prepare(job.load(sample, changes))

@@ -30,7 +30,7 @@ KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and 
 
 def leaves(owner, path="world"):
     """Everything that a world holds, down to arrays, numbers and texts, with its path."""
-    if path in KNOWN or path.endswith(".owner"):  # what a port is wired to stands with the units
+    if path in KNOWN or path.endswith((".owner", ".log")):  # what a port is wired to stands with the units; a log is a record
         return
     if isinstance(owner, np.ndarray):
         yield path, (owner.dtype, owner.shape, owner.tobytes())

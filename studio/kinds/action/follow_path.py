@@ -10,7 +10,7 @@ from typing import Annotated
 from pydantic import Field
 
 from studio.compiled import compiled
-from studio.kind.settings import Part, VehicleName, number
+from studio.kind.settings import Part, Pooled, VehicleName, number
 from studio.world.maneuver import WHEEL, over, steer
 
 KIND = "action"
@@ -25,7 +25,7 @@ class Settings(Part):
     """Who, and the line."""
 
     vehicle: VehicleName = Field(..., title="Vehicle")
-    line: list[Corner] = Field(
+    line: Annotated[list[Corner], Pooled()] = Field(
         [(0.0, 0.0), (100.0, 0.0)], min_length=2, max_length=1000, title="Line", description="its corners, east and north on the map"
     )
     preview: float = number(0.8, unit="s", title="Preview", description="how far ahead it steers for, at its speed", ge=0.2, le=5)

@@ -10,7 +10,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from studio.compiled import compiled
-from studio.kind.settings import Part, VehicleName
+from studio.kind.settings import Part, Pooled, VehicleName
 from studio.world.condition import ROUNDING
 from studio.world.maneuver import PEDALS, drive, over
 
@@ -26,7 +26,7 @@ class Settings(Part):
     """Who, and the profile."""
 
     vehicle: VehicleName = Field(..., title="Vehicle")
-    points: list[Point] = Field(
+    points: Annotated[list[Point], Pooled()] = Field(
         [(0.0, 20.0), (10.0, 20.0)], min_length=2, max_length=20_000, title="Points", description="seconds since it began, speed [m/s]"
     )
 

@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from studio.application.contract import ACCELERATION, Clock, Command, Own, Targets, accelerate
 from studio.compiled import compiled
+from studio.kind.preset import Preset
 
 KIND = "application"
 TITLE = "Adaptive cruise control (radar only)"
@@ -38,6 +39,16 @@ class Parameters(BaseModel):
         0.0, ge=0.0, le=3.0, title="Response time", description="T, of the first-order lag of what is asked; 0 for none",
         json_schema_extra={"unit": "s"},
     )  # fmt: skip
+
+
+OPENACC = (
+    "estimated with front_radar's preset series_acc_radar, so that lag and gain from car to car are those of eleven series cars in "
+    "OpenACC (JRC, ZalaZONE 2019; M. Makridis et al., TR-C 125 (2021) 103047): lag 1.3 to 1.9 s, gain 1.1 to 1.35 at time gaps of "
+    "1.3 to 1.8 s, 0.9 to 1.05 at 2.3 to 2.6 s"
+)
+PRESETS = {
+    "series": Preset("Series ACC", OPENACC, {"headway": 1.3, "gap_gain": 0.55, "response_time": 0.48, "deceleration_max": 3.5}),
+}
 
 
 class Memory(NamedTuple):

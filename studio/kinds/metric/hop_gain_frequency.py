@@ -7,7 +7,7 @@ from studio.assess.string_stability import hop_peaks
 from studio.kind.metric import Found
 
 KIND = "metric"
-TITLE = "Frequency of the greatest gain from car to car"
+TITLE = "Frequency of greatest gain, car to car"
 UNIT = "Hz"
 BETTER = None
 ABOUT = "from {0} to {1}"

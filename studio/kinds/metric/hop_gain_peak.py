@@ -9,7 +9,7 @@ from studio.assess.string_stability import hop_peaks
 from studio.kind.metric import Found
 
 KIND = "metric"
-TITLE = "Greatest gain over frequency from car to car"
+TITLE = "Greatest gain over frequency, car to car"
 UNIT = "1"
 BETTER = "lower"
 ABOUT = "from {0} to {1}"

@@ -11,7 +11,7 @@ from studio.kind.metric import Scope
 from studio.kind.settings import number
 
 KIND = "metric"
-TITLE = "Greatest deceleration to avoid a crash after a reaction time"
+TITLE = "Deceleration to avoid it after a reaction"
 UNIT = "m/s²"
 BETTER = "lower"
 ABOUT = "{0} behind {1}"

@@ -7,7 +7,7 @@ from studio.assess.string_stability import platoon_peaks
 from studio.kind.metric import Found
 
 KIND = "metric"
-TITLE = "Frequency of the greatest gain from the first to the last car"
+TITLE = "Frequency of greatest gain, whole chain"
 UNIT = "Hz"
 BETTER = None
 ABOUT = "from {0} to {1}"

@@ -1,4 +1,4 @@
-"""Greatest gain over frequency from the first to the last car, over all chains.
+"""Greatest gain over frequency from the first to the last car of a chain; the worst chain counts.
 
 The ratio of the amplitudes of their accelerations, at the frequencies at which the car ahead was excited (studio/assess/string_stability.py
 says how it is found). A string is stable in this sense when no frequency has a gain above 1 (D. Swaroop, J. K. Hedrick, String stability of
@@ -9,7 +9,7 @@ from studio.assess.string_stability import platoon_peaks
 from studio.kind.metric import Found
 
 KIND = "metric"
-TITLE = "Greatest gain over frequency from the first to the last car"
+TITLE = "Greatest gain over frequency, whole chain"
 UNIT = "1"
 BETTER = "lower"
 ABOUT = "from {0} to {1}"

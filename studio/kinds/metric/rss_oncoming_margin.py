@@ -7,7 +7,7 @@ one that is named first is taken for the one in its own lane.
 from studio.assess.rss import Rules, least_margin, oncoming_margin
 
 KIND = "metric"
-TITLE = "Least margin to the RSS distance of oncoming vehicles"
+TITLE = "Least margin to the oncoming RSS distance"
 UNIT = "m"
 BETTER = "higher"
 ABOUT = "{0} and {1}"

@@ -9,7 +9,7 @@ from studio.kind.metric import Scope
 from studio.kind.settings import number
 
 KIND = "metric"
-TITLE = "Share of decisions on stale data, worst link"
+TITLE = "Share of decisions on stale data"
 UNIT = "1"
 BETTER = "lower"
 ABOUT = "{0} heard by {1}"

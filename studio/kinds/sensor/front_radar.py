@@ -56,6 +56,10 @@ PRESETS = {
         "range": 250.0, "opening_angle": 0.35, "range_noise": 0.15, "range_growth": 0.001, "rate_noise": 0.05, "azimuth_noise": 0.0017,
         "delay": 0.08, "delay_variation": 0.01, "period": 0.06,
     }),
+    "series_acc_radar": Preset("Radar of a series ACC", f"{TR_22837}; delay with the tracking filter, estimated together with the ACC's", {
+        "range": 150.0, "opening_angle": 0.35, "range_noise": 0.15, "range_growth": 0.001, "rate_noise": 0.05, "azimuth_noise": 0.0017,
+        "delay": 0.17, "delay_variation": 0.02, "period": 0.06,
+    }),
     "short_range_radar": Preset("Short range radar", TR_22837, {
         "range": 80.0, "opening_angle": 2.4, "range_noise": 0.05, "range_growth": 0.001, "rate_noise": 0.1, "azimuth_noise": 0.017,
         "delay": 0.06, "delay_variation": 0.01, "period": 0.04,

@@ -14,7 +14,7 @@ from studio.kind import registry
 from studio.kind.number import numbers
 from studio.kind.quantity import first_values, width
 from studio.kind.registry import Kind
-from studio.scenario.schema import Application
+from studio.scenario.schema import Application, Scenario
 from studio.world.board import text
 from studio.world.board.equipment import equip, post_of
 from studio.world.board.host import Group, Hosted, Wiring, is_compiled
@@ -32,7 +32,8 @@ class Crew(NamedTuple):
     name: str
     group: Application
     units: tuple[int, ...]
-    radio: str
+    radios: tuple[tuple[str, str], ...]  # of every kind of message at a port of it
+    cycles: int
     rank: int
 
 
@@ -43,7 +44,7 @@ def hosts(settings: Sequence[Setting], units: Units, tick: float) -> tuple[list[
     together: dict[tuple, list[Crew]] = {}
     for crew in crews(settings, units):
         own = -1 if is_compiled(registry.find("application", crew.group.application)) else crew.place
-        together.setdefault((crew.group.priority, crew.group.application, crew.radio, own), []).append(crew)
+        together.setdefault((crew.group.priority, crew.group.application, crew.radios, crew.cycles, own), []).append(crew)
     opened: list[Open] = []
     ordered = sorted(together.items(), key=lambda each: each[0][0])
     return [hosted(registry.find("application", key[1]), found, units, opened) for key, found in ordered], opened
@@ -54,16 +55,22 @@ def crews(settings: Sequence[Setting], units: Units) -> Iterator[Crew]:
     place = 0
     for w, each in enumerate(settings):
         for name, group in each.scenario.applications.items():
-            yield Crew(
-                w,
-                place,
-                name,
-                group,
-                tuple(units.number(unit, w) for unit in group.units),
-                each.scenario.radio.kind,
-                number_of(name, each.scenario),
-            )
+            members = tuple(units.number(unit, w) for unit in group.units)
+            often = cycles(group, each.scenario.clock.tick)
+            yield Crew(w, place, name, group, members, radios(group, each.scenario), often, number_of(name, each.scenario))
             place += 1
+
+
+def radios(group: Application, scenario: Scenario) -> tuple[tuple[str, str], ...]:
+    """Over which kind of radio the messages at the ports of an application go."""
+    module = registry.find("application", group.application).module
+    kinds = sorted({one.kind for one in (*port.seen(module), *port.done(module)) if one.what in (port.INBOX, port.OUTBOX)})
+    return tuple((kind, scenario.radio_of(kind).kind) for kind in kinds)
+
+
+def cycles(group: Application, tick: float) -> int:
+    """How often the units of a group decide within a tick."""
+    return round(tick / group.cycle) if group.cycle else 1
 
 
 def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open]) -> Hosted:
@@ -88,6 +95,7 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
         wiring=[wired(each, found, units, opened) for each in (*port.seen(module), *port.done(module)) if each.what in text.WIRES],
         run=text.loop(application),
         checked=text.checked(module),
+        cycles=found[0].cycles,
     )
 
 
@@ -118,7 +126,7 @@ def sensor_of(name: str, columns: list[int], names: Sequence[str]) -> int:
 
 def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
     """The place of every unit among the senders."""
-    post = post_of(units.posts, one.kind, found[0].radio)
+    post = post_of(units.posts, one.kind, dict(found[0].radios)[one.kind])
     senders = post.senders
     index = np.array([senders[unit] for crew in found for unit in crew.units], dtype=np.int64)
     return Wiring(one, post, ("ring", "last", "fresh"), (index,))
@@ -126,7 +134,7 @@ def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
 
 def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -> Wiring:
     """The links of every unit: those of `listens_to` in its order, or the freshest of all."""
-    post = post_of(units.posts, one.kind, found[0].radio)
+    post = post_of(units.posts, one.kind, dict(found[0].radios)[one.kind])
     links, of_receiver = post.links, post.links_by_receiver
     members = [(crew, i, unit) for crew in found for i, unit in enumerate(crew.units)]
     slots, heard = np.full((one.most, len(members)), -1, dtype=np.int64), np.zeros(len(members), dtype=np.int64)
@@ -137,15 +145,15 @@ def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -
         slots[: len(named), j], heard[j] = named, len(named)
         everybody.append([] if senders else of_receiver.get(unit, []))
     named_any = [bool(crew.group.senders(i)) for crew, i, _ in members]
+    kept = np.array([crew.group.keeps or np.inf for crew, _, _ in members])
     if not all(named_any):
-        opened.append(to_all(post, everybody, named_any, heard, slots))
-    return Wiring(one, post, ("inbox",), (slots, heard))
+        opened.append(to_all(post, everybody, named_any, heard, slots, kept))
+    return Wiring(one, post, ("inbox",), (slots, heard, kept))
 
 
-def to_all(post: Post, everybody: list[list[int]], named: list[bool], heard: np.ndarray, slots: np.ndarray) -> Open:
+def to_all(post: Post, everybody: list[list[int]], named: list[bool], heard: np.ndarray, slots: np.ndarray, kept: np.ndarray) -> Open:
     """The inboxes that hear everybody; units that have named whom they listen to are left as they are, with a count of -1."""
     sizes = np.array([len(each) for each in everybody], dtype=np.int64)
     count = np.where(named, -1, sizes)
-    return Open(
-        post, np.cumsum(sizes) - sizes, count, np.array([link for each in everybody for link in each], dtype=np.int64), heard, slots
-    )
+    links = np.array([link for each in everybody for link in each], dtype=np.int64)
+    return Open(post, np.cumsum(sizes) - sizes, count, links, heard, slots, kept)

@@ -14,7 +14,8 @@ from studio.application.port import INBOX, OUTBOX
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.scenario.schema import Application, Bus
-from studio.world.board.post import Need, Post, post
+from studio.world.board.air import air
+from studio.world.board.post import Known, Need, Post, post
 from studio.world.board.sensing import Mounted, Sensor, mounted
 from studio.world.passes.sight import ROOM, SIGHT
 from studio.world.setting import Car, Setting
@@ -28,6 +29,7 @@ from studio.world.table.unit import (
     SATELLITE,
     SINE,
     SPEED_NOISE,
+    TROUBLE,
     TRUE_X,
     TRUE_Y,
     UNIT,
@@ -53,6 +55,8 @@ def units_of(settings: Sequence[Setting], worlds: Worlds, cars: Sequence[Car], o
         now=np.zeros((len(UNIT), len(parts))),
         gps_set=np.array([[getattr(car.gps, row.name) for row in GPS_SET] for car in cars]).T.copy(),
         satellite=np.zeros((len(SATELLITE), len(cars))),
+        trouble=np.zeros((len(TROUBLE), len(parts))),
+        airs=[],
         sight=np.zeros((len(SIGHT), len(cars) + objects + ROOM)),
         mounted=list(sensors_of(parts, tick)),
         posts=[],
@@ -106,27 +110,43 @@ def sensors_of(parts: Sequence, tick: float) -> Iterator[Mounted]:
 
 def equip(settings: Sequence[Setting], units: Units, number: np.ndarray, tick: float) -> None:
     """Gives the units their posts: for every kind of message that an application sends or hears, on every kind of radio."""
-    radios = list(dict.fromkeys(each.scenario.radio.kind for each in settings))
-    for radio, kind in product(radios, registry.known("message").values()):
-        if any(is_wanted(each, kind, radio) for each in settings):
-            need = need_of(settings, units, kind, radio)
-            units.posts.append(post(kind, registry.find("radio", radio), need, units.entity, number, units.world, tick))
+    names = sorted({one.kind for each in settings for one in radios_in(each)})
+    radios, known = [registry.find("radio", name) for name in names], Known(units.entity, number, units.world)
+    for radio in radios:
+        worlds = [w for w, each in enumerate(settings) if any(one.kind == radio.name for one in radios_in(each))]
+        units.airs.append(air(radio, worlds, radios_of(settings, radio.name), units.entity.size))
+    for (place, radio), kind in product(enumerate(radios), registry.known("message").values()):
+        if any(is_wanted(each, kind, radio.name) for each in settings):
+            units.posts.append(post(kind, radio, place, need_of(settings, units, kind, radio), known, tick))
+
+
+def radios_in(each: Setting) -> list[Any]:
+    """The radios of a world: the usual one, and those of some messages."""
+    return [each.scenario.radio, *each.scenario.radios.values()]
+
+
+def radios_of(settings: Sequence[Setting], radio: str) -> list[Any]:
+    """The settings of a kind of radio in every world; in one that has none of it nobody asks for them."""
+    found = [next((one for one in radios_in(each) if one.kind == radio), None) for each in settings]
+    own = next(one for one in found if one is not None)
+    return [one or own for one in found]
 
 
 def is_wanted(each: Setting, kind: Kind, radio: str) -> bool:
-    """Whether a world has this radio, and an application with a port for a kind of message; else nobody sends it."""
-    modules = [module_of(group) for group in each.scenario.applications.values()] if each.scenario.radio.kind == radio else []
+    """Whether a kind of message goes over this radio in a world, and an application has a port for it; else nobody sends it."""
+    goes = each.scenario.radio_of(kind.name).kind == radio
+    modules = [module_of(group) for group in each.scenario.applications.values()] if goes else []
     ports = [one for module in modules for one in (*port.seen(module), *port.done(module))]
     return any(one.what in (INBOX, OUTBOX) and one.kind == kind.name for one in ports)
 
 
-def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: str) -> Need:
+def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: Kind) -> Need:
     """Who sends and who hears a kind of message, in the worlds with this radio."""
     senders: set[int] = set()
     pairs: list[tuple[int, int]] = []
     most = 0
     for w, each in enumerate(settings):
-        if not is_wanted(each, kind, radio):
+        if not is_wanted(each, kind, radio.name):
             continue
         sending, at_once = senders_of(each, units, w, kind)
         senders |= sending
@@ -134,9 +154,19 @@ def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: str) -
         pairs += [(receiver, sender) for receiver, some in receivers_of(each, units, w, kind) for sender in (some or sending)
                   if sender in sending and sender != receiver]  # fmt: skip
     beacons = [getattr(each.scenario.messages, kind.name, None) for each in settings]
-    own = next(each.scenario.radio for each in settings if each.scenario.radio.kind == radio)
-    airs = [each.scenario.radio if each.scenario.radio.kind == radio else own for each in settings]
-    return Need(sorted(senders), most, pairs, beacons, airs)
+    longest = max(float(radio.module.longest(each)) for each in radios_of(settings, radio.name)) + added_delay(settings)
+    return Need(sorted(senders), most, shortest_cycle(settings), pairs, beacons, longest)
+
+
+def added_delay(settings: Sequence[Setting]) -> float:
+    """The most [s] by which anything in a script delays messages."""
+    return max((getattr(entry.do, "added_delay", 0.0) for each in settings for entry in each.scenario.script.values()), default=0.0)
+
+
+def shortest_cycle(settings: Sequence[Setting]) -> float:
+    """The shortest time [s] between two decisions of an application."""
+    tick = settings[0].scenario.clock.tick
+    return min((group.cycle or tick for each in settings for group in each.scenario.applications.values()), default=tick)
 
 
 def senders_of(each: Setting, units: Units, world: int, kind: Kind) -> tuple[set[int], int]:

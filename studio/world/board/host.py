@@ -32,6 +32,9 @@ REMEDIES = {
 }
 
 
+EARLY = 1e-6  # [ticks] by which rounding may make an instant too early
+
+
 class Group(NamedTuple):
     """An application group of a world: its place among all groups, its name, and which of the hosted units are its."""
 
@@ -73,6 +76,7 @@ class Hosted:
     wrong: np.ndarray  # scratch: the value of that field
     wiring: list[Wiring]
     run: Callable
+    cycles: int = 1  # how often it decides within a tick
     checked: list[str] = field(default_factory=list)  # names of the fields, as faults count them
     ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
@@ -93,14 +97,14 @@ class Hosted:
         return (*own, *(array for each in self.wiring for array in each.arrays))
 
     def decide(self, time: float, tick: float, around: tuple[np.ndarray, ...]) -> Iterator["Fault"]:
-        """All its units decide; their commands go to their vehicles' columns. Returns what went wrong.
+        """All its units decide at a time [s]; their commands go to their vehicles' columns. Returns what went wrong.
 
         `around` are the arrays of the world: settings of units, what they know, commands. All arrays stay where they are.
         """
         try:
             if not self.ready:
                 self.ready["run"] = bound(self.run, *around, *self.arrays, then=(time, tick))
-            faults = self.ready["run"](time, tick)
+            faults = self.ready["run"](time, tick / self.cycles)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())
@@ -112,7 +116,7 @@ class Hosted:
             name = self.checked[number]
             where = f"{self.application.name} on {self.names[j]}: {name}"
             problem = Problem(where, REASONS[reason], f"{self.wrong[j]:g}", allowed(name), REMEDIES[reason])
-            when = f"at tick {round(time / tick)} ({time:g} s)"
+            when = f"at tick {int(time / tick + EARLY)} ({time:g} s)"
             who = f"The application {self.application.name!r} on {self.names[j]!r}"
             bounds = f" (allowed: {problem.allowed})" if problem.allowed else ""
             text = f"{who} gave {name} = {self.wrong[j]:g} {when}, which {REASONS[reason]}{bounds}; {problem.remedy}"

@@ -26,6 +26,7 @@ from studio.world.table.unit import (
     SINE,
     SPEED_NOISE,
     STEERING_NOISE,
+    TRUE_SPEED,
     TRUE_X,
     TRUE_Y,
 )  # fmt: skip
@@ -43,6 +44,7 @@ def carry(vehicle, fixed, state, parameter, mind, commands, places, gps_set, wor
             continue
         now[TRUE_X, u], now[TRUE_Y, u], now[HEADING, u] = state[X, v], state[Y, v], state[PSI, v]
         now[COSINE, u], now[SINE, u] = places[COS, v], places[SIN, v]
+        now[TRUE_SPEED, u] = state[V_X, v]
         now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]
         now[OWN_SPEED, u], now[OWN_ACCELERATION, u] = state[V_X, v], state[A_X, v]
         now[OWN_YAW_RATE, u], now[OWN_STEERING, u] = state[YAW_RATE, v], state[DELTA, v]

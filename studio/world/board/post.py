@@ -1,16 +1,18 @@
 """Messages: who sends, what is under way, and what every link has heard last. One Post per kind of message and kind of radio.
 
 A message that is sent gets a slot in a ring of its sender. On every link of that sender the radio decides at once whether it is lost and
-when it is there; a receiver looks at every tick which slots have come in. Nothing is drawn in the order of calls: delay and loss
-depend on seed, sender, receiver and the message's number only.
+when it is there; a receiver looks at every instant at which it may act which slots have come in. Nothing is drawn in the order of calls:
+delay and loss depend on seed, sender, receiver and the message's number, and on what a radio remembers of the link.
 
-At a tick: beacons go out, then what has come in by now is taken; what applications send goes out after they have decided.
+At a tick: beacons go out, then what has come in by now is taken; what applications send goes out after they have decided. Units whose
+cycle is shorter than the tick take what has come in, and send, at instants between two ticks as well. Times are those of sending and
+arriving, whatever the instant at which somebody looks. What was sent, and what became of it on every link, is written into a log.
 """
 
 import traceback
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from math import ceil, inf, sqrt
+from math import ceil, inf, nan, sqrt
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -22,15 +24,20 @@ from studio.compiled import bound, inlined, lean
 from studio.errors import ApplicationError
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
-from studio.kind.quantity import width
+from studio.kind.quantity import quantities, width
 from studio.kind.registry import Kind
-from studio.model.random import uniform
 from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import walls_between
 from studio.rows import Moving
+from studio.world.board.air import EARLY, Air, remembered
 from studio.world.board.host import Fault
+from studio.world.board.log import Log, log_link
+from studio.world.board.sensing import stored
+from studio.world.table.cause import ABSENT, DROPPED, JAMMED, OUT_OF_RANGE, RECEIVED
 from studio.world.table.unit import (
+    COSINE,
     DRIFT,
+    DROPS,
     H_CAME,
     H_MISSED,
     H_NUMBER,
@@ -41,61 +48,92 @@ from studio.world.table.unit import (
     HEIGHT,
     OFFSET,
     OWN_FIRST,
-    OWN_SPEED,
     PRESENT,
     S_NUMBER,
+    S_SIZE,
     S_STAMP,
     S_TIME,
     S_X,
     S_Y,
     SENT,
+    SINE,
+    TRUE_SPEED,
     TRUE_X,
     TRUE_Y,
 )  # fmt: skip
-from studio.world.view import Draw, Way
+from studio.world.table.unit import JAMMED as IS_JAMMED
+from studio.world.view import Way
 
-EARLY = 1e-9  # [s] a delay that is a whole number of ticks must not come a tick late by rounding
 SENT_ROWS, HEARD_ROWS = len(SENT), len(HEARD)
-PAIR = 65536  # a link is numbered receiver · PAIR + sender
 
 TEXT = '''"""Messages of the kind {name} on the radio {radio}."""
 
 from studio.application.contract import Own
 from studio.compiled import lean
-from studio.world.board.post import arrival_on, draws, receive, send, way_of
-from studio.world.table.unit import PRESENT
-from {radio_module} import SettingsTuple as Radio, transmit
+from studio.world.board.air import occupy
+from studio.world.board.log import log_message
+from studio.world.board.post import hindrance, is_free, receive, send, settle, way_of
+from studio.world.table.cause import RECEIVED
+from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_X, S_Y
+from studio.world.view import Draw, Sent, Turn
+from {radio_module} import SettingsTuple as Radio, {radio_parts}
 {imports}
 
 @lean
-def dispatch(size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
-             link_receiver, arrival, lost, time):
+def dispatch({given}):
     for i in range(sender.size):
         if fresh[i] == 0:
             continue
-        for link in range(link_first[i], link_first[i + 1]):
-            u, j = link_receiver[link], world_of[sender[i]]
-            for number in range(last[i] - fresh[i] + 1, last[i] + 1):
-                slot = number % arrival.shape[0]
-                way = way_of(i, sender[i], u, slot, size, reach[j], place_of[j], shadow, fixed, now, ring, sender.size)
-                found = transmit(Radio({air}), way, draws(entity[u], entity[sender[i]], stream, seed[j], number))
-                arrival[slot, link] = arrival_on(time, found, way, reach[j], u, link, now, lost)
+        s = sender[i]
+        j = world_of[s]
+        radio = Radio({air})
+        for number in range(last[i] - fresh[i] + 1, last[i] + 1):
+            slot = number % arrival.shape[0]
+            column = slot * sender.size + i
+            time, size, wait = ring[S_TIME, column], ring[S_SIZE, column], 0.0
+            log_message(time, s, number, size, log_message_rows, log_count)
+{admission}            for link in range(link_first[i], link_first[i + 1]):
+                u = link_receiver[link]
+                way = way_of(s, u, column, wait, reach[j], place_of[j], shadow, fixed, now, load, ring)
+                cause, delay = hindrance(way.distance, reach[j], s, u, now, trouble), 0.0
+                if cause == RECEIVED:
+                    {found} = transmit(radio, way, Draw(seed[j], entity[u], entity[s], stream, number, common){memory})
+{store}                    cause, delay = int(found.lost), found.delay + trouble[ADDED, s]
+                settle(slot, link, time, cause, delay, way.distance, arrival, lost, log_links, log_causes, log_delays, log_distances,
+                       log_count)
+            trouble[DROPS, s] = max(trouble[DROPS, s] - 1.0, 0.0)
         fresh[i] = 0
 
 
 @lean
-def exchange(period, settings, link_sender, inbox, size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender,
-             fresh, last, ring, link_first, link_receiver, arrival, lost, k, time, tick):
+def exchange(period, settings, kept, link_sender, inbox, gap, {given}, k, now_time):
 {beacons}
-    dispatch(size, stream, reach, air, world_of, entity, seed, place_of, shadow, fixed, now, sender, fresh, last, ring, link_first,
-             link_receiver, arrival, lost, time)
-    receive(time, tick, sender.size, last, ring, link_sender, arrival, inbox)
+    dispatch({given})
+    receive(now_time, sender.size, last, ring, link_sender, arrival, inbox)
 '''
+GIVEN = (
+    "stream, common, air, reach, within, busy, load, cell, world_of, unit_first, entity, seed, place_of, shadow, fixed, now, trouble, "
+    "sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
+    "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
+)
+ADMISSION = """            wait, remembered = admit(radio, Sent(time, ring[S_X, column], ring[S_Y, column], size), Cell({cell}))
+"""
+OCCUPATION = """            spent = airtime(radio, size)
+            occupy(j, ring[S_X, column], ring[S_Y, column], within[j], spent, world_of, unit_first, now, busy)
+"""
 BEACONS = """    for i in range(sender.size):
         u = sender[i]
         j = world_of[u]
-        if now[PRESENT, u] > 0.0 and (k + entity[u]) % period[j] == 0:
-            send(i, u, time, fixed, beacon(Own({own}), SettingsTuple({settings})), now, ring, last, fresh)"""
+        if now[PRESENT, u] > 0.0 and (k + entity[u]) % period[j] == 0{free}:
+            own = Own({own})
+            chosen = SettingsTuple({settings})
+{due}            payload = beacon(own, chosen{remembered})
+            send(i, u, now_time, fixed, {size}, payload, now, ring, last, fresh)"""
+DUE = """            turn = Turn(now_time * (1.0 + fixed[DRIFT, u]) + fixed[OFFSET, u], gap[u], load[u])
+            is_due, remembered = due(own, chosen, Memory({kept}), turn)
+{store}            if not is_due:
+                continue
+"""
 
 
 @dataclass
@@ -104,13 +142,13 @@ class Post:
 
     kind: Kind
     radio: Kind
+    air: int  # number of the air that it shares with others
     worlds: tuple[int, ...]
     is_of_applications: bool  # whether applications send it, besides or instead of beacons
-    sender: np.ndarray  # units that send it
+    sender: np.ndarray  # units that send it, world after world, as chance numbers them
     period: np.ndarray  # [ticks] per world, of beacons
     settings: np.ndarray  # of beacons, [row, world]
-    air: np.ndarray  # settings of the radio, [row, world]
-    reach: np.ndarray  # [m] per world, beyond it nothing is heard
+    kept: Moving  # what senders remember of beacons, [row, sender]
     ring: Moving
     last: Moving  # number of the newest message per sender
     fresh: Moving  # messages per sender that the radio has not decided about
@@ -119,42 +157,45 @@ class Post:
     link_receiver: np.ndarray  # unit
     arrival: Moving  # [s] float64[slot, link], infinite for a message that is lost
     lost: Moving  # messages lost so far, per link
+    memory: Moving  # what the radio remembers, [row, link]
     inbox: Moving  # [row, link]
+    log: Log
     dispatch: Callable  # the radio decides about what was sent
     exchange: Callable  # beacons go out, the radio decides, what has come in is taken
     ready: dict[str, Callable] = field(default_factory=dict)  # the same with all arrays given, once they have been called
 
-    def exchanged(self, k: int, time: float, tick: float, around: tuple) -> Iterable[Fault]:
+    def exchanged(self, k: int, time: float, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
-        own = () if "exchange" in self.ready else (self.period, self.settings, self.link_sender, self.inbox, *self.given(around))
-        return self.called("exchange", own, (k, time, tick))
+        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.link_sender, self.inbox, air.gap)
+        return self.called("exchange", own, air, around, (k, time))
 
-    def dispatched(self, time: float, around: tuple) -> Iterable[Fault]:
+    def dispatched(self, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `dispatch` when applications have sent something, likewise."""
         if not self.is_of_applications or not self.fresh.any():
             return ()
-        return self.called("dispatch", () if "dispatch" in self.ready else self.given(around), (time,))
+        return self.called("dispatch", (), air, around, ())
 
-    def called(self, name: str, arrays: tuple, now: tuple) -> Iterable[Fault]:
+    def called(self, name: str, own: tuple, air: Air, around: tuple, now: tuple) -> Iterable[Fault]:
         """A message or radio that raises ends the runs of all worlds that have it; told with the traceback."""
+        self.log.make_room()
         try:
             if name not in self.ready:
-                self.ready[name] = bound(getattr(self, name), *arrays, then=now)
+                self.ready[name] = bound(getattr(self, name), *own, *self.given(air, around), then=now)
             self.ready[name](*now)
         except (Exception, SystemExit):
             text = f"The message {self.kind.name!r} on the radio {self.radio.name!r} cannot be sent:\n{traceback.format_exc()}"
             return (Fault(self.worlds, ApplicationError(text)),)
         return ()
 
-    def given(self, around: tuple) -> tuple:
-        """What the radio decides about, and what it looks at for that."""
-        own = (self.sender, self.fresh, self.last, self.ring, self.link_first, self.link_receiver, self.arrival, self.lost)
-        return (self.size, self.stream, self.reach, self.air, *around, *own)
+    def given(self, air: Air, around: tuple) -> tuple:
+        """What the radio decides about, and what it looks at for that, as GIVEN names it."""
+        of_air = (self.radio.stream, air.settings, air.reach, air.within, air.busy, air.load, air.cell)
+        links = (self.link_first, self.link_receiver, self.arrival, self.lost, self.memory)
+        return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
 
-    @property
-    def size(self) -> float:
-        """Bytes of one message."""
-        return float(self.kind.module.SIZE)
+    def received(self, time: float) -> None:
+        """What has come in between two ticks is taken."""
+        receive(time, self.sender.size, self.last, self.ring, self.link_sender, self.arrival, self.inbox)
 
     @property
     def stream(self) -> int:
@@ -190,56 +231,71 @@ class Open(NamedTuple):
     links: np.ndarray
     heard: np.ndarray
     slots: np.ndarray
+    kept: np.ndarray  # [s] per unit, for how long what was heard counts
 
 
 class Need(NamedTuple):
-    """What a post is made for: units that send, how many messages at once, pairs
-    (receiver, sender), settings per world."""
+    """What a post is made for: units that send, how many messages at once and how often [s], pairs (receiver, sender), settings per
+    world, the longest delay [s]."""
 
     senders: Sequence[int]
     at_once: int
+    cycle: float
     pairs: Sequence[tuple[int, int]]
     beacons: Sequence[Any]
-    radios: Sequence[Any]
+    longest: float
+
+
+class Known(NamedTuple):
+    """Of all units: how chance tells them apart, their numbers in their worlds, and their worlds."""
+
+    entity: np.ndarray
+    number: np.ndarray
+    world_of: np.ndarray
 
 
 # -- at the start --------------------------------------------------------------------------------------
 
 
-def post(kind: Kind, radio: Kind, need: Need, entity: np.ndarray, number: np.ndarray, world_of: np.ndarray, tick: float) -> Post:
-    """Nothing has been sent. `entity`, `number` and `world_of` are those of all units."""
-    sender = np.array(sorted(need.senders), dtype=np.int64)
+def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: float) -> Post:
+    """Nothing has been sent. The radio looks at senders as chance numbers them, so that their order in a file changes nothing."""
+    entity, world_of = units.entity, units.world_of
+    sender = np.array(sorted(need.senders, key=lambda unit: (world_of[unit], entity[unit])), dtype=np.int64)
     index = {int(unit): i for i, unit in enumerate(sender)}
-    pairs = sorted(((index[s], r) for r, s in set(need.pairs)), key=lambda each: each)
-    links = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+    pairs = sorted((index[s], world_of[r], entity[r], r) for r, s in set(need.pairs))
+    links = np.array([(s, r) for s, _, _, r in pairs], dtype=np.int64).reshape(-1, 2).T
     periods = np.array([round(each.period / tick) if hasattr(each, "period") else 1 for each in need.beacons], dtype=np.int64)
-    slots = slots_of(radio, need, periods, tick)
+    slots = slots_of(need, periods, tick)
     carried = width(kind.module.Payload)
     inbox = np.zeros((len(HEARD) + carried, links.shape[1]))
     inbox[H_NUMBER] = -1.0
-    inbox[H_SENDER] = number[sender[links[0]]]
+    inbox[H_SENDER] = units.number[sender[links[0]]]
     ring = np.zeros((len(SENT) + carried, slots * sender.size))
     ring[S_NUMBER] = -1.0
-    has_beacon, loops = hasattr(kind.module, "beacon"), written_for(kind, radio)
+    has_beacon, is_regular, loops = hasattr(kind.module, "beacon"), not hasattr(kind.module, "due"), written_for(kind, radio)
+    first = [before_first(int(entity[u]), int(periods[world_of[u]])) if has_beacon and is_regular else -1 for u in sender]
+    most = 1 + need.at_once
     return Post(
         kind=kind,
         radio=radio,
+        air=air,
         worlds=tuple(sorted({int(world_of[unit]) for unit in need.senders})),
         is_of_applications=need.at_once > 0,
         sender=sender,
         period=periods,
         settings=np.array([numbers(each) if has_beacon else [] for each in need.beacons]).T.copy(),
-        air=np.array([numbers(each) for each in need.radios]).T.copy(),
-        reach=np.array([float(radio.module.reach(each)) for each in need.radios]),
+        kept=remembered(kind.module, "Memory", sender.size),
         ring=ring,
-        last=np.array([before_first(int(entity[u]), int(periods[world_of[u]])) if has_beacon else -1 for u in sender], dtype=np.int64),
+        last=np.array(first, dtype=np.int64),
         fresh=np.zeros(sender.size, dtype=np.int64),
         link_first=np.searchsorted(links[0], np.arange(sender.size + 1)),
         link_sender=links[0].copy(),
         link_receiver=links[1].copy(),
         arrival=np.full((slots, links.shape[1]), inf),
         lost=np.zeros(links.shape[1], dtype=np.int64),
+        memory=remembered(radio.module, "Memory", links.shape[1]),
         inbox=inbox,
+        log=Log((most * sender.size, most * links.shape[1])),
         dispatch=loops.dispatch,
         exchange=loops.exchange,
     )
@@ -250,41 +306,89 @@ def before_first(entity: int, period: int) -> int:
     return ceil(entity / period) - 1
 
 
-def slots_of(radio: Kind, need: Need, periods: np.ndarray, tick: float) -> int:
-    """How many messages of one sender can be under way, and two more. Applications may send some at every tick."""
-    longest = max(float(radio.module.longest(each)) for each in need.radios)
-    shortest = 1 if need.at_once else int(periods.min())
-    return (int(longest / (tick * shortest)) + 2) * max(need.at_once, 1) + 1
+def slots_of(need: Need, periods: np.ndarray, tick: float) -> int:
+    """How many messages of one sender can be under way, and two more. Applications may send some at every instant."""
+    shortest = need.cycle if need.at_once else tick * int(periods.min())
+    return (int(need.longest / shortest + EARLY) + 2) * max(need.at_once, 1) + 1
 
 
 def written_for(kind: Kind, radio: Kind) -> ModuleType:
     """The loops for a kind of message on a kind of radio."""
-    module, has_beacon = kind.module, hasattr(kind.module, "beacon")
-    tuple_of(radio.module, radio.module.Settings)
+    module, air = kind.module, radio.module
+    tuple_of(air, air.Settings)
+    fields = quantities(air.Memory) if hasattr(air, "Memory") else []
+    parts = [part for part in ("transmit", "airtime", "admit", "Cell") if hasattr(air, part)]
     source = TEXT.format(
         name=kind.name,
         radio=radio.name,
-        radio_module=radio.module.__name__,
-        air=spelled([each.size for each in shapes(radio.module.Settings)], "air"),
-        imports=f"from {module.__name__} import SettingsTuple, beacon\n" if has_beacon else "",
-        beacons=beacons(module) if has_beacon else "",
+        radio_module=air.__name__,
+        radio_parts=", ".join([*parts, *(["Memory as Link"] if fields else [])]),
+        given=GIVEN,
+        air=spelled([each.size for each in shapes(air.Settings)], "air"),
+        imports=imports(module),
+        admission=admission(air),
+        found="found, remembered" if fields else "found",
+        memory=f", Link({spelled([each.size for each in fields], 'memory', 'link')})" if fields else "",
+        store=stored(fields, "link", " " * 20),
+        beacons=beacons(module, hasattr(air, "control")) if hasattr(module, "beacon") else "    pass",
     )
     return written(f"post_{kind.name}_{radio.name}", source, kind, radio)
 
 
-def beacons(module: ModuleType) -> str:
+def imports(module: ModuleType) -> str:
+    """What the loops take from the file of a kind of message."""
+    parts = [part for part in ("beacon", "due", "Memory", "size") if hasattr(module, part)]
+    named = ["size as size_of" if part == "size" else part for part in parts]
+    return f"from {module.__name__} import {', '.join(['SettingsTuple', *named])}\n" if hasattr(module, "beacon") else ""
+
+
+def admission(air: ModuleType) -> str:
+    """The lines that let a message into a network of cells, and onto a channel."""
+    fields = quantities(air.Cell) if hasattr(air, "admit") else []
+    text = ADMISSION.format(cell=spelled([each.size for each in fields], "cell")) + stored(fields, "j", " " * 12, "cell") if fields else ""
+    return text + OCCUPATION if hasattr(air, "airtime") else text
+
+
+def beacons(module: ModuleType, is_controlled: bool) -> str:
     """The lines that send what every unit sends by itself."""
     tuple_of(module, module.Settings)
-    own = ", ".join(f"now[{OWN_FIRST + i}, u]" for i in range(len(Own._fields)))
-    return BEACONS.format(own=own, settings=spelled([each.size for each in shapes(module.Settings)], "settings"))
+    is_regular = not hasattr(module, "due")
+    return BEACONS.format(
+        free=" and is_free(i, now_time, gap[u], last, ring)" if is_controlled and is_regular else "",
+        own=", ".join(f"now[{OWN_FIRST + i}, u]" for i in range(len(Own._fields))),
+        settings=spelled([each.size for each in shapes(module.Settings)], "settings"),
+        due="" if is_regular else due(module),
+        remembered="" if is_regular else ", remembered",
+        size=spelled_size(module, "size_of", "payload"),
+    )
+
+
+def due(module: ModuleType) -> str:
+    """The lines that ask whether a beacon is sent now."""
+    fields = quantities(module.Memory)
+    kept = spelled([each.size for each in fields], "kept", "i")
+    return DUE.format(kept=kept, store=stored(fields, "i", " " * 12, "kept"))
+
+
+def spelled_size(module: ModuleType, function: str, payload: str) -> str:
+    """The bytes of a message in the text of a loop: what its file says of the payload, or the same for all."""
+    return f"{function}({payload}) * 1.0" if hasattr(module, "size") else f"{float(module.SIZE)}"
 
 
 # -- sending -------------------------------------------------------------------------------------------
 
 
 @inlined
-def send(i, unit, time, fixed, payload, now, ring, last, fresh):
-    """Sender i, which is `unit`, sends: the message stands in the ring until the radio has decided."""
+def is_free(i, time, gap, last, ring):
+    """Whether congestion control lets sender i send by itself [s]."""
+    senders = last.size
+    column = last[i] % (ring.shape[1] // senders) * senders + i
+    return ring[S_NUMBER, column] != last[i] or time - ring[S_TIME, column] >= gap - EARLY
+
+
+@inlined
+def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
+    """Sender i, which is `unit`, sends some bytes: the message stands in the ring until the radio has decided."""
     last[i] += 1
     senders = last.size
     column = last[i] % (ring.shape[1] // senders) * senders + i
@@ -292,6 +396,7 @@ def send(i, unit, time, fixed, payload, now, ring, last, fresh):
     ring[S_TIME, column] = time
     ring[S_STAMP, column] = time * (1.0 + fixed[DRIFT, unit]) + fixed[OFFSET, unit]
     ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
+    ring[S_SIZE, column] = size
     row = SENT_ROWS
     for value in literal_unroll(payload):
         ring[row, column] = value * 1.0
@@ -300,38 +405,54 @@ def send(i, unit, time, fixed, payload, now, ring, last, fresh):
 
 
 @inlined
-def way_of(i, sender, receiver, slot, size, reach, place, shadow, fixed, now, ring, senders):
+def way_of(sender, receiver, column, wait, reach, place, shadow, fixed, now, load, ring):
     """The way from a message's antenna to a receiver's; walls are counted within reach only."""
-    column = slot * senders + i
     x0, y0, x1, y1 = ring[S_X, column], ring[S_Y, column], now[TRUE_X, receiver], now[TRUE_Y, receiver]
     distance, walls, inside = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), 0.0, 0.0
     if distance <= reach and shadow.grid.frame[COLUMNS, place] > 0.0:
         walls, inside = walls_between(shadow, place, x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver])
-    return Way(distance, float(walls), inside, size, now[OWN_SPEED, receiver])
+    return Way(
+        distance, float(walls), inside, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
+        approach_of(sender, receiver, x1 - x0, y1 - y0, distance, now), ring[S_TIME, column],
+        x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver], load[sender], load[receiver], wait,
+    )  # fmt: skip
 
 
 @inlined
-def draws(receiver, sender, stream, seed, number):
-    """Chance's part in message `number` from one unit to another, which chance knows by these numbers."""
-    link = receiver * PAIR + sender
-    return Draw(uniform(seed, link, stream, number), uniform(seed, link, stream + 1, number))
+def approach_of(sender, receiver, dx, dy, distance, now):
+    """How fast two units come nearer to each other [m/s], along the line between them (dx, dy)."""
+    v_x = now[TRUE_SPEED, receiver] * now[COSINE, receiver] - now[TRUE_SPEED, sender] * now[COSINE, sender]
+    v_y = now[TRUE_SPEED, receiver] * now[SINE, receiver] - now[TRUE_SPEED, sender] * now[SINE, sender]
+    return -(dx * v_x + dy * v_y) / max(distance, 1e-3)
 
 
 @inlined
-def arrival_on(time, found, way, reach, receiver, link, now, lost):
-    """When a message is there [s]; infinite when it is lost."""
-    if found.lost or way.distance > reach or now[PRESENT, receiver] == 0.0:
-        lost[link] += 1
-        return inf
-    return time + found.delay
+def hindrance(distance, reach, sender, receiver, now, trouble):
+    """Why a message cannot arrive, whatever the radio says; RECEIVED when it can."""
+    if now[PRESENT, receiver] == 0.0:
+        return ABSENT
+    if distance > reach:
+        return OUT_OF_RANGE
+    if trouble[DROPS, sender] > 0.0:
+        return DROPPED
+    return JAMMED if trouble[IS_JAMMED, receiver] > 0.0 else RECEIVED
+
+
+@inlined
+def settle(slot, link, time, cause, delay, distance, arrival, lost, links, causes, delays, distances, count):
+    """Writes down what becomes of a message that was sent at a time [s] on one link."""
+    arrival[slot, link] = time + delay if cause == RECEIVED else inf
+    lost[link] += cause != RECEIVED
+    if cause != OUT_OF_RANGE:
+        log_link(link, cause, delay if cause == RECEIVED else nan, distance, links, causes, delays, distances, count)
 
 
 # -- receiving -----------------------------------------------------------------------------------------
 
 
 @lean
-def receive(time, tick, sender_count, last, ring, link_sender, arrival, inbox):
-    """Every link takes the newest of the messages that have come in since the last tick."""
+def receive(time, sender_count, last, ring, link_sender, arrival, inbox):
+    """Every link takes the newest of the messages that have come in."""
     slots = arrival.shape[0]
     for link in range(link_sender.size):
         i = link_sender[link]
@@ -340,9 +461,9 @@ def receive(time, tick, sender_count, last, ring, link_sender, arrival, inbox):
             column = slot * sender_count + i
             if ring[S_NUMBER, column] != number:
                 break
-            if time - tick < arrival[slot, link] - EARLY <= time:
+            if arrival[slot, link] - EARLY <= time:
                 inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, sender_count, ring, arrival)
-                take(time, number, column, link, ring, inbox)
+                take(arrival[slot, link], number, column, link, ring, inbox)
                 break
 
 
@@ -361,19 +482,19 @@ def lost_since(before, number, i, link, sender_count, ring, arrival):
 
 
 @lean
-def take(time, number, column, link, ring, inbox):
-    """A message comes in."""
-    inbox[H_NUMBER, link], inbox[H_CAME, link] = number, time
+def take(came, number, column, link, ring, inbox):
+    """A message comes in, which was there at a time [s]."""
+    inbox[H_NUMBER, link], inbox[H_CAME, link] = number, came
     inbox[H_TIME, link], inbox[H_STAMP, link] = ring[S_TIME, column], ring[S_STAMP, column]
     for row in range(ring.shape[0] - SENT_ROWS):
         inbox[HEARD_ROWS + row, link] = ring[SENT_ROWS + row, column]
 
 
 @lean
-def freshest(first, count, links, inbox, heard, slots):
+def freshest(time, first, count, links, kept, inbox, heard, slots):
     """For every car j, the links among `links[first[j]]` and the next `count[j]` that have heard something, the freshest first.
 
-    One with a count below zero is left as it is.
+    What was sent longer ago than `kept[j]` [s] is forgotten. One with a count below zero is left as it is.
     """
     most = slots.shape[0]
     for j in range(first.size):
@@ -383,7 +504,7 @@ def freshest(first, count, links, inbox, heard, slots):
         slots[:, j] = -1
         for p in range(first[j], first[j] + count[j]):
             link = links[p]
-            if inbox[H_NUMBER, link] < 0.0:
+            if inbox[H_NUMBER, link] < 0.0 or time - inbox[H_TIME, link] > kept[j]:
                 continue
             place = min(heard[j], most)
             while place > 0 and inbox[H_TIME, slots[place - 1, j]] < inbox[H_TIME, link]:

@@ -267,11 +267,11 @@ def loop(kind: Kind) -> Callable:
     return written(f"sensor_{kind.name}", source, kind).run
 
 
-def stored(fields: Sequence[Quantity], column: str, indent: str) -> str:
-    """Lines that put what was remembered into the rows of `memory`."""
+def stored(fields: Sequence[Quantity], column: str, indent: str, array: str = "memory") -> str:
+    """Lines that put what was remembered into the rows of an array."""
     lines, row = [], 0
     for each in fields:
         parts = [f"[{i}]" for i in range(each.size)] if each.size > 1 else [""]
-        lines += [f"{indent}memory[{row + i}, {column}] = remembered.{each.name}{part}\n" for i, part in enumerate(parts)]
+        lines += [f"{indent}{array}[{row + i}, {column}] = remembered.{each.name}{part}\n" for i, part in enumerate(parts)]
         row += each.size
     return "".join(lines)

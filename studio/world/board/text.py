@@ -22,7 +22,8 @@ from studio.kind.number import shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, quantities
 from studio.kind.registry import Kind
 from studio.world.board.host import NOT_FINITE, NOT_ITS_OWN, OUT_OF_RANGE, is_compiled
-from studio.world.table.unit import H_CAME, H_MISSED, H_NUMBER, H_SENDER, H_STAMP, HEARD, MEASURED, OWN_FIRST
+from studio.world.board.post import spelled_size
+from studio.world.table.unit import H_CAME, H_MISSED, H_NUMBER, H_SENDER, H_STAMP, H_TIME, HEARD, MEASURED, OWN_FIRST
 
 HEAD = '''"""Calls {name} for all its units."""
 
@@ -149,7 +150,8 @@ def short(value: Any) -> str:
     return text if len(text) <= 60 else f"{text[:59]}…"
 
 
-WIRES = {TARGETS: "abc", INBOX: "abc", OUTBOX: "abcd"}  # out, health, column; inbox, links, how many; ring, last, fresh, sender
+# out, health, column; inbox, links, how many, for how long; ring, last, fresh, sender
+WIRES = {TARGETS: "abc", INBOX: "abcd", OUTBOX: "abcd"}
 
 
 # -- the text --------------------------------------------------------------------------------------------
@@ -166,7 +168,9 @@ def source(application: Kind) -> str:
     return HEAD.format(
         name=application.name,
         module=module.__name__,
-        imports="\n".join(f"from {kind_of(each).module.__name__} import {part_of(each)} as {part_of(each)}{i}" for i, each in seen),
+        imports="\n".join(
+            [*(imported(each, part_of(each), i) for i, each in seen), *(imported(each, "size", i) for i, each in sized(sent))]
+        ),
         parts="\n".join(part(i, each) for i, each in seen),
         above="@lean\n" if is_compiled(application) else "",
         arguments="".join(f", {letter}{i}" for i, each in [*seen, *sent] for letter in WIRES[each.what]),
@@ -185,6 +189,16 @@ def wired(ports: list[Port], which: tuple[str, ...], first: int = 0) -> Iterator
 def kind_of(each: Port) -> Kind:
     """The kind that a port is about."""
     return registry.find(port.WITH_KIND[each.what], each.kind)
+
+
+def imported(each: Port, part: str, i: int) -> str:
+    """The line that takes a part of a kind's file, numbered like its port."""
+    return f"from {kind_of(each).module.__name__} import {part} as {part}{i}"
+
+
+def sized(sent: list[tuple[int, Port]]) -> Iterator[tuple[int, Port]]:
+    """Those of some ports whose messages are as large as what they carry."""
+    return ((i, each) for i, each in sent if hasattr(kind_of(each).module, "size"))
 
 
 def part_of(each: Port) -> str:
@@ -214,13 +228,16 @@ def read{i}(out, health, s, most, time, offset, rate):
 MESSAGE = """
 
 @inlined
-def read{i}(inbox, link, now, offset, rate):
+def read{i}(inbox, link, kept, time, offset, rate):
+    now = time * rate + offset
     if link < 0 or inbox[{number}, link] < 0.0:
         return Heard(False, 0.0, now, 0.0, 0.0, Payload{i}({blank}))
     stamp, came = inbox[{stamp}, link], inbox[{came}, link] * rate + offset
+    if time - inbox[{time}, link] > kept:
+        return Heard(False, 0.0, now - stamp, 0.0, 0.0, Payload{i}({blank}))
     return Heard(True, inbox[{sender}, link], now - stamp, came - stamp, inbox[{missed}, link], Payload{i}({payload}))
 """
-ROWS = {"number": H_NUMBER, "stamp": H_STAMP, "came": H_CAME, "sender": H_SENDER, "missed": H_MISSED}
+ROWS = {"number": H_NUMBER, "time": H_TIME, "stamp": H_STAMP, "came": H_CAME, "sender": H_SENDER, "missed": H_MISSED}
 
 
 def total(of: list[Quantity]) -> int:
@@ -253,7 +270,7 @@ def seeing(each: Port, seen: list[tuple[int, Port]]) -> str:
     i = next(i for i, other in seen if other == each)
     if each.what == TARGETS:
         return f"{each.name}=read{i}(a{i}, b{i}, c{i}[0, j], {each.most}, time, offset, rate)"
-    messages = ", ".join(f"read{i}(a{i}, b{i}[{k}, j], time * rate + offset, offset, rate)" for k in range(each.most))
+    messages = ", ".join(f"read{i}(a{i}, b{i}[{k}, j], d{i}[j], time, offset, rate)" for k in range(each.most))
     return f"{each.name}=Inbox(c{i}[j], ({messages},))"
 
 
@@ -340,9 +357,11 @@ def sends(sent: list[tuple[int, Port]]) -> Iterator[str]:
     for i, each in sent:
         of = quantities(kind_of(each).module.Payload)
         for k in range(each.most):
-            payload = ", ".join(f"does.{each.name}.message[{k}].{one.name}{at}" for one in of for at in ones(one))
+            given = f"does.{each.name}.message[{k}]"
+            payload = ", ".join(f"{given}.{one.name}{at}" for one in of for at in ones(one))
+            size = spelled_size(kind_of(each).module, f"size{i}", given)
             yield f"if does.{each.name}.count > {k}:"
-            yield f"    send(d{i}[j], u, time, fixed, ({payload},), now, a{i}, b{i}, c{i})"
+            yield f"    send(d{i}[j], u, time, fixed, {size}, ({payload},), now, a{i}, b{i}, c{i})"
 
 
 def loop(application: Kind) -> Callable:

@@ -15,6 +15,7 @@ from studio.road.network.signals import RED
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, ROLL, V_X, X, Y
+from studio.world.board.air import EARLY
 from studio.world.board.host import Hosted
 from studio.world.table.event import (
     ARRIVED,
@@ -306,7 +307,7 @@ def is_new_hand(i, v, time, mind, hands, since):
 def notice_messages(time, tick, inbox, link_receiver, sender, link_sender, unit_world, unit_first, now, table, count):
     """Messages that came at this tick after others had been lost, as their numbers tell."""
     for link in range(link_receiver.size):
-        if inbox[H_MISSED, link] > 0.0 and abs(inbox[H_CAME, link] - time) < 0.5 * tick:
+        if inbox[H_MISSED, link] > 0.0 and time - tick < inbox[H_CAME, link] - EARLY <= time:
             u, s = link_receiver[link], sender[link_sender[link]]
             w = unit_world[u]
             receiver, other, missed = u - unit_first[w], s - unit_first[w], inbox[H_MISSED, link]

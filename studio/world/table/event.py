@@ -46,4 +46,6 @@ COMMAND_TAKEN = event("takes_over", "{by} takes over {what} from {before}", "by"
 COMMAND_GIVEN = event("gives_back", "{before} gives {what} back to {by}", "by", "what", "before")
 MESSAGE_LOST = event("message_lost", "messages of {1} lost before the one that came: {missed:.0f}", missed="1")
 NOTICE_SHOWN = event("notice_shown", "shows the driver: {sentence}", "sentence")
+NEAR_MISS = event("near_miss", "comes near {1}: {ttc:.2f} s to a collision", ttc="s")
+HARD_BRAKE = event("hard_brake", "brakes hard, with up to {deceleration:.1f} m/s²", deceleration="m/s²")
 FAILED = event("failed", "failed: {reason}", "reason")

@@ -9,6 +9,7 @@ from studio.rows import Role, Table
 UNIT = Table("unit", Role.DERIVED, per="unit")
 TRUE_X = UNIT.row("true_x", "m", "where it is; for sensors and radio, not for applications")
 TRUE_Y = UNIT.row("true_y", "m", "where it is; for sensors and radio, not for applications")
+TRUE_SPEED = UNIT.row("true_speed", "m/s", "along its heading; for the radio, not for applications")
 HEADING = UNIT.row("heading", "rad", "that its sensors look along")
 COSINE = UNIT.row("cosine", "1", "of the heading")
 SINE = UNIT.row("sine", "1", "of the heading")
@@ -27,6 +28,11 @@ SPEED_NOISE = UNIT_SET.row("speed_noise", "m/s", "of the speed on its bus, stand
 ACCELERATION_NOISE = UNIT_SET.row("acceleration_noise", "m/s²", "of the acceleration on its bus")
 YAW_RATE_NOISE = UNIT_SET.row("yaw_rate_noise", "rad/s", "of the yaw rate on its bus")
 STEERING_NOISE = UNIT_SET.row("steering_noise", "rad", "of the road wheel angle on its bus")
+
+TROUBLE = Table("trouble", Role.STATE, per="unit")
+JAMMED = TROUBLE.row("jammed", "1", "above 0 it hears nothing")
+DROPS = TROUBLE.row("drops", "1", "so many of its next messages reach nobody")
+ADDED = TROUBLE.row("added_delay", "s", "added to the delay of what it sends")
 
 SATELLITE = Table("satellite", Role.DERIVED, per="vehicle")
 DRIFT_EAST = SATELLITE.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
@@ -57,12 +63,21 @@ S_TIME = SENT.row("time", "s", "true time of sending, for the record")
 S_STAMP = SENT.row("stamp", "s", "time of sending on the sender's clock")
 S_X = SENT.row("x", "m", "where the antenna was; for the radio, not for the receiver")
 S_Y = SENT.row("y", "m", "where the antenna was; for the radio, not for the receiver")
+S_SIZE = SENT.row("size", "byte", "of the message, with everything")
 
 # What a link has received last; behind these rows comes what it carries.
 HEARD = Table("heard", Role.STATE, per="link")
 H_NUMBER = HEARD.row("number", "1", "of the message; -1 while none has come")
 H_TIME = HEARD.row("time", "s", "true time of sending, for the record")
 H_STAMP = HEARD.row("stamp", "s", "time of sending on the sender's clock")
-H_CAME = HEARD.row("came", "s", "true time at which it was received")
+H_CAME = HEARD.row("came", "s", "true time at which it was there, between two ticks as a rule")
 H_MISSED = HEARD.row("missed", "1", "messages of this sender that were lost since the one before")
 H_SENDER = HEARD.row("sender", "1", "number of the unit in its world", role=Role.PARAMETER)
+
+# What is kept of every message for the record; its links stand in arrays beside it, from `first` on.
+LOGGED = Table("logged", Role.RECORD, per="message")
+L_TIME = LOGGED.row("time", "s", "true time of sending")
+L_SENDER = LOGGED.row("sender", "1", "the unit")
+L_NUMBER = LOGGED.row("number", "1", "how many of this kind it had sent before")
+L_SIZE = LOGGED.row("size", "byte", "with everything")
+L_FIRST = LOGGED.row("first", "1", "where its links begin")

@@ -1,7 +1,7 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
-import { type Changes, type Filled, isLive, type Run, type RunDetail, type Server } from "../model/run";
+import { type Changes, EXPLAINED, type Filled, isLive, type Run, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
 
@@ -68,6 +68,14 @@ export const trace = (number: number, channels: readonly string[], points = 1000
       ),
     enabled: channels.length > 0,
     placeholderData: keepPreviousData,
+  });
+
+/** Why things happened in a run that is over. */
+export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "status" | "events">) =>
+  queryOptions({
+    queryKey: ["explanations", run],
+    queryFn: () => answer(client.GET("/api/runs/{run}/explanation", { params: { path: { run } } })),
+    enabled: !isLive(status) && events.some(({ kind }) => EXPLAINED.has(kind)),
   });
 
 export const comparison = (a: number, b: number) =>

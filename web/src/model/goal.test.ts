@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
+import { metric } from "../test/scenario";
 import { goalsOf } from "./goal";
-
-const metric = (value: number | null, unit: string) => ({ value, unit, goal: null });
 
 describe("the goals of a run", () => {
   it("are met or missed by a margin", () => {

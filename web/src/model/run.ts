@@ -26,6 +26,10 @@ export type Metric = Server["Metric"];
 export type Goal = Metric["goal"];
 export type Run = Filled<Server["Run"], { parameters: Changes }>;
 export type Channel = Server["Channel"];
+/** Why something happened. */
+export type Explanation = Server["Explanation"];
+/** Kinds of events that the server explains. */
+export const EXPLAINED: ReadonlySet<string> = new Set(["collision", "near_miss", "hard_brake"]);
 /** Something that happened in a run. */
 export type RunEvent = Server["Event"];
 export type RunDetail = Filled<Server["RunDetail"], { parameters: Changes; document: Tree }>;

@@ -212,6 +212,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run}/explanation": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Run Explanation
+         * @description Why collisions, near misses and hard brakes happened in a run.
+         */
+        get: operations["run_explanation_api_runs__run__explanation_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/compare": {
         parameters: {
             query?: never;
@@ -799,6 +819,13 @@ export interface components {
             numbers: {
                 [key: string]: components["schemas"]["Number"];
             };
+            /**
+             * Words
+             * @description the entry of the script that begins, for instance
+             */
+            words: {
+                [key: string]: string;
+            };
         };
         /**
          * EventNews
@@ -839,10 +866,52 @@ export interface components {
                 [key: string]: components["schemas"]["Number"];
             };
             /**
+             * Words
+             * @description the entry of the script that begins, for instance
+             */
+            words: {
+                [key: string]: string;
+            };
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "event";
+        };
+        /**
+         * Explanation
+         * @description Why something happened: what was known about the other, who commanded, which tyre was at its limit; and all of it in sentences.
+         */
+        Explanation: {
+            /**
+             * Event
+             * @description kind of the event
+             */
+            event: string;
+            /**
+             * Time
+             * @description [s]
+             */
+            time: number;
+            /** Text */
+            text: string;
+            /** Units */
+            units: string[];
+            /** Known */
+            known: components["schemas"]["Known"][];
+            /**
+             * Commanded By
+             * @description who had wheel, brake, drive and gear, by vehicle
+             */
+            commanded_by: {
+                [key: string]: {
+                    [key: string]: string;
+                };
+            };
+            /** Tyre At Limit */
+            tyre_at_limit: components["schemas"]["Wheel"][];
+            /** Lines */
+            lines: string[];
         };
         /**
          * Given
@@ -926,6 +995,35 @@ export interface components {
             broken: components["schemas"]["BrokenKind"][];
         };
         /**
+         * Known
+         * @description What a unit knew about another, from which sensor or message.
+         */
+        Known: {
+            /** Unit */
+            unit: string;
+            /** About */
+            about: string;
+            /**
+             * Source
+             * @description name of the sensor, or kind of the message
+             */
+            source: string;
+            /**
+             * Age
+             * @description [s]; null when nothing had come
+             */
+            age: number | null;
+            /** What */
+            what: {
+                [key: string]: components["schemas"]["Number"];
+            };
+            /**
+             * Lost
+             * @description messages since the newest that had come
+             */
+            lost: components["schemas"]["Lost"][];
+        };
+        /**
          * Layout
          * @description How a value was written, so that an inverse is exact to the letter.
          */
@@ -981,6 +1079,19 @@ export interface components {
             pace: number | "fast";
             /** Duration S */
             duration_s: number;
+        };
+        /**
+         * Lost
+         * @description A message that did not come.
+         */
+        Lost: {
+            /**
+             * Time
+             * @description [s] when it was sent
+             */
+            time: number;
+            /** Why */
+            why: string;
         };
         /**
          * MapCorrected
@@ -1391,7 +1502,7 @@ export interface components {
         };
         /**
          * Metric
-         * @description A metric of a run; `goal` says which direction is better.
+         * @description A measure of a run; `goal` says which direction is better.
          */
         Metric: {
             /** Value */
@@ -1400,6 +1511,26 @@ export interface components {
             unit: string;
             /** Goal */
             goal: ("higher" | "lower") | null;
+            /**
+             * Subject
+             * @description the vehicles that it is about; empty when it is about all of them
+             */
+            subject: string[];
+            /**
+             * Time
+             * @description [s] when it was so; null when it is about the whole run
+             */
+            time: number | null;
+            /**
+             * Kind
+             * @description the metric; empty in runs that were saved before measures had names of their own
+             */
+            kind: string;
+            /**
+             * About
+             * @description subject and time in words
+             */
+            about: string;
         };
         /**
          * MetricDifference
@@ -2157,6 +2288,21 @@ export interface components {
             /** Matching */
             matching: number;
         };
+        /**
+         * Wheel
+         * @description A tyre at its limit.
+         */
+        Wheel: {
+            /** Unit */
+            unit: string;
+            /** Wheel */
+            wheel: string;
+            /**
+             * Use
+             * @description [1] greatest share of its adhesion in the second before
+             */
+            use: number;
+        };
     };
     responses: never;
     parameters: never;
@@ -2752,6 +2898,58 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Trace"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    run_explanation_api_runs__run__explanation_get: {
+        parameters: {
+            query?: {
+                /** @description number in this list, or kind; all without it */
+                event?: string;
+            };
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Explanation"][];
                 };
             };
             /** @description Not Found */

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { finished } from "../test/scenario";
+import { finished, metric } from "../test/scenario";
 import { filtered, metricColumns, parameterColumns, sorted, varies } from "./table";
 
-const gap = (value: number | null) => ({ minimum_gap: { value, unit: "m", goal: "higher" as const } });
+const gap = (value: number | null) => ({ minimum_gap: metric(value, "m", "higher") });
 const runs = [
   finished({ run: 1, metrics: gap(3), parameters: { "radio.delay": 0.1 } }),
   finished({

@@ -1,7 +1,7 @@
 /** A small scenario with everything that a schema made by pydantic can hold. */
 
 import type { KnownKind, Source } from "../model/form";
-import type { Run, Tree } from "../model/run";
+import type { Metric, Run, Tree } from "../model/run";
 import type { Schema } from "../model/schema";
 
 const range = { type: "number", title: "Reach", unit: "m", minimum: 0 };
@@ -148,6 +148,17 @@ export const kinds: KnownKind[] = [
 ];
 
 export const source = (changes: Source["changes"] = {}): Source => ({ document, given, schema, kinds, changes });
+
+/** A value of a metric that is about the whole run. */
+export const metric = (value: number | null, unit: string, goal: Metric["goal"] = null): Metric => ({
+  value,
+  unit,
+  goal,
+  subject: [],
+  time: null,
+  kind: "",
+  about: "",
+});
 
 /** A finished run, with whatever is to be different. */
 export const finished = (part: Partial<Run>): Run => ({

@@ -4,6 +4,7 @@ import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { sections } from "../model/form";
 import { source } from "../test/scenario";
+import { ExplanationList } from "./ExplanationList";
 import { QuantitySelect } from "./QuantitySelect";
 import { SchemaForm } from "./SchemaForm";
 import { Failure } from "./State";
@@ -36,6 +37,33 @@ function type(input: HTMLInputElement | HTMLSelectElement, value: string) {
       ),
   );
 }
+
+describe("why it happened", () => {
+  it("tells each event, and behind it one sentence after another", () => {
+    const known = { unit: "car_2", about: "car_1", source: "front", age: 0.1, what: {}, lost: [] };
+    render(
+      <ExplanationList
+        explanations={[
+          {
+            event: "near_miss",
+            time: 5,
+            text: "comes near car_1: 0.92 s to a collision",
+            units: ["car_2", "car_1"],
+            known: [known],
+            commanded_by: { car_2: { brake: "platoon" } },
+            tyre_at_limit: [],
+            lines: ["car_2 knew car_1 by front, 0.10 s old", "car_2: platoon had brake"],
+          },
+        ]}
+      />,
+    );
+    expect(host.querySelector("summary")?.textContent).toBe("Car 2 and Car 1: comes near car_1: 0.92 s to a collision");
+    expect([...host.querySelectorAll("details li")].map((line) => line.textContent)).toEqual([
+      "car 2 knew car 1 by front, 0.10 s old",
+      "car 2: platoon had brake",
+    ]);
+  });
+});
 
 describe("the schema form", () => {
   const onChange = vi.fn();

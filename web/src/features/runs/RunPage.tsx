@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
-import { run as runQuery, runs as runsQuery, trace } from "../../api/queries";
+import { explanations, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
@@ -17,6 +17,7 @@ import type { Metric, RunDetail } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { EventList } from "../../ui/EventList";
+import { ExplanationList } from "../../ui/ExplanationList";
 import { Icon } from "../../ui/Icon";
 import { Path } from "../../ui/Path";
 import { QuantitySelect } from "../../ui/QuantitySelect";
@@ -63,6 +64,7 @@ function Detail({ run }: { run: RunDetail }) {
       </div>
       <div className={classes.column}>
         <Charts run={run} />
+        <Explanations run={run} />
         <Card title="Events">
           {run.events.length ? (
             <EventList events={run.events} />
@@ -139,16 +141,17 @@ function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: r
   return (
     <Table verticalSpacing={3} horizontalSpacing={6} fz="sm" data-testid="metrics">
       <Table.Tbody>
-        {rows.map(([name, { value, unit, goal }]) => (
+        {rows.map(([name, { value, unit, goal, kind, about }]) => (
           <Table.Tr key={name}>
             <Table.Td>
-              <span title={explained(name, known)}>{titleOf(name, known)}</span>
+              <span title={explained(kind || name, known)}>{titleOf(name, known)}</span>
               <Unmet sentence={unmet.find((sentence) => sentence.startsWith(`${name} `))} />
               {goal ? (
                 <Text size="xs" c="dimmed">
                   {GOALS[goal]}
                 </Text>
               ) : null}
+              {about ? <Text size="xs">{about}</Text> : null}
             </Table.Td>
             <Table.Td ta="right" style={{ fontVariantNumeric: "tabular-nums", whiteSpace: "nowrap" }}>
               <b>{value === null ? "–" : formatNumber(value)}</b>
@@ -160,6 +163,18 @@ function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: r
         ))}
       </Table.Tbody>
     </Table>
+  );
+}
+
+/** Why somebody collided, nearly did, or braked hard: what was known, what was lost, who commanded, which tyre was at its limit. */
+function Explanations({ run }: { run: RunDetail }) {
+  const { data, error } = useQuery(explanations(run));
+  if (error) return <Failure error={error} />;
+  if (!data?.length) return null;
+  return (
+    <Card title="Why it happened">
+      <ExplanationList explanations={data} />
+    </Card>
   );
 }
 

@@ -1,0 +1,119 @@
+"""Cause: why something happened, told in order from the record.
+
+    explain(record)   →  [Explanation]     of every collision, near miss and hard brake
+
+What was known about the other, from which sensor or message and how old; which message was lost and why; who commanded; which tyre was at
+its limit. Everything was recorded: nothing is simulated anew.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+
+from studio.assess.adhesion import WHEELS, used
+from studio.assess.known import Known, known
+from studio.execution.happening import Happening
+from studio.execution.record import Record
+from studio.world.commander import PARTS
+from studio.world.table.event import EVENTS, HARD_BRAKE, HIT, NEAR_MISS
+
+EXPLAINED = tuple(EVENTS[each].name for each in (HIT, NEAR_MISS, HARD_BRAKE))
+LIMIT = 0.95  # [1] of the adhesion, from which on a tyre is at its limit
+BEFORE = 1.0  # [s] before the event in which a tyre may have been
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A tyre at its limit: whose, which, and how much of its adhesion it used at most [1]."""
+
+    unit: str
+    wheel: str
+    use: float
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Why an event happened: what was known by whom, who commanded each vehicle, and which tyres were at their limits."""
+
+    event: Happening
+    known: tuple[Known, ...]
+    commanded_by: dict[str, dict[str, str]]
+    tyre_at_limit: tuple[Wheel, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain data, as scripts read it."""
+        return {
+            "event": self.event.kind,
+            "time": self.event.time,
+            "text": self.event.text,
+            "units": list(self.event.units),
+            "known": [each.as_json() for each in self.known],
+            "commanded_by": self.commanded_by,
+            "tyre_at_limit": [vars(each) for each in self.tyre_at_limit],
+        }
+
+    @property
+    def lines(self) -> list[str]:
+        """All of it in sentences, in order."""
+        return [*self.of_knowledge(), *self.of_command(), *self.of_tyres()]
+
+    def of_knowledge(self) -> Iterator[str]:
+        """What was known, and who knew nothing of whom."""
+        for one, other in permutations(self.event.units, 2):
+            found = [each.text for each in self.known if (each.unit, each.about) == (one, other)]
+            if one in self.commanded_by:
+                nothing = f"{one} knew nothing of {other}" if other in self.commanded_by else f"{other} was not recorded, nor who knew it"
+                yield from found or [nothing]
+
+    def of_command(self) -> Iterator[str]:
+        """Who commanded."""
+        for unit, parts in self.commanded_by.items():
+            by = {who: [part for part, each in parts.items() if each == who] for who in parts.values()}
+            told = "; ".join(f"{who} had {' and '.join(part)}" for who, part in by.items())
+            yield f"{unit}: {told}" if told else f"{unit}: who commanded was not recorded"
+
+    def of_tyres(self) -> Iterator[str]:
+        """Which tyres were at their limits."""
+        for each in self.tyre_at_limit:
+            yield f"{each.unit}: the {each.wheel.replace('_', ' ')} tyre was at its limit, {each.use:.0%} of its adhesion"
+        if not self.tyre_at_limit:
+            yield "no tyre was at its limit"
+
+
+def explain(record: Record, events: Sequence[str] = EXPLAINED) -> list[Explanation]:
+    """Everything of these kinds that happened, in the order of time."""
+    return [explained(record, event) for event in record.happenings if event.kind in events]
+
+
+def explained(record: Record, event: Happening) -> Explanation:
+    """One event: what was so at the last sample before it."""
+    sample = max(int(np.searchsorted(record.time, event.time + 1e-6)) - 1, 0)
+    vehicles = [each for each in event.units if each in record.vehicles]
+    pairs = [(one, other) for one, other in permutations(event.units, 2) if one in vehicles]
+    return Explanation(
+        event=event,
+        known=tuple(each for one, other in pairs for each in known(record, one, other, sample)),
+        commanded_by={each: commanded(record, each, sample) for each in vehicles},
+        tyre_at_limit=tuple(each for vehicle in vehicles for each in at_limit(record, vehicle, sample)),
+    )
+
+
+def commanded(record: Record, vehicle: str, sample: int) -> dict[str, str]:
+    """Who had wheel, brake, drive and gear of a vehicle; what was not recorded is left out."""
+    row, found = record.vehicles.index(vehicle), {}
+    for part in PARTS:
+        number = record.channel(f"commands_{part}")[row, sample]
+        if np.isfinite(number) and 0 <= number < len(record.commanders):
+            found[part] = record.commanders[int(number)]
+    return found
+
+
+def at_limit(record: Record, vehicle: str, sample: int) -> Iterator[Wheel]:
+    """Wheels of a vehicle whose tyres were at their limits in the second before a sample, or then."""
+    row = record.vehicles.index(vehicle)
+    first = int(np.searchsorted(record.time, record.time[sample] - BEFORE))
+    most = np.nan_to_num(used(record)[:, row, first : sample + 1]).max(axis=1, initial=0.0)
+    yield from (Wheel(vehicle, wheel, round(float(use), 4)) for wheel, use in zip(WHEELS, most, strict=True) if use >= LIMIT)

@@ -1,0 +1,173 @@
+"""Known: what a unit knew of another one at a moment, by its sensors and by messages.
+
+A sensor does not say whom it has seen, and an application may not know. The record tells both afterwards: the target belongs to the vehicle
+whose outline is nearest to where the sensor has put it, at the time at which it was measured, if it is not farther away than 3 m.
+Vehicles that were not recorded are nobody here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from studio.execution.happening import Number
+from studio.execution.message import Messages
+from studio.execution.record import SAME_TIME, Mount, Record
+from studio.world.table.cause import CAUSES
+
+NEAR = 3.0  # [m] from an outline, within which a target is taken for that of this vehicle
+SENSED = (("range", "azimuth"), ("ahead", "left"))  # fields that say where a target is: from the sensor, or from the middle of the front
+OF_THE_SENSOR = ("count", "measured")  # what is no field of a target
+AT_THE_FRONT = Mount(0.0, 0.0, 0.0)
+WHY = {number: each.name for number, each in enumerate(CAUSES)}
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A message that did not come: when it was sent [s], and why."""
+
+    time: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Known:
+    """What `unit` knew `about` another: from which sensor or message, how old [s], and which messages of it were lost since."""
+
+    unit: str
+    about: str
+    source: str
+    age: float | None
+    what: dict[str, Number] = field(default_factory=dict)
+    lost: tuple[Lost, ...] = ()
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain data."""
+        what = {name: each._asdict() for name, each in self.what.items()}
+        return vars(self) | {"what": what, "lost": [vars(each) for each in self.lost]}
+
+    @property
+    def text(self) -> str:
+        """All of it in a sentence."""
+        age = "" if self.age is None else f", {self.age:.2f} s old"
+        what = "".join(f", {name.replace('_', ' ')} {each.value:.4g} {each.unit}".removesuffix(" 1") for name, each in self.what.items())
+        if self.age is None:
+            return f"{self.unit} never heard {self.about} by {self.source}{lost_text(self.lost)}"
+        return f"{self.unit} knew {self.about} by {self.source}{age}{what}{lost_text(self.lost)}"
+
+
+def lost_text(lost: tuple[Lost, ...]) -> str:
+    """What is missing since."""
+    if not lost:
+        return ""
+    last, count = lost[-1], f"{len(lost)} message{'s' * (len(lost) > 1)}"
+    return f"; lost since: {count}, the last of {last.time:.2f} s ({last.why})"
+
+
+def known(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
+    """Everything that a unit knew about another vehicle at a sample: by its sensors, then by messages."""
+    yield from sensed(record, unit, about, sample)
+    yield from heard(record, unit, about, sample)
+
+
+# -- by sensors ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Target:
+    """One target of a sensor: the name of the sensor with its unit, and the probes of its fields."""
+
+    sensor: str
+    fields: dict[str, str]
+
+    @property
+    def name(self) -> str:
+        """That of the sensor on its unit."""
+        return self.sensor.partition(".")[2]
+
+
+def targets(record: Record, unit: str) -> Iterator[Target]:
+    """All targets that sensors of a unit may have: probes of one place that tell where it is."""
+    places: dict[str, dict[str, str]] = {}
+    for name in record.probes:
+        place, _, part = name.rpartition(".")
+        if place.partition(".")[0] == unit:
+            places.setdefault(place, {})[part] = name
+    for place, fields in places.items():
+        if any(set(pair) <= fields.keys() for pair in SENSED):
+            yield Target(".".join(place.split(".")[:2]), fields)
+
+
+def sensed(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
+    """What sensors say about somebody."""
+    if unit not in record.vehicles or about not in record.vehicles:
+        return
+    for each in targets(record, unit):
+        values = {part: float(record.probes[name].values[sample]) for part, name in each.fields.items()}
+        if not all(np.isfinite(value) for value in values.values()):
+            continue
+        since = float(record.probes[f"{each.sensor}.measured"].values[sample])
+        at = int(np.searchsorted(record.time, since - SAME_TIME))
+        if belongs_to(record, place_of(record, unit, each.sensor, values, at), at) == about:
+            what = {
+                part: Number(value, record.probes[each.fields[part]].unit) for part, value in values.items() if part not in OF_THE_SENSOR
+            }
+            yield Known(unit, about, each.name, round(float(record.time[sample]) - since, 6), what)
+
+
+def place_of(record: Record, unit: str, sensor: str, values: dict[str, float], sample: int) -> np.ndarray:
+    """Where a target is in the world [m], as the sensor says."""
+    row, front = record.vehicles.index(unit), record.bodies[unit].front
+    x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
+    if {"ahead", "left"} <= values.keys():
+        ahead, left = values["ahead"], values["left"]
+    else:
+        mount = record.mounts.get(sensor, AT_THE_FRONT)
+        angle = values["azimuth"] + mount.yaw
+        ahead, left = mount.forward + values["range"] * np.cos(angle), mount.left + values["range"] * np.sin(angle)
+    ahead += front
+    return np.array([x + ahead * np.cos(psi) - left * np.sin(psi), y + ahead * np.sin(psi) + left * np.cos(psi)])
+
+
+def belongs_to(record: Record, place: np.ndarray, sample: int) -> str:
+    """The recorded vehicle whose outline is nearest to a place [m] at a sample; "" when none is near."""
+    distances = [outside(record, row, place, sample) for row in range(len(record.vehicles))]
+    nearest = int(np.argmin(distances))
+    return record.vehicles[nearest] if distances[nearest] <= NEAR else ""
+
+
+def outside(record: Record, row: int, place: np.ndarray, sample: int) -> float:
+    """How far a place is outside the outline of a vehicle [m]; infinite when it is not there."""
+    body = record.bodies[record.vehicles[row]]
+    x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
+    if not np.isfinite(x):
+        return float("inf")
+    east, north = place[0] - x, place[1] - y
+    ahead, left = east * np.cos(psi) + north * np.sin(psi), north * np.cos(psi) - east * np.sin(psi)
+    beyond = max(ahead - body.front, body.front - body.length - ahead, 0.0), max(abs(left) - 0.5 * body.width, 0.0)
+    return float(np.hypot(*beyond))
+
+
+# -- by messages ---------------------------------------------------------------------------------------
+
+
+def heard(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
+    """What messages say about somebody: for every kind the newest that had come, and those that were lost since."""
+    sent, when = record.messages, float(record.time[sample])
+    if not {unit, about} <= set(sent.units):
+        return
+    for kind in sent.kinds:
+        link = sent.link(about, unit, kind)
+        if (link := link[sent.time[sent.of[link]] <= when]).size:
+            yield of_link(sent, link, unit, about, kind, when)
+
+
+def of_link(sent: Messages, link: np.ndarray, unit: str, about: str, kind: str, when: float) -> Known:
+    """The same of one link with the entries of what was sent until then."""
+    times = sent.time[sent.of[link]]
+    had_come = sent.is_received[link] & (sent.came[link] <= when)
+    newest = float(times[had_come].max(initial=-np.inf))
+    missing = link[~sent.is_received[link] & (times > newest)]
+    age = round(when - newest, 6) if had_come.any() else None
+    return Known(unit, about, kind, age, lost=tuple(Lost(round(float(sent.time[sent.of[i]]), 6), WHY[sent.cause[i]]) for i in missing))

@@ -1,0 +1,84 @@
+"""Cooperative adaptive cruise control that does at once what the car ahead does.
+
+    u = k_a u_ahead + k_v (v_p - v) + k_d (d - r - h v)
+
+B. van Arem, C. J. G. van Driel, R. Visser, The impact of cooperative adaptive cruise control on traffic-flow characteristics, IEEE
+Trans. Intelligent Transportation Systems 7 (2006) 429, with their gains; in place of the acceleration of the car ahead stands the one
+that it has requested, which comes before it.
+
+With k_a = 1 and cars that do what they are asked the speeds follow each other by
+
+    V/V_p = (s² + k_v s + k_d) / (s² + (k_v + k_d h) s + k_d)
+
+so the gain is below 1 at every frequency, and the lag that of the message; a car of Ploeg's law (cacc) comes a headway later. The price
+is the spacing, which is off until the slow poles have brought it back.
+
+When the link is silent for longer than `timeout`, the feed-forward is dropped and the headway rises to `fallback_headway`.
+"""
+
+from typing import Annotated, NamedTuple
+
+from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
+from studio.compiled import compiled
+from studio.kind.settings import Part, number
+from studio.kinds.application.cacc import HEADWAY_RATE, approach
+
+KIND = "application"
+TITLE = "Cooperative adaptive cruise control (direct feed-forward)"
+COMMANDS = ACCELERATION
+
+
+class Parameters(Part):
+    """What is tuned."""
+
+    headway: float = number(0.5, unit="s", title="Time headway", description="h", ge=0.1, le=5)
+    standstill: float = number(2.0, unit="m", title="Standstill distance", description="r", ge=0, le=20)
+    k_a: float = number(1.0, unit="1", title="Feed-forward", description="k_a, share of the request of the car ahead", ge=0, le=1)
+    k_v: float = number(0.58, unit="1/s", title="Gain on the speed difference", description="k_v", ge=0, le=5)
+    k_d: float = number(0.1, unit="1/s²", title="Gain on the gap", description="k_d", ge=0, le=5)
+    timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
+    fallback_headway: float = number(1.6, unit="s", title="Headway without link", ge=0.1, le=5)
+    cruise_gain: float = number(0.5, unit="1/s", title="Cruise gain", description="on the set speed, road free", gt=0, le=3)
+    acceleration_max: float = number(2.0, unit="m/s²", title="Strongest acceleration", gt=0, le=5)
+    deceleration_max: float = number(8.0, unit="m/s²", title="Strongest deceleration", gt=0, le=10)
+
+
+class Memory(NamedTuple):
+    """The headway in force."""
+
+    headway: Annotated[float, "s"] = -1.0  # negative before the first tick
+
+
+class Sees(NamedTuple):
+    """What it sees: the radar's target, and the car that it listens to."""
+
+    clock: Clock
+    own: Own
+    front: Annotated[Targets, "front_radar", 1]
+    heard: Annotated[Inbox, "awareness", 1]
+
+
+class Does(NamedTuple):
+    """What it does."""
+
+    command: Command
+
+
+@compiled
+def follow(p, h, u_ahead, own, front):
+    """Acceleration [m/s²] behind the target."""
+    return p.k_a * u_ahead + p.k_v * front.rate + p.k_d * (front.range - p.standstill - h * own.speed)
+
+
+@compiled
+def decide(parameters, memory, sees):
+    """One tick."""
+    p, own, message = parameters, sees.own, sees.heard.message[0]
+    linked = message.received and message.age <= p.timeout
+    wanted = p.headway if linked else p.fallback_headway
+    h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * sees.clock.tick)
+    u = p.cruise_gain * (own.set_speed - own.speed)
+    if sees.front.count > 0:
+        u = min(u, follow(p, h, message.payload.intention if linked else 0.0, own, sees.front.target[0]))
+    u = min(max(u, -p.deceleration_max), p.acceleration_max)
+    return Memory(h), Does(accelerate(u))

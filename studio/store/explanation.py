@@ -1,0 +1,21 @@
+"""The explanation of what happened in a saved run, for the command line and REST."""
+
+from studio.assess.cause import EXPLAINED, Explanation, explain
+from studio.errors import UnknownError, nearest
+from studio.store.runs import Runs
+
+
+def explanation(runs: Runs, run: int, event: str = "") -> list[Explanation]:
+    """Why things happened in a run, in the order of time: all that can be told, those of one kind, or one by its number from 1 on.
+
+    Raises UnknownError for a run without record, for a kind that is not explained, and for a number that there is not.
+    """
+    if event and not event.isdecimal() and event not in EXPLAINED:
+        raise UnknownError(f"Events {event!r} are not explained; {nearest(event, EXPLAINED)} (explained: {', '.join(EXPLAINED)})")
+    found = explain(runs.record(run), (event,) if event in EXPLAINED else EXPLAINED)
+    if not event.isdecimal():
+        return found
+    if not 1 <= int(event) <= len(found):
+        count = f"1 to {len(found)}" if found else "none: no collision, near miss or hard brake"
+        raise UnknownError(f"Run {run} has no event {event} to explain; there is {count}.")
+    return [found[int(event) - 1]]

@@ -1,0 +1,108 @@
+"""The log of messages: what was sent and what became of it on every link, as compiled code writes it down.
+
+A message is a column of a table; its links stand one after another in arrays beside it, 13 bytes each. A link whose receiver was out of
+range has no entry: of such nothing is known but that it was so.
+"""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from studio.compiled import inlined
+from studio.world.table.unit import L_FIRST, L_NUMBER, L_SENDER, L_SIZE, L_TIME, LOGGED
+
+ROOM = 4096  # messages, and four times as many links, that room is made for at a time at least
+
+
+class Logged(NamedTuple):
+    """Messages [row, message], and of every entry the link, what became of the message there, the delay [s] and the distance [m]."""
+
+    message: np.ndarray
+    link: np.ndarray
+    cause: np.ndarray
+    delay: np.ndarray
+    distance: np.ndarray
+
+
+class Book(NamedTuple):
+    """All of a log: time [s], sender (a unit), number and size [bytes] of every message, how many entries it has, and these."""
+
+    time: np.ndarray
+    sender: np.ndarray
+    number: np.ndarray
+    size: np.ndarray
+    count: np.ndarray
+    link: np.ndarray
+    cause: np.ndarray
+    delay: np.ndarray
+    distance: np.ndarray
+
+
+def room(messages: int, entries: int) -> Logged:
+    """For so many messages and entries."""
+    entry = np.empty(entries, np.int32), np.empty(entries, np.uint8), np.empty(entries, np.float32), np.empty(entries, np.float32)
+    return Logged(np.empty((len(LOGGED), messages)), *entry)
+
+
+@dataclass
+class Log:
+    """The log of one kind of message. `most` messages and entries come in one call at most; `count` of them stand in `now`."""
+
+    most: tuple[int, int]
+    now: Logged = field(init=False)  # arrays that stay where they are, for compiled code
+    count: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
+    full: list[Logged] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        messages, entries = self.most
+        self.now = room(max(ROOM, 2 * messages), max(4 * ROOM, 2 * entries))
+
+    def make_room(self) -> None:
+        """So that all that may come in one call finds room."""
+        messages, entries = self.most
+        if self.count[0] + messages > self.now.message.shape[1] or self.count[1] + entries > self.now.link.size:
+            self.full.append(self.written())
+            self.count[:] = 0
+
+    def forget(self, time: float) -> None:
+        """What was sent from a time [s] on, for a world that has gone back to it."""
+        kept = [before(each, time) for each in (*self.full, self.written())]
+        self.full, self.count[:] = [each for each in kept if each.message.size], 0
+
+    def written(self) -> Logged:
+        """What stands in `now`."""
+        messages, entries = self.count.tolist()
+        return Logged(self.now.message[:, :messages].copy(), *(each[:entries].copy() for each in self.now[1:]))
+
+    def joined(self) -> Book:
+        """All of it."""
+        parts = [*self.full, self.written()]
+        message, *entries = [np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)]
+        count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])
+        units = message[L_SENDER].astype(np.int64)
+        return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], count.astype(np.int32), *entries)
+
+
+def before(part: Logged, time: float) -> Logged:
+    """The messages of a part that were sent before a time [s]."""
+    count = int(np.searchsorted(part.message[L_TIME], time))
+    last = int(part.message[L_FIRST, count]) if count < part.message.shape[1] else part.link.size
+    return Logged(part.message[:, :count], *(each[:last] for each in part[1:]))
+
+
+@inlined
+def log_message(time, unit, number, size, message, count):
+    """Writes a message down; its entries follow."""
+    m = count[0]
+    message[L_TIME, m], message[L_SENDER, m], message[L_NUMBER, m] = time, unit, number
+    message[L_SIZE, m], message[L_FIRST, m] = size, count[1]
+    count[0] = m + 1
+
+
+@inlined
+def log_link(at, cause, wait, distance, link, causes, delay, distances, count):
+    """Writes down what became of it on one link: the cause, the delay [s] of one that arrives, the distance [m]."""
+    e = count[1]
+    link[e], causes[e], delay[e], distances[e] = at, cause, wait, distance
+    count[1] = e + 1

@@ -1,0 +1,172 @@
+"""Near misses, hard brakes, and what is told about them: constructed records, and one run from its start to the database and back."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from studio import job
+from studio.assess.cause import explain
+from studio.assess.danger import hard_brakes, near_misses, stretches, with_dangers
+from studio.assess.known import belongs_to, known, place_of
+from studio.errors import UnknownError
+from studio.execution.happening import happening
+from studio.execution.message import none
+from studio.execution.record import Mount, Traced
+from studio.store.explanation import explanation
+from studio.store.runs import open_runs
+from studio.world.table.cause import FADING, RECEIVED
+from studio.world.table.event import HIT
+from tests.assess.drive import behind, braking, record
+
+TIME = np.arange(0.0, 10.0 + 1e-9, 0.02)
+
+
+@pytest.fixture
+def drive():
+    """Both 20 m/s, 14 m apart; a brakes with 4 m/s² from 2 s, b with 6 m/s² from 3.5 s, both until 8 m/s."""
+    return behind(TIME, 14.0, braking(TIME, 20.0, 2.0, 4.0, 8.0), braking(TIME, 20.0, 3.5, 6.0, 8.0))
+
+
+def test_a_near_miss_is_told_when_it_is_nearest(drive):
+    (found,) = near_misses(drive)
+    assert (found.kind, found.units, found.time) == ("near_miss", ("b", "a"), 5.0)
+    assert found.numbers["ttc"].value == pytest.approx(0.9167, abs=2e-3) and found.text == "comes near a: 0.92 s to a collision"
+
+
+def test_a_hard_brake_is_told_when_it_begins(drive):
+    """4 m/s² are none, 6 m/s² are one."""
+    (found,) = hard_brakes(drive)
+    assert (found.kind, found.units, found.time) == ("hard_brake", ("b", "a"), pytest.approx(3.5, abs=0.021))
+    assert found.numbers["deceleration"].value == pytest.approx(6.0)
+
+
+def test_a_collision_is_no_near_miss_besides(drive):
+    hit = happening(HIT, 5.3, ("a", "b"), impact_speed=3.0)
+    made = with_dangers(replace(drive, happenings=(hit,)))
+    assert [event.kind for event in made.happenings] == ["hard_brake", "collision"]
+
+
+def test_stretches_that_are_near_each_other_are_one():
+    holds = np.isin(np.arange(TIME.size), [10, 11, 12, 50, 51, 300])
+    assert [(part.start, part.stop) for part in stretches(holds, TIME)] == [(10, 52), (300, 301)]
+
+
+def seen(made, values, measured=TIME):
+    """The record with a target of a sensor: range [m] over time, straight ahead, measured at these times [s]."""
+    fields = {"measured": (measured, "s"), "range": (values, "m"), "azimuth": (np.zeros(TIME.size), "rad")}
+    return replace(made, probes={f"b.front.{name}": Traced(each, unit, name) for name, (each, unit) in fields.items()})
+
+
+def test_a_target_is_the_vehicle_at_its_place(drive):
+    """The range of the true gap is that of the car ahead; 30 m too far nobody is there."""
+    gap = drive.channel("gap")[1]
+    (found,) = known(seen(drive, gap), "b", "a", 250)
+    assert (found.source, found.age, found.what["range"].value) == ("front", 0.0, gap[250])
+    assert (
+        list(known(seen(drive, gap + 30.0), "b", "a", 250)) == []
+        and list(known(seen(drive, np.full(TIME.size, np.nan)), "b", "a", 250)) == []
+    )
+
+
+def test_a_sensor_looks_from_where_it_is(drive):
+    """1 m behind the front, 0.5 m to the right and turned: what it has 1 m farther and turned back is at the same place."""
+    mount, gap = Mount(-1.0, -0.5, 0.1), drive.channel("gap")[1]
+    place = place_of(replace(drive, mounts={"b.front": mount}), "b", "b.front", {"range": gap[250] + 1.0, "azimuth": -0.1}, 250)
+    assert place - place_of(drive, "b", "b.front", {"range": gap[250], "azimuth": 0.0}, 250) == pytest.approx([0.0, -0.5])
+
+
+def test_a_reading_ages(drive):
+    """A radar that gives every tenth of a second what it saw then: at 5.06 s it is 0.06 s old, and of where a was then."""
+    gap = drive.channel("gap")[1]
+    looks = np.arange(TIME.size) // 5 * 5
+    (found,) = known(seen(drive, gap[looks], TIME[looks]), "b", "a", 253)
+    assert found.age == pytest.approx(0.06) and found.what["range"].value == gap[250]
+
+
+def test_of_two_the_nearer_outline_counts():
+    made = record(np.array([0.0, 1.0]), x=np.array([[0.0], [20.0]]), y=np.array([[0.0], [3.5]]))
+    assert [belongs_to(made, np.array(place), 0) for place in ((2.0, 0.8), (16.0, 3.0), (10.0, 1.75))] == ["a", "b", ""]
+
+
+def told(made, *rows):
+    """The record with messages of a to b: when each was sent, what became of it, its delay."""
+    times, causes, delays = (np.array(each) for each in zip(*rows, strict=True))
+    ones = np.ones(times.size, dtype=np.int32)
+    messages = replace(
+        none(("awareness",), ("a", "b")), time=times, sender=0 * ones, kind=0 * ones, number=np.arange(times.size), size=200.0 * ones,
+        count=ones, receiver=ones, cause=causes, delay=delays, distance=20.0 * ones,
+    )  # fmt: skip
+    return replace(made, messages=messages)
+
+
+def test_what_was_heard_and_what_was_lost(drive):
+    """Of four messages the first came, two were lost, the last is still under way: known is the first, 0.28 s old."""
+    made = told(drive, (4.8, RECEIVED, 0.01), (4.9, FADING, np.nan), (5.0, FADING, np.nan), (5.07, RECEIVED, 0.05), (6.0, RECEIVED, 0.01))
+    (found,) = known(made, "b", "a", 254)
+    assert (found.source, found.age) == ("awareness", pytest.approx(0.28))
+    assert [(each.time, each.why) for each in found.lost] == [(4.9, "fading"), (5.0, "fading")]
+    assert found.text == "b knew a by awareness, 0.28 s old; lost since: 2 messages, the last of 5.00 s (fading)"
+    assert list(known(made, "a", "b", 254)) == []
+
+
+def test_who_never_heard_says_so(drive):
+    (found,) = known(told(drive, (4.8, FADING, np.nan)), "b", "a", 254)
+    assert found.age is None and found.text == "b never heard a by awareness; lost since: 1 message, the last of 4.80 s (fading)"
+
+
+def test_an_explanation_in_order(drive):
+    """Sensor, message, who commanded, tyres: of a hard brake in which b's front left tyre used all it had."""
+    made = told(seen(drive, drive.channel("gap")[1]), (3.4, RECEIVED, 0.01), (3.45, FADING, np.nan))
+    use = np.where(TIME[None] >= 3.5, [[0.3], [0.97]], 0.1)
+    made = with_dangers(replace(made, values=with_channel(made, "adhesion_front_left", use)))
+    (brake,) = explain(made, ("hard_brake",))
+    plain = json.loads(json.dumps(brake.as_json()))
+    assert {"event", "time", "units", "known", "commanded_by", "tyre_at_limit"} <= plain.keys()
+    assert plain["units"] == ["b", "a"] and [each["source"] for each in plain["known"]] == ["front", "awareness"]
+    assert plain["known"][1]["lost"] == [{"time": 3.45, "why": "fading"}] and plain["known"][1]["about"] == "a"
+    assert plain["tyre_at_limit"] == [{"unit": "b", "wheel": "front_left", "use": 0.97}]
+    assert (
+        brake.lines[0].startswith("b knew a by front") and brake.lines[-1] == "b: the front left tyre was at its limit, 97% of its adhesion"
+    )
+    assert "a knew nothing of b" in brake.lines
+
+
+def with_channel(made, name, values):
+    """The values of a record with one channel replaced."""
+    from tests.assess.drive import NAMES
+
+    found = made.values.copy()
+    found[NAMES.index(name)] = values
+    return found
+
+
+HARD = {"clock.duration": 25, "script.hard_brake.do.deceleration": 8, "applications.platoon.application": "acc",
+        "applications.platoon.parameters": {"headway": 0.5}}  # fmt: skip
+
+
+def test_a_run_is_explained_from_the_database(sample, tmp_path):
+    """A leader that brakes with 8 m/s²: whoever follows brakes hard. What stands in the database is what the run itself tells."""
+    runs = open_runs(tmp_path / "runs.db")
+    made = job.run(job.load(sample, HARD), runs=runs)
+    found = explanation(runs, 1)
+    assert [each.as_json() for each in found] == [each.as_json() for each in explain(made.record)]
+    brakes = {each.event.vehicle: each for each in found if each.event.kind == "hard_brake"}
+    assert {"leader", "follower_1"} <= brakes.keys()
+    first = brakes["follower_1"]
+    (radar,) = [each for each in first.known if each.source == "front"]
+    gap = made.trace("follower_1.gap")[np.searchsorted(made.time, first.event.time)]
+    assert radar.about == "leader" and radar.what["range"].value == pytest.approx(gap, abs=0.6)
+    assert explanation(runs, 1, "1") == found[:1] and explanation(runs, 1, "collision") == []
+    for event, words in (("arrived", "not explained"), ("99", "no event 99")):
+        with pytest.raises(UnknownError, match=words):
+            explanation(runs, 1, event)
+
+
+def test_adhesion_is_that_of_the_tyres(sample):
+    """Rolling along, a wheel uses little; braking with 8 m/s² on a dry road, 0.75 to 1 of what it has."""
+    use = job.run(job.load(sample, HARD)).record
+    most = use.channel("adhesion_rear_left")[0]
+    before, braking_hard = use.time < 19.5, (use.time > 20.6) & (use.channel("acceleration")[0] < -7.5)
+    assert most[before].max() < 0.35 and braking_hard.any() and 0.75 < most[braking_hard].min() <= most[braking_hard].max() < 1.02
