@@ -62,6 +62,7 @@ RouteName = Annotated[Name, Names("route")]
 EntryName = Annotated[Name, Names("entry")]
 BodyName = Annotated[Name, Names("body")]  # a vehicle, or a mover that an entry of the script brings
 GroupName = Annotated[Name, Names("application")]
+MessageName = Annotated[Name, Names("message")]
 SignalName = Annotated[str, Field(max_length=100), Names("signal")]  # a road with lights at its end
 ValueName = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9][A-Za-z0-9_]*)+$", max_length=120), Names("value")]
 

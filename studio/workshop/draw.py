@@ -23,6 +23,7 @@ TRIES = 50
 NAMES = tuple("abcdefghijklmnopqrstuvwxyz")  # of drawn cars
 STAGE: dict[str, Any] = {
     "vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway", "body": "ahead", "value": "own.speed",
+    "message": "awareness",
 }  # fmt: skip
 POOL = np.array([np.arange(0.0, 40.0), np.linspace(10.0, 30.0, 40)])  # of pairs, where settings are told apart from their lists
 USUAL = {  # range of a quantity by its unit, wider than any that is met
@@ -97,6 +98,9 @@ def value(node: dict[str, Any], draw: np.random.Generator, name: str) -> Any:
     """A value for a field of a schema: a number between its bounds, yes or no, one of several; else what it is at first."""
     if "enum" in node:
         return node["enum"][draw.integers(len(node["enum"]))]
+    numbers_or_none = [each for each in node.get("anyOf", []) if each.get("type") == "number"]
+    if numbers_or_none and draw.random() < 0.5:
+        return value(numbers_or_none[0], draw, name)
     if node.get("type") == "boolean":
         return bool(draw.integers(2))
     if node.get("type") == "integer":

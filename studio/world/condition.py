@@ -45,6 +45,7 @@ class View(NamedTuple):
     table: np.ndarray  # [OBSTACLE, object] of all worlds
     standing: np.ndarray  # per object, 1 while it is there
     pool: np.ndarray  # [2, pair]: the lists of pairs that stand in settings
+    mail: np.ndarray  # [MAIL, sender or link]: what was sent, received and lost since the tick before
     values: np.ndarray  # what is read of sensors, applications and vehicles for conditions that look at it
 
 

@@ -3,6 +3,10 @@
 Limit, Slippery, Row        about a stretch of a route or lane
 Closing, Shift              about a stretch of one lane, with tapers
 Walk                        somebody who moves, on a line of the map
+WeatherChange, Lights       about the whole world, or the lights of a road
+Placement, Removal          about a vehicle
+Jam, Delay, Drop            about the radio
+SensorFault, Switch, Tune   about what a unit has on board
 End                         about the run
 
 They are data: names and stations, which the world looks up on its map.
@@ -13,6 +17,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from studio.application import port
 from studio.errors import Problem, RouteError, nearest
 from studio.kind import registry
 from studio.kind.area import Area
@@ -75,12 +80,85 @@ class Walk(NamedTuple):
     size: tuple[float, float]
 
 
+class WeatherChange(NamedTuple):
+    """Another friction [1], another visibility [m], or both, everywhere."""
+
+    friction: float | None
+    visibility: float | None
+
+
+class Lights(NamedTuple):
+    """What the lights at the end of a road show, whatever their programme says."""
+
+    road: str
+    shows: Literal["red", "red_amber", "green", "amber"]
+
+
+class Jam(NamedTuple):
+    """An area in which units hear nothing."""
+
+    area: Area
+
+
+class Delay(NamedTuple):
+    """What a unit sends, or everybody, comes later by a time [s]."""
+
+    unit: str | None
+    delay: float
+
+
+class Drop(NamedTuple):
+    """So many of the next messages of a unit reach nobody."""
+
+    unit: str
+    count: int
+
+
+class SensorFault(NamedTuple):
+    """A sensor of a unit, or all of them, gives nothing, or has its noise times a factor [1]."""
+
+    unit: str
+    sensor: str | None
+    fails: bool
+    noise: float
+
+
+class Switch(NamedTuple):
+    """A group of applications does not run, on one unit or on all."""
+
+    group: str
+    unit: str | None
+
+
+class Tune(NamedTuple):
+    """A group of applications has other parameters, on one unit or on all."""
+
+    group: str
+    unit: str | None
+    parameters: dict[str, Any]
+
+
+class Placement(NamedTuple):
+    """A vehicle is put on its route at a station [m], with a speed [m/s]."""
+
+    vehicle: str
+    along: float
+    speed: float
+
+
+class Removal(NamedTuple):
+    """A vehicle is taken away."""
+
+    vehicle: str
+
+
 class End(NamedTuple):
     """The run ends."""
 
 
 OnRoad = Limit | Slippery | Row | Closing | Shift  # which lie somewhere
-Effect = OnRoad | Walk | End
+Deed = WeatherChange | Lights | Jam | Delay | Drop | SensorFault | Switch | Tune | Placement | Removal
+Effect = OnRoad | Walk | Deed | End
 
 
 class Place:
@@ -107,6 +185,13 @@ class Place:
             sides = [(middle - area.radius, middle + area.radius) for middle in (area.x, area.y)]
         x0, y0, x1, y1 = self.network.bounds
         return any(high < first or low > last for (low, high), first, last in zip(sides, (x0, y0), (x1, y1), strict=False))
+
+    def sent(self) -> set[str]:
+        """The kinds of messages that units send by themselves, or that applications here may send."""
+        known = registry.known("application")
+        modules = [known[each.application].module for each in self.scenario.applications.values() if each.application in known]
+        by_applications = {one.kind for module in modules for one in port.done(module) if one.what == port.OUTBOX}
+        return by_applications | {name for name, kind in registry.known("message").items() if hasattr(kind.module, "beacon")}
 
     def lanes(self, road: str) -> int:
         """How many lanes a road has; 0 when there is no such road."""

@@ -164,6 +164,7 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
         "entry": (scenario.script, "entry of the script"),
         "body": ({**scenario.vehicles, **brought(scenario)}, "vehicle of this scenario, nor an entry of the script that brings somebody"),
         "application": (scenario.applications, "group of applications"),
+        "message": (registry.known("message"), "kind of message"),
         "value": (values(scenario), "value that is measured, logged or recorded here"),
     }
     found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario) if each.what in names]

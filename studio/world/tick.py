@@ -90,7 +90,7 @@ def environment(world: World) -> None:
         ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
     ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     if r.shown.size:
-        traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
+        traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
 
 
 def gather(world: World) -> None:

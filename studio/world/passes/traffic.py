@@ -78,9 +78,12 @@ ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a
 
 
 @lean
-def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, shown):
-    """First pass: what every signal shows."""
+def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, forced, shown):
+    """First pass: what every signal shows, by its programme or as it is forced to."""
     for link in range(shown.size):
+        if forced[link] >= 0:
+            shown[link] = forced[link]
+            continue
         shown[link] = signal_state(
             t, signal_time[0, link], signal_time[1, link], signal_first[link], signal_count[link], phase_end, phase_state
         )
