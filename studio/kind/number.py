@@ -1,9 +1,9 @@
 """Settings as numbers: what compiled code gets of a pydantic model, and how it is spelled in a loop that is written for it.
 
-A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one, a name (VehicleName and its
-like) is the column or number of what it names, and what is left empty is not a number. Pairs, list[tuple[float, float]], stand one after
-another where there are at most SHORT of them, as max_length says; a longer list is where it begins in the pool of the script, and how many
-there are. An area is x, y and radius of its circle, then the same of its corners. Kinds within kinds are no numbers of the outer one.
+A number is itself, yes and no are 1 and 0, a choice is its place in the list, a fixed-size array stays one, points (list[tuple[float,
+float]] with a max_length) stand one after another, a name (VehicleName and its like) is the column or number of what it names, and what is
+left empty is not a number. Pairs that are pooled are where they begin in the pool of the script and how many they are; an area is x, y and
+radius of its circle, then the same of its corners. Kinds within kinds are no numbers of the outer one.
 
     numbers(settings)                  →  [60.0, 1.0, 2.0]
     tuple_of(module, Settings)         →  a NamedTuple with the same fields, which belongs to the module
@@ -22,12 +22,11 @@ from pydantic.fields import FieldInfo
 
 from studio.kind.area import Area
 from studio.kind.preset import FIELD
-from studio.kind.settings import Nested, StationOf, marks, named
+from studio.kind.settings import Nested, Pooled, StationOf, marks, named
 
 Find = Callable[[str, Any], Any]  # what is named, and its name, as a number; of pairs and areas as many as they have
 POINTS, AREA = "points", "area"
 WIDE = {POINTS: 2, AREA: 5}  # numbers that stand for one
-SHORT = 64  # pairs at most that stand among the numbers themselves
 
 
 def nothing(what: str, name: str) -> float:
@@ -46,8 +45,11 @@ class Shape(NamedTuple):
 
 def shapes(model: type[BaseModel]) -> list[Shape]:
     """The fields of a model; raises TypeError for one that is no number."""
-    plain_fields = {name: field for name, field in model.model_fields.items() if name not in ("kind", FIELD) and not marks(field, Nested)}
-    return [shape(name, field.annotation, named(field), longest(field)) for name, field in plain_fields.items()]
+    fields = {name: field for name, field in model.model_fields.items() if name not in ("kind", FIELD) and not marks(field, Nested)}
+    return [
+        Shape(name, WIDE[POINTS], names=POINTS) if marks(field, Pooled) else shape(name, field.annotation, named(field), longest(field))
+        for name, field in fields.items()
+    ]
 
 
 def sizes(model: type[BaseModel]) -> list[int]:
@@ -73,9 +75,7 @@ def shape(name: str, kind: Any, names: str, most: int = 0) -> Shape:
         return Shape(name, 1)
     if kind is Area:
         return Shape(name, WIDE[AREA], names=AREA)
-    if get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float]:
-        return Shape(name, 2 * most) if 0 < most <= SHORT else Shape(name, WIDE[POINTS], names=POINTS)
-    allowed = "float, int, bool, Literal[...], tuple[float, float], list[tuple[float, float]], Area, and names such as VehicleName"
+    allowed = "float, int, bool, Literal[...], tuple[float, float], list[tuple[float, float]] with max_length, names such as VehicleName"
     raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")
 
 

@@ -44,6 +44,11 @@ class StationOf:
 
 
 @dataclass(frozen=True)
+class Pooled:
+    """Of a list of pairs: however long, it stands in the pool of the script, and not among the numbers of the settings."""
+
+
+@dataclass(frozen=True)
 class Nested:
     """Of a field: kinds of a sort stand in it, which have settings of their own."""
 
@@ -57,6 +62,7 @@ RouteName = Annotated[Name, Names("route")]
 EntryName = Annotated[Name, Names("entry")]
 BodyName = Annotated[Name, Names("body")]  # a vehicle, or a mover that an entry of the script brings
 GroupName = Annotated[Name, Names("application")]
+MessageName = Annotated[Name, Names("message")]
 SignalName = Annotated[str, Field(max_length=100), Names("signal")]  # a road with lights at its end
 ValueName = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*(\.[A-Za-z0-9][A-Za-z0-9_]*)+$", max_length=120), Names("value")]
 

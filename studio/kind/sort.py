@@ -338,6 +338,7 @@ SORTS = {
                 "settings", "parts", compiled=True), "def joins(settings, parts)", optional=True),
             Need("moment", "the time [s] from which on it is so, where the settings alone tell it", function("settings"),
                  "def moment(settings)", optional=True),
+            Need("READS_MAIL", "that it looks at `view.mail`, which is made for those that do", yes, "READS_MAIL = True", optional=True),
             Need("never", "why it can never be so in a scenario, in words; empty when it may be", function("settings", "place"),
                  "def never(settings, place)", optional=True),
         ), asked_or_joined, "write holds, or joins with a field of the type AnyCondition (studio.kind.slot), or a list of these"),

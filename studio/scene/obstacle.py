@@ -1,4 +1,4 @@
-"""Objects of construction sites on a viser server: one batch of cones, one of barriers; red and white."""
+"""Objects on the road on a viser server: a batch of cones, one of barriers, red and white; people on foot and on bicycles; boxes."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -10,18 +10,20 @@ from studio.scene.glb import Material, glb
 from studio.scene.shape import Surface, box, joined, lathe
 
 ORANGE, RED, WHITE, RUBBER, STEEL = "#e8501e", "#c8231c", "#f2f0ea", "#2b2c2e", "#8d9296"
+JEANS, JACKET, SKIN, CARDBOARD = "#3b4a63", "#b0322b", "#c99a7b", "#a9814f"
 HIDDEN = np.array([0.0, 0.0, -500.0], np.float32)
 CONE_BANDS = np.array([[0.115, 0.04], [0.094, 0.25], [0.074, 0.42], [0.062, 0.52], [0.047, 0.65], [0.03, 0.75], [0.0, 0.75]])
 LENGTH, BOARD, STRIPES = 1.5, 0.25, 6  # [m] of a barrier, [m] height of its boards, stripes of a board
 
 
 class Place(NamedTuple):
-    """An object: "cone" or "barrier", where it stands [m], and the heading of its length [rad]."""
+    """An object: one of `SHAPES`, where it stands [m], the heading of its length [rad], its length and width [m], which a box obeys."""
 
     kind: str
     x: float
     y: float
     heading: float
+    size: tuple[float, float] = (1.0, 1.0)
 
 
 def cone() -> Surface:
@@ -47,7 +49,33 @@ def board() -> Surface:
     return joined([box((width, 0.06, BOARD), (RED, WHITE)[i % 2]).moved(x=x) for i, x in enumerate(places)])
 
 
-SHAPES = {"cone": cone, "barrier": barrier}
+def pedestrian() -> Surface:
+    """Somebody on foot, 1.75 m tall, who looks along x."""
+    legs = [box((0.18, 0.14, 0.85), JEANS).moved(y=y, z=0.43) for y in (-0.1, 0.1)]
+    trunk = [box((0.24, 0.46, 0.62), JACKET).moved(z=1.15), box((0.2, 0.17, 0.26), SKIN).moved(z=1.61)]
+    return joined([*legs, *trunk])
+
+
+def cyclist() -> Surface:
+    """Somebody on a bicycle 1.9 m long."""
+    wheels = [box((0.62, 0.04, 0.62), RUBBER).moved(x=x, z=0.33) for x in (-0.55, 0.55)]
+    frame = [box((0.95, 0.05, 0.07), STEEL).moved(z=0.6), box((0.05, 0.5, 0.05), STEEL).moved(x=0.5, z=1.0)]
+    rider = [box((0.3, 0.3, 0.55), JEANS).moved(z=0.85), box((0.32, 0.44, 0.55), JACKET).moved(x=0.1, z=1.3)]
+    return joined([*wheels, *frame, *rider, box((0.2, 0.17, 0.26), SKIN).moved(x=0.2, z=1.7)])
+
+
+def crate() -> Surface:
+    """A box of 1 m by 1 m by 1 m, which is stretched to the size of the object."""
+    return box((1.0, 1.0, 1.0), CARDBOARD).moved(z=0.5)
+
+
+SHAPES = {"cone": cone, "barrier": barrier, "pedestrian": pedestrian, "cyclist": cyclist, "box": crate}
+
+
+def turns(headings: np.ndarray) -> np.ndarray:
+    """float32[object, 4] of headings [rad], as quaternions."""
+    half = 0.5 * headings
+    return np.stack([np.cos(half), 0 * half, 0 * half, np.sin(half)], axis=1).astype(np.float32)
 
 
 class Obstacles:
@@ -60,28 +88,31 @@ class Obstacles:
             if any(place.kind == kind for place in places)
         ]
         self.shown = np.zeros(len(places), np.int8)
+        self.where = np.array([each[1:4] for each in places], np.float32).reshape(-1, 3).T.copy()
 
     def batch(self, server: viser.ViserServer, kind: str, members: np.ndarray, places: Sequence[Place]) -> tuple:
-        """Members, node and places of all objects of a kind."""
-        spots = np.array([[places[i].x, places[i].y, 0.0] for i in members], np.float32)
-        half = 0.5 * np.array([places[i].heading for i in members])
-        turns = np.stack([np.cos(half), 0 * half, 0 * half, np.sin(half)], axis=1).astype(np.float32)
+        """Members and node of all objects of a kind."""
         hidden = np.tile(HIDDEN, (len(members), 1))
+        sizes = np.array([(*places[i].size, 1.0) if kind == "box" else (1.0, 1.0, 1.0) for i in members], np.float32)
+        headings = np.array([places[i].heading for i in members])
         node = server.scene.add_batched_glb(
-            f"/obstacles/{kind}s", glb(SHAPES[kind](), Material(roughness=0.6)), turns, hidden, lod="off",
+            f"/obstacles/{kind}s", glb(SHAPES[kind](), Material(roughness=0.6)), turns(headings), hidden, batched_scales=sizes, lod="off",
             cast_shadow=False, receive_shadow=False,
         )  # fmt: skip
-        return members, node, spots
+        return members, node
 
-    def show(self, standing: np.ndarray) -> None:
-        """Shows those that stand, int8[object]; quick when nothing has changed."""
-        if (standing == self.shown).all():
+    def show(self, standing: np.ndarray, where: np.ndarray) -> None:
+        """Shows those that stand, int8[object], where they are, float32[x, y and heading, object]; quick when nothing has changed."""
+        if np.array_equal(standing, self.shown) and np.array_equal(where, self.where):
             return
-        for members, node, spots in self.batches:
-            node.batched_positions = np.where(standing[members, None] > 0, spots, HIDDEN)
-        self.shown = standing.copy()
+        for members, node in self.batches:
+            x, y, heading = where[:, members]
+            node.batched_positions = np.where(standing[members, None] > 0, np.stack([x, y, 0.0 * x], axis=1), HIDDEN).astype(np.float32)
+            if not np.array_equal(heading, self.where[2, members]):
+                node.batched_wxyzs = turns(heading)
+        self.shown, self.where = standing.copy(), where.copy()
 
     def remove(self) -> None:
         """Takes them off the server."""
-        for _, node, _ in self.batches:
+        for _, node in self.batches:
             node.remove()

@@ -90,10 +90,11 @@ class Scene:
             self._obstacles.remove()
             self._obstacles = Obstacles(self._server, places)
 
-    def update_obstacles(self, standing: np.ndarray) -> None:
-        """Show the objects that stand, int8[object] in the order of `show_obstacles`; quick when nothing has changed."""
+    def update_obstacles(self, standing: np.ndarray, objects: np.ndarray) -> None:
+        """Show the objects that stand, int8[object] in the order of `show_obstacles`, where they are, float32[x, y and heading, object];
+        quick when nothing has changed."""
         with self._lock, self._server.atomic():
-            self._obstacles.show(standing)
+            self._obstacles.show(standing, objects)
 
     def show_weather(self, visibility: float) -> None:
         """Haze, or fog where one sees less far [m]."""

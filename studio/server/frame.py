@@ -13,6 +13,7 @@ from studio.vehicle.parameter import L_F, L_R, LENGTH, RADIUS, TRACK_F, WIDTH, H
 from studio.vehicle.state import ACTIVE, DELTA, PITCH, PSI, ROLL, ROTATION, X, Y, Z
 from studio.world.build import at_start
 from studio.world.setting import Setting
+from studio.world.table.street import O_HEADING, O_X, O_Y
 from studio.world.thing import WORDS, things
 from studio.world.world import Vehicles, World
 
@@ -21,27 +22,32 @@ MOTION = (pose.X, pose.Y, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEE
 
 
 class Frame(NamedTuple):
-    """One picture: poses float32[POSE_ROWS, vehicle], lights int8[link], which objects stand int8[object]."""
+    """One picture: poses float32[POSE_ROWS, vehicle], lights int8[link], which objects stand int8[object], and where they are,
+    float32[x, y and heading, object]."""
 
     poses: np.ndarray
     lights: np.ndarray
     standing: np.ndarray
+    objects: np.ndarray
 
 
 def frame(world: World, seen: np.ndarray) -> Frame:
     """The picture of a world in which the vehicles are seen at these poses."""
-    return Frame(seen, world.roads.shown.astype(np.int8), world.obstacles.standing.astype(np.int8))
+    o = world.obstacles
+    return Frame(seen, world.roads.shown.astype(np.int8), o.standing.astype(np.int8), o.table[[O_X, O_Y, O_HEADING]].astype(np.float32))
 
 
 def first_frame(setting: Setting) -> Frame:
     """The picture at the start."""
-    standing = [int(setting.sites[each.entry].is_there_from_the_start) for each in things(setting.sites)]
-    return Frame(poses(at_start(setting)), first_lights(setting), np.array(standing, dtype=np.int8))
+    found = list(things(setting.sites))
+    standing = [int(setting.sites[each.entry].is_there_from_the_start) for each in found]
+    objects = np.array([(each.x, each.y, each.heading) for each in found], np.float32).reshape(-1, 3).T
+    return Frame(poses(at_start(setting)), first_lights(setting), np.array(standing, dtype=np.int8), objects)
 
 
 def places(setting: Setting) -> list[Place]:
     """All objects that may stand on the road."""
-    return [Place(WORDS[each.kind], each.x, each.y, each.heading) for each in things(setting.sites)]
+    return [Place(WORDS[each.kind], each.x, each.y, each.heading, (each.length, each.width)) for each in things(setting.sites)]
 
 
 def poses(vehicles: Vehicles) -> np.ndarray:

@@ -59,7 +59,7 @@ class Stage:
         """Puts a picture on the scene."""
         self.scene.update(frame.poses)
         self.scene.show_signals(frame.lights)
-        self.scene.update_obstacles(frame.standing)
+        self.scene.update_obstacles(frame.standing, frame.objects)
 
 
 def described(prepared: Setting) -> dict[str, Any]:

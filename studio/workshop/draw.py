@@ -4,7 +4,7 @@ import math
 from contextlib import suppress
 from dataclasses import replace
 from types import ModuleType
-from typing import Any, get_args, get_origin
+from typing import Any, get_origin
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -14,7 +14,7 @@ from studio.execution.record import Body, Chain, Record
 from studio.kind.area import Area
 from studio.kind.number import AREA, POINTS, numbers, plain, shapes, tuple_of
 from studio.kind.quantity import Quantity, quantities
-from studio.kind.settings import Nested, marks, named
+from studio.kind.settings import Nested, Pooled, marks, named
 from studio.world.channel import CHANNELS
 
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
@@ -23,6 +23,7 @@ TRIES = 50
 NAMES = tuple("abcdefghijklmnopqrstuvwxyz")  # of drawn cars
 STAGE: dict[str, Any] = {
     "vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway", "body": "ahead", "value": "own.speed",
+    "message": "awareness",
 }  # fmt: skip
 POOL = np.array([np.arange(0.0, 40.0), np.linspace(10.0, 30.0, 40)])  # of pairs, where settings are told apart from their lists
 USUAL = {  # range of a quantity by its unit, wider than any that is met
@@ -56,8 +57,7 @@ def whole(field: FieldInfo, draw: np.random.Generator) -> Any:
         return found if get_origin(kind) is list else found[0]
     if kind is Area:
         return {"x": float(draw.uniform(200.0, 500.0)), "y": 0.0, "radius": float(draw.uniform(1.0, 200.0))}
-    is_pairs = get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float]
-    return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if is_pairs else None
+    return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if marks(field, Pooled) else None
 
 
 def staged(what: str, node: dict[str, Any]) -> Any:
@@ -98,6 +98,9 @@ def value(node: dict[str, Any], draw: np.random.Generator, name: str) -> Any:
     """A value for a field of a schema: a number between its bounds, yes or no, one of several; else what it is at first."""
     if "enum" in node:
         return node["enum"][draw.integers(len(node["enum"]))]
+    numbers_or_none = [each for each in node.get("anyOf", []) if each.get("type") == "number"]
+    if numbers_or_none and draw.random() < 0.5:
+        return value(numbers_or_none[0], draw, name)
     if node.get("type") == "boolean":
         return bool(draw.integers(2))
     if node.get("type") == "integer":

@@ -21,8 +21,10 @@ from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world.board.crew import hosts
 from studio.world.board.equipment import units_of
 from studio.world.chart import chart_of
+from studio.world.deed import deeds_of
 from studio.world.effect import Slippery
 from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
+from studio.world.mail import mail_of
 from studio.world.obstacle import movers, obstacles_of
 from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
@@ -74,6 +76,8 @@ def build(settings: Sequence[Setting]) -> World:
         colours=tuple(car.colour for car in cars),
     )
     world.script.reader = reader_of(world)
+    world.script.deeds = deeds_of(settings, world)
+    world.script.mail = mail_of(world.units.posts)
     settle(world)
     world.origin = origin_of(settings, world)
     gather(world)
@@ -125,6 +129,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
         any_returns=any(car.returns for car in cars),
+        removed=np.zeros(n, dtype=np.int64),
         app_command=np.full((2 * len(ACTUATORS), n), np.nan),
     )
 
@@ -225,6 +230,8 @@ def signals_of(settings: Sequence[Setting]) -> dict[str, Any]:
         "phase_end": joined("phase_end"),
         "phase_state": joined("phase_state"),
         "shown": np.zeros(joined("cycle").size, dtype=np.int64),
+        "forced": np.full(joined("cycle").size, -1),
+        "light_first": starts(np.array([len(signals) for signals in all_signals])),
     }
 
 

@@ -38,9 +38,14 @@ class View(NamedTuple):
     path_count: np.ndarray  # of its points, per vehicle
     turned: np.ndarray  # [s] float64[2, entry]: when an entry of the script began and ended last, not a number before
     shown: np.ndarray  # what each light shows
+    stop_first: np.ndarray  # the first stop line of its path, per vehicle
+    stop_count: np.ndarray  # of them, per vehicle
+    stop_station: np.ndarray  # [m] along the path
+    stop_link: np.ndarray  # the light of each stop line
     table: np.ndarray  # [OBSTACLE, object] of all worlds
     standing: np.ndarray  # per object, 1 while it is there
     pool: np.ndarray  # [2, pair]: the lists of pairs that stand in settings
+    mail: np.ndarray  # [MAIL, sender or link]: what was sent, received and lost since the tick before
     values: np.ndarray  # what is read of sensors, applications and vehicles for conditions that look at it
 
 

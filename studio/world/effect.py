@@ -2,15 +2,22 @@
 
 Limit, Slippery, Row        about a stretch of a route or lane
 Closing, Shift              about a stretch of one lane, with tapers
+Walk                        somebody who moves, on a line of the map
+WeatherChange, Lights       about the whole world, or the lights of a road
+Placement, Removal          about a vehicle
+Jam, Delay, Drop            about the radio
+SensorFault, Switch, Tune   about what a unit has on board
 End                         about the run
 
 They are data: names and stations, which the world looks up on its map.
 """
 
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from studio.application import port
 from studio.errors import Problem, RouteError, nearest
 from studio.kind import registry
 from studio.kind.area import Area
@@ -18,7 +25,7 @@ from studio.kind.stretch import LaneStretch, Stretch
 from studio.road.network import Network
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import lane_line
-from studio.road.ways.path import Path
+from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.road.ways.route import connect
 from studio.scenario.schema import Scenario
 
@@ -63,12 +70,95 @@ class Shift(NamedTuple):
     offset: float
 
 
+class Walk(NamedTuple):
+    """Somebody who moves along a line [m] on the map with a speed [m/s], and `stays` at its end or is gone; length and width [m]."""
+
+    who: Literal["pedestrian", "cyclist", "box"]
+    line: tuple[tuple[float, float], ...]
+    speed: float
+    stays: bool
+    size: tuple[float, float]
+
+
+class WeatherChange(NamedTuple):
+    """Another friction [1], another visibility [m], or both, everywhere."""
+
+    friction: float | None
+    visibility: float | None
+
+
+class Lights(NamedTuple):
+    """What the lights at the end of a road show, whatever their programme says."""
+
+    road: str
+    shows: Literal["red", "red_amber", "green", "amber"]
+
+
+class Jam(NamedTuple):
+    """An area in which units hear nothing."""
+
+    area: Area
+
+
+class Delay(NamedTuple):
+    """What a unit sends, or everybody, comes later by a time [s]."""
+
+    unit: str | None
+    delay: float
+
+
+class Drop(NamedTuple):
+    """So many of the next messages of a unit reach nobody."""
+
+    unit: str
+    count: int
+
+
+class SensorFault(NamedTuple):
+    """A sensor of a unit, or all of them, gives nothing, or has its noise times a factor [1]."""
+
+    unit: str
+    sensor: str | None
+    fails: bool
+    noise: float
+
+
+class Switch(NamedTuple):
+    """A group of applications does not run, on one unit or on all."""
+
+    group: str
+    unit: str | None
+
+
+class Tune(NamedTuple):
+    """A group of applications has other parameters, on one unit or on all."""
+
+    group: str
+    unit: str | None
+    parameters: dict[str, Any]
+
+
+class Placement(NamedTuple):
+    """A vehicle is put on its route at a station [m], with a speed [m/s]."""
+
+    vehicle: str
+    along: float
+    speed: float
+
+
+class Removal(NamedTuple):
+    """A vehicle is taken away."""
+
+    vehicle: str
+
+
 class End(NamedTuple):
     """The run ends."""
 
 
 OnRoad = Limit | Slippery | Row | Closing | Shift  # which lie somewhere
-Effect = OnRoad | End
+Deed = WeatherChange | Lights | Jam | Delay | Drop | SensorFault | Switch | Tune | Placement | Removal
+Effect = OnRoad | Walk | Deed | End
 
 
 class Place:
@@ -95,6 +185,13 @@ class Place:
             sides = [(middle - area.radius, middle + area.radius) for middle in (area.x, area.y)]
         x0, y0, x1, y1 = self.network.bounds
         return any(high < first or low > last for (low, high), first, last in zip(sides, (x0, y0), (x1, y1), strict=False))
+
+    def sent(self) -> set[str]:
+        """The kinds of messages that units send by themselves, or that applications here may send."""
+        known = registry.known("application")
+        modules = [known[each.application].module for each in self.scenario.applications.values() if each.application in known]
+        by_applications = {one.kind for module in modules for one in port.done(module) if one.what == port.OUTBOX}
+        return by_applications | {name for name, kind in registry.known("message").items() if hasattr(kind.module, "beacon")}
 
     def lanes(self, road: str) -> int:
         """How many lanes a road has; 0 when there is no such road."""
@@ -123,9 +220,22 @@ class Place:
             return lane_line(self.network, self.network.lanes_of(stretch.road)[stretch.lane])
         return self.route(str(stretch.route))
 
+    def on_map(self, route: str | None, line: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+        """Places that are given as station along a route and distance to its left, or on the map as they are."""
+        if route is None or route not in self.scenario.routes:  # a name that there is not is told elsewhere
+            return tuple(line)
+        return tuple(beside(self.route(route), along, left)[:2] for along, left in line)
+
     def route(self, name: str) -> Path:
         """The line of a route; raises KeyError or RouteError."""
         return road_path.path(self.network, connect(self.network, self.scenario.routes[name].roads))
+
+
+def beside(line: Path, station: float, offset: float) -> tuple[float, float, float]:
+    """Place [m] at a station of a line, `offset` [m] to its left, and its heading there [rad]."""
+    grid = np.arange(line.points.shape[1]) * PATH_SPACING
+    x, y, heading = (float(np.interp(station, grid, line.points[row])) for row in (PATH_X, PATH_Y, PATH_HEADING))
+    return x - offset * float(np.sin(heading)), y + offset * float(np.cos(heading)), heading
 
 
 def length_problem(stretch: Stretch | LaneStretch, place: Place, at: str) -> list[Problem]:

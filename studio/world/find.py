@@ -6,11 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from studio.kind import registry
 from studio.kind.area import Area
 from studio.road.network import Network
 from studio.road.ways.detour import lane_line
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y
 from studio.world.line import starts
+from studio.world.mail import number_of
 from studio.world.setting import Setting
 from studio.world.table.street import OBJECT
 from studio.world.world import Worlds
@@ -82,8 +84,9 @@ def corners(of: Area, network: Network) -> list[Pair]:
 def finders(settings: Sequence[Setting], worlds: Worlds, movers: list[dict[str, int]]) -> tuple[list[Finder], Found]:
     """One for each world; `movers` are the numbers of objects among all, by the entries that bring them."""
     found, made = Found(), []
-    entries, lights = (starts(np.array(counts)) for counts in (
-        [len(each.scenario.script) for each in settings], [len(each.network.signals) for each in settings]
+    entries, lights, units = (starts(np.array(counts)) for counts in (
+        [len(each.scenario.script) for each in settings], [len(each.network.signals) for each in settings],
+        [len(each.scenario.vehicles) + len(each.scenario.stations) for each in settings],
     ))  # fmt: skip
     for w, each in enumerate(settings):
         columns = {name: float(worlds.first[w] + i) for i, name in enumerate(each.names)}
@@ -91,7 +94,8 @@ def finders(settings: Sequence[Setting], worlds: Worlds, movers: list[dict[str, 
         roads = [each.network.lanes[lane].road for lane in signals.link_lane]
         numbers = {
             "vehicle": columns,
-            "unit": columns,
+            "unit": {name: float(units[w] + i) for i, name in enumerate((*each.scenario.vehicles, *each.scenario.stations))},
+            "message": {name: float(number_of(name)) for name in registry.known("message")},
             "body": columns | {name: float(OBJECT - number) for name, number in movers[w].items()},
             "entry": {name: float(entries[w] + i) for i, name in enumerate(each.scenario.script)},
             "route": {name: float(i) for i, name in enumerate(each.scenario.routes)},

@@ -14,6 +14,7 @@ from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
 from studio.world.chart import CHART
+from studio.world.mail import MAIL
 from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.passes.sight import SIGHT
@@ -24,7 +25,7 @@ from studio.world.table.unit import GPS_SET, HEARD, LOGGED, OUTPUT, SATELLITE, S
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
     MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD, LOGGED,
-    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE, SIGHT, CHART,
+    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE, MAIL, SIGHT, CHART,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 

@@ -1,18 +1,36 @@
 """Objects on the road: all things of all worlds, and which of them lie in the way of a path."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import cos, sin
 
 import numpy as np
 
 from studio.compiled import lean
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.world.effect import Walk
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting
-from studio.world.table.street import ACTING, O_ENTRY, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBSTACLE, SWEEP
-from studio.world.thing import MOVERS, SIZES, names, things
-from studio.world.world import Obstacles
+from studio.world.table.street import (
+    ACTING,
+    BARRIER,
+    CONE,
+    O_ENTRY,
+    O_HEADING,
+    O_KIND,
+    O_LENGTH,
+    O_SPEED,
+    O_WIDTH,
+    O_X,
+    O_Y,
+    OBSTACLE,
+    SWEEP,
+)
+from studio.world.thing import Thing, headings, names, things
+from studio.world.world import Movers, Obstacles
 
 NEAR = 3.0  # [m] an object farther from a path is in nobody's way
+EAST, NORTH, AT, ALONG = range(4)  # rows of corners: place [m], station along the line [m], heading of the leg from there on [rad]
 WIDEST = 1.6  # [m] half of the widest vehicle, with the distance that drivers keep
 
 
@@ -22,7 +40,7 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
     counts = np.array([len(each) for each in found])
     first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
-        (each.x, each.y, each.heading, *SIZES[each.kind], each.kind, base[w] + each.entry, 0.0)
+        (each.x, each.y, each.heading, each.length, each.width, each.kind, base[w] + each.entry, 0.0)
         for w, some in enumerate(found)
         for each in some
     ]
@@ -38,14 +56,38 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
         counts=lengths,
         sweep_first=starts(lengths)[lines.base],
         sweep_count=lengths[lines.base],
+        movers=movers_of([each for some in found for each in some]),
         names=tuple(name for each, some in zip(settings, found, strict=True) for name in names(each.sites, some)),
     )
+
+
+def movers_of(found: Sequence[Thing]) -> Movers:
+    """Everything that moves, and the corners of all lines."""
+    moving = [(i, each, each.walk) for i, each in enumerate(found) if each.walk is not None]
+    corners = [corner for _, _, walk in moving for corner in corners_of(walk)]
+    counts = np.array([len(walk.line) for _, _, walk in moving], dtype=np.int64)
+    return Movers(
+        object=np.array([i for i, _, _ in moving], dtype=np.int64),
+        first=np.cumsum(counts) - counts,
+        count=counts,
+        corner=np.array(corners).reshape(-1, 4).T.copy(),
+        speed=np.array([walk.speed for _, _, walk in moving]),
+        stays=np.array([int(walk.stays) for _, _, walk in moving], dtype=np.int64),
+    )
+
+
+def corners_of(walk: Walk) -> Iterator[tuple[float, float, float, float]]:
+    """Place, station and heading from there on of every corner of a line; the last keeps the heading of the leg before it."""
+    legs = headings(walk.line)
+    stations = np.concatenate([[0.0], np.cumsum([np.hypot(c - a, d - b) for (a, b), (c, d) in pairwise(walk.line)])])
+    for (x, y), station, heading in zip(walk.line, stations, [*legs, legs[-1]], strict=False):
+        yield x, y, float(station), heading
 
 
 def movers(settings: Sequence[Setting], first: np.ndarray) -> list[dict[str, int]]:
     """For each world the numbers of what moves among all objects, by the entries of the script that bring it."""
     return [
-        {each.sites[thing.entry].name: int(first[w]) + i for i, thing in enumerate(things(each.sites)) if thing.kind in MOVERS}
+        {each.sites[thing.entry].name: int(first[w]) + i for i, thing in enumerate(things(each.sites)) if thing.walk is not None}
         for w, each in enumerate(settings)
     ]
 
@@ -56,7 +98,7 @@ def sweep(path: Path, table: np.ndarray, first: int, count: int) -> np.ndarray:
     A path that passes an object twice has it twice.
     """
     met = []
-    for i in range(first, first + count):
+    for i in (i for i in range(first, first + count) if table[O_KIND, i] in (CONE, BARRIER)):  # movers are looked for at every tick
         apart = table[[O_X, O_Y], i, None] - path.points[[PATH_X, PATH_Y]]
         near = np.flatnonzero(np.hypot(*apart) < NEAR)
         for run in np.split(near, np.flatnonzero(np.diff(near) > 1) + 1):
@@ -83,3 +125,22 @@ def put_up(table, phase, held, standing):
         entry = int(table[O_ENTRY, i])
         acts = phase[entry] == ACTING
         standing[i] = 1 if acts and (standing[i] == 1 or held[entry] == 0) else 0
+
+
+@lean
+def walk(time, turned, mover, first, count, corner, speed, stays, table, standing):
+    """Whoever moves is where he has come since his entry began; one who does not stay is gone at the end of his line."""
+    for j in range(mover.size):
+        i, last = mover[j], first[j] + count[j] - 1
+        if standing[i] == 0:
+            continue
+        s, k = speed[j] * (time - turned[0, int(table[O_ENTRY, i])]), first[j]
+        while k < last and corner[AT, k + 1] <= s:
+            k += 1
+        beyond = s - corner[AT, k] if k < last else 0.0
+        table[O_X, i] = corner[EAST, k] + beyond * cos(corner[ALONG, k])
+        table[O_Y, i] = corner[NORTH, k] + beyond * sin(corner[ALONG, k])
+        table[O_HEADING, i] = corner[ALONG, k]
+        table[O_SPEED, i] = speed[j] if k < last else 0.0
+        if k == last and stays[j] == 0 and count[j] > 1:
+            standing[i] = 0

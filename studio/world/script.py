@@ -18,17 +18,18 @@ from studio.road.ways.detour import limited
 from studio.road.ways.path import PATH_SPEED
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE
-from studio.world import condition, maneuver, obstacle
+from studio.world import condition, deed, mail, maneuver, obstacle
 from studio.world.condition import View
 from studio.world.effect import End, Limit
 from studio.world.find import Finder, finders
 from studio.world.line import Lines, conflicts, starts
+from studio.world.mail import MAIL
 from studio.world.node import Node, nodes_of
 from studio.world.setting import Setting
 from studio.world.site import Laid
 from studio.world.table.mind import SCRIPT, STATION
 from studio.world.table.street import ACTING, BEFORE, OVER, PIECE_ACTS, PIECE_ENTRY
-from studio.world.world import Asked, Maneuvers, Script, World, Worlds
+from studio.world.world import Asked, Deeds, Maneuvers, Script, World, Worlds
 
 
 def turn(world: World) -> None:
@@ -36,12 +37,17 @@ def turn(world: World) -> None:
     s, d, o, v = world.script, world.detours, world.obstacles, world.vehicles
     if s.waiting.size:
         ask(world)
+    if s.deeds.regions:
+        deed.jam(world)
     if not d.held.size:
         return
     chosen = d.choice.copy()
     if choose(s.phase, d.vehicle, d.work, d.base, d.span, v.state, v.parameter, v.mind, d.held, d.choice, chosen):
         go_over(world, chosen)
     obstacle.put_up(o.table, s.phase, d.held, o.standing)
+    m = o.movers
+    if m.object.size:
+        obstacle.walk(world.clock.time, s.turned, m.object, m.first, m.count, m.corner, m.speed, m.stays, o.table, o.standing)
 
 
 def ask(world: World) -> None:
@@ -49,6 +55,8 @@ def ask(world: World) -> None:
     s, time = world.script, world.clock.time
     if s.reader:
         s.reader.read(s.values)
+    if s.reads_mail:
+        mail.sort(world.units.posts, time, world.clock.tick, s.mail)
     view = view_of(world)
     for each in (s.asked[i] for i in s.waiting):
         each.run(
@@ -59,14 +67,15 @@ def ask(world: World) -> None:
     if proceed(time, s.come, s.vehicle, s.takes, s.momentary, s.phase, s.turned, s.cut):
         s.commands[:] = 0.0
         post(world)
+        deed.begin(world)
 
 
 def view_of(world: World) -> View:
     """What conditions look at now."""
     v, r, o, s, clock = world.vehicles, world.roads, world.obstacles, world.script, world.clock
     return View(
-        clock.time, clock.tick, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned, r.shown, o.table, o.standing,
-        s.pool, s.values,
+        clock.time, clock.tick, v.state, v.parameter, v.mind, r.points, r.path_first, r.path_count, s.turned, r.shown, r.stop_first,
+        r.stop_count, r.stop_station, r.stop_link, o.table, o.standing, s.pool, s.mail, s.values,
     )  # fmt: skip
 
 
@@ -221,6 +230,7 @@ def post(world: World) -> None:
     """What the phases mean: limits, slippery pieces, which conditions are waited for, which maneuvers last."""
     s, pieces = world.script, world.roads.pieces
     post_limits(s, world.roads.points)
+    deed.hold(world)
     pieces[PIECE_ACTS] = s.phase[pieces[PIECE_ENTRY].astype(np.int64)] == ACTING
     s.waiting = np.flatnonzero([is_waited_for(each, s).any() for each in s.asked])
     s.acting = np.flatnonzero([(s.phase[each.entry] == ACTING).any() for each in s.maneuvers])
@@ -278,6 +288,9 @@ def script_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, movers:
         watched=found.watched,
         values=np.zeros(len(found.watched)),
         reader=None,
+        mail=np.zeros((len(MAIL), 0)),
+        reads_mail=any(hasattr(each.kind.module, "READS_MAIL") for each in asked),
+        deeds=Deeds(),
         limits=limits,
         free=(limited_at, lines.points[PATH_SPEED, limited_at]),
         waiting=np.flatnonzero([(each.turn == 0).any() for each in asked]),

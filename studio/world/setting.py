@@ -30,10 +30,11 @@ from studio.vehicle.fleet import check_step
 from studio.world import crew
 from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
+from studio.world.effect import Walk
 from studio.world.footprint import Footprint, Overlap, depth, overlaps
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
-from studio.world.thing import SIZES, Thing, names, things
+from studio.world.thing import Thing, names, things
 from studio.world.value import values
 from studio.world.way import MOST_WORKS, Works
 
@@ -81,7 +82,7 @@ class Setting:
     @property
     def changes_roads(self) -> bool:
         """Whether something in the script is about the roads."""
-        return any(site.laid for site in self.sites)
+        return any(site.laid or any(isinstance(each, Walk) for each in site.effects) for site in self.sites)
 
 
 def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
@@ -163,6 +164,7 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
         "entry": (scenario.script, "entry of the script"),
         "body": ({**scenario.vehicles, **brought(scenario)}, "vehicle of this scenario, nor an entry of the script that brings somebody"),
         "application": (scenario.applications, "group of applications"),
+        "message": (registry.known("message"), "kind of message"),
         "value": (values(scenario), "value that is measured, logged or recorded here"),
     }
     found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario) if each.what in names]
@@ -411,7 +413,7 @@ def standing_first(found: tuple[Site, ...]) -> Iterator[tuple[str, Thing]]:
 
 def thing_at(each: Thing) -> tuple[float, float, float, float, float]:
     """Place, heading and size of a thing."""
-    return each.x, each.y, each.heading, *SIZES[each.kind]
+    return each.x, each.y, each.heading, each.length, each.width
 
 
 def overlapping(each: Overlap, starting: Collection[str], where: str) -> Problem:

@@ -25,6 +25,7 @@ from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.road.ways.route import connect
 from studio.scenario.schema import Entry, Scenario, moment_of
 from studio.world.effect import Closing, Effect, OnRoad, Place, Row, Shift, length_problem, row_problem
+from studio.world.refusal import deed_problems
 
 Effects = dict[str, list[Effect]]  # by the name of the entry
 
@@ -178,7 +179,8 @@ def place_problems(scenario: Scenario, network: Network, where: str) -> list[Pro
             found += effect_problems(effect, place, f"{at}.do") or work_problems(effect, closed, place, f"{at}.do")
         for path, part in conditions(entry, at):
             found += station_problems(part, scenario, network, path) + ground_problems(part, place, path)
-        found += ground_problems(entry.do, place, f"{at}.do")
+        found += ground_problems(entry.do, place, f"{at}.do") + station_problems(entry.do, scenario, network, f"{at}.do")
+        found += [each for effect in effects[name] for each in deed_problems(effect, scenario, f"{at}.do")]
     return found + list(overlap_problems(effects, place, where))
 
 

@@ -90,7 +90,7 @@ def environment(world: World) -> None:
         ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
     ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     if r.shown.size:
-        traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.shown)
+        traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
 
 
 def gather(world: World) -> None:
@@ -114,6 +114,11 @@ def look(world: World) -> None:
         )  # fmt: skip
     if o.standing.size:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
+    if o.movers.object.size:
+        traffic.movers(
+            v.state, v.parameter, r.points, r.path_first, r.path_count, o.movers.object, o.table, o.standing, o.first, o.count, w.of,
+            v.drivers, v.mind,
+        )  # fmt: skip
 
 
 def think(world: World) -> None:

@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -52,6 +52,7 @@ class Vehicles(Fleet):
     mind: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     any_returns: bool  # at the start
+    removed: Moving  # 1 for one that the script has taken away
     app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none; then who commands each
 
 
@@ -90,6 +91,8 @@ class Roads:
     phase_end: np.ndarray
     phase_state: np.ndarray
     shown: Moving
+    forced: np.ndarray  # what the script has each light show, -1 where it does not
+    light_first: np.ndarray  # the first light, per world
     weather: np.ndarray  # friction [1] per world
     pieces: np.ndarray  # of slippery stretches, [row, piece]
     near: np.ndarray  # scratch: pieces around one vehicle
@@ -146,6 +149,45 @@ class Maneuvers:
     run: Callable
 
 
+class Held(NamedTuple):
+    """Cells of an array that have a value while an entry acts, and what they are by themselves."""
+
+    entry: int
+    owner: Any
+    field: str
+    index: Any
+    value: Any
+    base: np.ndarray
+
+
+class Once(NamedTuple):
+    """What is done once when an entry begins."""
+
+    entry: int
+    do: Callable[["World"], None]
+
+
+class Region(NamedTuple):
+    """Where the units of a world hear nothing while an entry acts: a circle [m], or corners."""
+
+    entry: int
+    units: np.ndarray
+    x: float
+    y: float
+    radius: float
+    corners: list[tuple[float, float]]
+
+
+@dataclass
+class Deeds:
+    """What actions do besides to the road."""
+
+    held: list[Held] = field(default_factory=list)
+    once: list[Once] = field(default_factory=list)
+    regions: list[Region] = field(default_factory=list)
+    weathers: list[int] = field(default_factory=list)  # numbers of the worlds in which some of them change the weather
+
+
 @dataclass
 class Script:
     """What happens. The phases of the entries and since when are state; what follows from them is made anew when one turns."""
@@ -175,6 +217,9 @@ class Script:
     reader: Reader | None  # of these; None when there are none
     limits: list[tuple[int, np.ndarray, np.ndarray]]  # entry, columns of points, speed there
     free: tuple[np.ndarray, np.ndarray]  # columns of points that some limit concerns, and the speed without any
+    mail: np.ndarray  # scratch, [row, sender or link]: what was sent, received and lost since the tick before
+    reads_mail: bool  # whether a condition looks at it
+    deeds: Deeds
     waiting: np.ndarray  # places in `asked` of what somebody waits for now
     acting: np.ndarray  # places in `maneuvers` of kinds of which one lasts now
 
@@ -194,10 +239,22 @@ class Detours:
 
 
 @dataclass
+class Movers:
+    """Objects that move: which they are, where the corners of their lines begin and how many there are, speeds [m/s]."""
+
+    object: np.ndarray
+    first: np.ndarray
+    count: np.ndarray
+    corner: np.ndarray  # [row, corner], as obstacle.py names the rows
+    speed: np.ndarray
+    stays: np.ndarray  # 1 for one who stays at the end of his line
+
+
+@dataclass
 class Obstacles:
     """Objects on the road, world after world, and for every vehicle those that it may run into on its path."""
 
-    table: np.ndarray  # [row, object]
+    table: Moving  # [row, object]
     first: np.ndarray  # per world
     count: np.ndarray
     standing: Moving  # int64[object], 1 while it stands there
@@ -205,6 +262,7 @@ class Obstacles:
     counts: np.ndarray  # of these per line
     sweep_first: Moving  # per vehicle, on the line it is on
     sweep_count: Moving
+    movers: Movers
     names: tuple[str, ...]
 
 

@@ -24,7 +24,15 @@ SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
 ROADS, SCRIPT = ("points", "pieces", *(f"conflicts.{each.name}" for each in fields(Conflicts))), ("waiting", "acting")
 FOLLOWS = {*(f"world.roads.{name}" for name in ROADS), *(f"world.script.{name}" for name in SCRIPT)}  # made anew
 SORTED = {f"world.{name}.{each.name}" for name, kind in (("neighbours", Neighbours), ("queues", Queues)) for each in fields(kind)}
-SCRATCH = {"world.roads.near", "world.vehicles.tile", "world.units.sight", *SORTED}
+SCRATCH = {
+    "world.roads.near",
+    "world.vehicles.tile",
+    "world.script.held",
+    "world.script.mail",
+    "world.script.values",
+    "world.units.sight",
+    *SORTED,
+}
 KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and kept: zones of pairs of lines, open sky
 
 

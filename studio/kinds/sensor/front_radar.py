@@ -20,9 +20,9 @@ from studio.kind.settings import number
 from studio.model import sensor
 from studio.model.sight import far, grown
 from studio.vehicle.parameter import LENGTH
-from studio.vehicle.state import ACTIVE, V_X
+from studio.vehicle.state import ACTIVE
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
-from studio.world.passes.sight import NEAR, SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, is_thing, put_object, put_vehicle
+from studio.world.passes.sight import NEAR, SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, is_thing, put_object, put_vehicle, speed_of
 from studio.world.table.street import OBJECT
 from studio.world.view import around, draw_normal, glimpse, report
 
@@ -137,13 +137,12 @@ def nearest_barrier(view, me, kappa, beyond, best, nearest):
 
 @inlined
 def closing_rate(view, me, other, x, y):
-    """Change of the distance [m/s] to the point x, y [m] of a car, or an object at rest, seen from the sensor."""
+    """Change of the distance [m/s] to the point x, y [m] of a car or an object, seen from the sensor."""
     distance = max(far(x, y), 1e-6)
     c, s = me.cosine * me.eye_cosine + me.sine * me.eye_sine, me.sine * me.eye_cosine - me.cosine * me.eye_sine
     ahead, aside = -me.speed * c, -me.speed * s
-    if other >= 0:
-        speed = view.state[V_X, other]
-        ahead, aside = ahead + speed * view.sight[TURNED_COS, 0], aside + speed * view.sight[TURNED_SIN, 0]
+    speed = speed_of(view, other)
+    ahead, aside = ahead + speed * view.sight[TURNED_COS, 0], aside + speed * view.sight[TURNED_SIN, 0]
     return (ahead * x + aside * y) / distance
 
 

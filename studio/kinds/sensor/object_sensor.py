@@ -16,9 +16,8 @@ from studio.kind.preset import Preset
 from studio.kind.sensor import Looking
 from studio.kind.settings import number
 from studio.model.sight import far, grown
-from studio.vehicle.state import V_X
 from studio.world.passes import track
-from studio.world.passes.sight import SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, WHO
+from studio.world.passes.sight import SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, WHO, speed_of
 from studio.world.passes.track import Tracks
 from studio.world.view import draw, draw_four, look, report, target
 
@@ -79,11 +78,11 @@ class Reading(NamedTuple):
 
 @inlined
 def rate_of(view, me, i):
-    """Change of the distance [m/s] to the nearest point that is seen of the body in column i; objects are at rest."""
+    """Change of the distance [m/s] to the nearest point that is seen of the body in column i."""
     sight = view.sight
     x, y = sight[SEEN_X, i], sight[SEEN_Y, i]
     c, s = me.cosine * me.eye_cosine + me.sine * me.eye_sine, me.sine * me.eye_cosine - me.cosine * me.eye_sine
-    speed = view.state[V_X, int(sight[WHO, i])] if sight[WHO, i] >= 0.0 else 0.0
+    speed = speed_of(view, sight[WHO, i])
     ahead, aside = speed * sight[TURNED_COS, i] - me.speed * c, speed * sight[TURNED_SIN, i] - me.speed * s
     return (ahead * x + aside * y) / max(far(x, y), 1e-6)
 

@@ -13,9 +13,8 @@ from studio.kind.preset import Preset
 from studio.kind.sensor import Looking
 from studio.kind.settings import number
 from studio.model.sight import far, grown
-from studio.vehicle.state import V_X
 from studio.world.passes import track
-from studio.world.passes.sight import LONG, MIDDLE_X, MIDDLE_Y, TURNED_COS, TURNED_SIN, WHO
+from studio.world.passes.sight import LONG, MIDDLE_X, MIDDLE_Y, TURNED_COS, TURNED_SIN, WHO, speed_of
 from studio.world.passes.track import Tracks
 from studio.world.view import draw, draw_four, look, report, target
 
@@ -72,7 +71,7 @@ def write(view, me, settings, i, slot, out):
     east = me.eye_x + x * me.eye_cosine - y * me.eye_sine + sigma * a
     north = me.eye_y + x * me.eye_sine + y * me.eye_cosine + sigma * b
     heading = me.eye_heading + atan2(sight[TURNED_SIN, i], sight[TURNED_COS, i]) + settings.heading_noise * c
-    speed = (view.state[V_X, int(sight[WHO, i])] if sight[WHO, i] >= 0.0 else 0.0) + settings.speed_noise * d
+    speed = speed_of(view, sight[WHO, i]) + settings.speed_noise * d
     length = max(sight[LONG, i] + settings.length_noise * e, 0.0)
     t = track.follow(view, me, sight[WHO, i], settings.gain)
     report(out, me, slot, Reading(east, north, heading, speed, length, track.number(view, t), track.existence(view, t)))

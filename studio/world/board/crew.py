@@ -86,6 +86,7 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
         names=tuple(units.name_of(each) for each in unit),
         column=units.vehicle[unit],
         rank=np.repeat([float(crew.rank) for crew in found], [len(crew.units) for crew in found]),
+        stopped=np.zeros(unit.size, dtype=np.int64),
         parameters=np.concatenate([parameters(application, crew) for crew in found], axis=1),
         memory=np.tile(np.array(first_values(module.Memory))[:, None], unit.size),
         said=np.zeros((logged, unit.size)),

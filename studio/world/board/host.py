@@ -68,6 +68,7 @@ class Hosted:
     names: tuple[str, ...]  # of the units
     column: np.ndarray  # of the unit's vehicle, -1 for a station
     rank: np.ndarray  # number of its group among those who may command, as world/commander.py has it
+    stopped: np.ndarray  # 1 where the script has stopped it
     parameters: np.ndarray
     memory: Moving
     said: Moving  # what it logs, [row, unit]
@@ -93,7 +94,7 @@ class Hosted:
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
         """What the loop reads and writes of its own."""
-        own = (self.unit, self.column, self.rank, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
+        own = (self.unit, self.column, self.rank, self.stopped, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
         return (*own, *(array for each in self.wiring for array in each.arrays))
 
     def decide(self, time: float, tick: float, around: tuple[np.ndarray, ...]) -> Iterator["Fault"]:

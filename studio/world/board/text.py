@@ -37,13 +37,13 @@ from {module} import Does, Memory, ParametersTuple, Sees, decide
 {parts}
 
 
-{above}def run(fixed, now, commands, unit, column, rank, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
+{above}def run(fixed, now, commands, unit, column, rank, stopped, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
     faults = 0
     for j in range(unit.size):
         u = unit[j]
         fault[j] = -1
-        if now[PRESENT, u] == 0.0:
-            fault[j] = 0
+        if now[PRESENT, u] == 0.0 or stopped[j] != 0:
+            fault[j] = shown[j] = 0
             continue
         offset, rate = fixed[OFFSET, u], 1.0 + fixed[DRIFT, u]
         sees = Sees({sees})

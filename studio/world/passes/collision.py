@@ -10,7 +10,7 @@ from studio.compiled import inlined, lean
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
 from studio.world.passes.neighbour import AT_X, AT_Y, moved, within
-from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
 NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than half of both lengths and this
 ROUNDING = 1e-6  # [m] by which a bound gives way
@@ -96,6 +96,14 @@ def relative_speed(a, b, state):
 
 
 @lean
+def speed_against(v, i, state, table):
+    """Speed [m/s] of a car as seen from object i."""
+    turned = table[O_HEADING, i] - state[PSI, v]
+    ahead, left = state[V_X, v] - table[O_SPEED, i] * cos(turned), state[V_Y, v] - table[O_SPEED, i] * sin(turned)
+    return sqrt(ahead * ahead + left * left)
+
+
+@lean
 def is_known(a, b, first, last, hits):
     """Whether this pair stands in the columns from `first` to before `last`."""
     for i in range(first, last):
@@ -153,6 +161,6 @@ def strike(time, state, parameter, first, count, table, first_object, object_cou
         for v in range(first[w], first[w] + count[w]):
             for i in range(first_object[w], first_object[w] + object_count[w]):
                 if state[ACTIVE, v] > 0.0 and standing[i] != 0 and striking(v, i, state, parameter, table):
-                    speed = sqrt(state[V_X, v] * state[V_X, v] + state[V_Y, v] * state[V_Y, v])
+                    speed = speed_against(v, i, state, table)
                     left += add(time, v - first[w], OBJECT - (i - first_object[w]), speed, w, share, hits, total)
     return left

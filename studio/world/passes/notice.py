@@ -135,7 +135,7 @@ def notice(world: World, at: Watch) -> None:
     u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
     notice_events(
         time, now, s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
-        at.named, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, at.hands,
+        at.named, v.removed, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, at.hands,
         at.hands_since, v.state, v.mind, at.table, at.count,
     )  # fmt: skip
     if r.stop_station.size:
@@ -182,12 +182,12 @@ def is_news(true, told, i):
 
 @lean
 def notice_events(time, now, turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
-                  vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind, table,
-                  count):  # fmt: skip
+                  removed, vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind,
+                  table, count):  # fmt: skip
     """What may happen in every world, in one call: what the script, collisions, routes, chains and drivers have brought."""
     notice_script(turned, cut, vehicle, state, script_world, script_told, table, count)
     notice_hits(found, hits, first, state, hits_told, table, count)
-    notice_vehicles(time, state, world_of, number, named, vehicles_told, table, count)
+    notice_vehicles(time, state, world_of, number, named, removed, vehicles_told, table, count)
     notice_company(now, state, mind, world_of, follower, member_first, member_count, member, between, table, count)
     notice_drivers(now, state, mind, world_of, number, acting, table, count)
     notice_hands(now, state, mind, world_of, number, named, hands, hands_since, table, count)
@@ -228,13 +228,13 @@ def is_waiting(v, state, mind, parameter):
 
 
 @lean
-def notice_vehicles(time, state, world_of, number, named, told, table, count):
+def notice_vehicles(time, state, world_of, number, named, removed, told, table, count):
     """Vehicles that have rolled over, and named ones that have arrived."""
     for v in range(named.size):
         if is_news(abs(state[ROLL, v]) > ROLLED, told[0], v):
             note_vehicle(time, ROLLED_OVER, v, -1, nan, state, world_of, number, table, count)
     for v in range(named.size):
-        if named[v] != 0 and is_news(state[ACTIVE, v] == 0.0, told[1], v):
+        if named[v] != 0 and removed[v] == 0 and is_news(state[ACTIVE, v] == 0.0, told[1], v):
             note_vehicle(time, ARRIVED, v, -1, nan, state, world_of, number, table, count)
 
 

@@ -15,9 +15,9 @@ from studio.road.network.grid import CELLS, COLUMNS, ROWS, SIZE, SOUTH, WEST
 from studio.road.network.shadow import FULL, OPEN, WALL_COUNT, WALL_FIRST, is_at_eye, level, walk
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
-from studio.vehicle.state import ACTIVE, X, Y
+from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.passes.neighbour import COS, SIN, within
-from studio.world.table.street import CONE, O_HEADING, O_KIND, O_LENGTH, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.table.street import CONE, O_HEADING, O_KIND, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
 SIGHT = Table("sight", Role.SCRATCH, per="body in the field of the sensor that looks")
 WHO = SIGHT.row("who", "1", "column of a vehicle, or OBJECT - i for object i of all worlds")
@@ -161,6 +161,12 @@ def put_object(view, me, o, i):
     """Writes object o into column i."""
     table, heading = view.table, view.table[O_HEADING, o]
     put(table[O_X, o], table[O_Y, o], cos(heading), sin(heading), table[O_LENGTH, o], table[O_WIDTH, o], OBJECT - o, me, i, view.sight)
+
+
+@inlined
+def speed_of(view, who):
+    """Speed [m/s] along its heading of a vehicle, or of an object, OBJECT - o."""
+    return view.state[V_X, int(who)] if who >= 0 else view.table[O_SPEED, OBJECT - int(who)]
 
 
 @inlined

@@ -5,7 +5,7 @@ Following on one lane, merging and crossing are then one and the same: a car tha
 first, drives ahead at the distance that the stretches give.
 """
 
-from math import inf, isfinite, nan
+from math import cos, inf, isfinite, nan, sin, sqrt
 
 from studio.compiled import inlined, lean
 from studio.kind.driver import Sees
@@ -54,7 +54,18 @@ from studio.world.table.mind import (
     WISH,
     YIELDING,
 )  # fmt: skip
-from studio.world.table.street import OBJECT, SWEPT_ASIDE, SWEPT_AT, SWEPT_OBJECT
+from studio.world.table.street import (
+    O_HEADING,
+    O_LENGTH,
+    O_SPEED,
+    O_WIDTH,
+    O_X,
+    O_Y,
+    OBJECT,
+    SWEPT_ASIDE,
+    SWEPT_AT,
+    SWEPT_OBJECT,
+)  # fmt: skip
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
@@ -67,9 +78,12 @@ ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a
 
 
 @lean
-def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, shown):
-    """First pass: what every signal shows."""
+def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, forced, shown):
+    """First pass: what every signal shows, by its programme or as it is forced to."""
     for link in range(shown.size):
+        if forced[link] >= 0:
+            shown[link] = forced[link]
+            continue
         shown[link] = signal_state(
             t, signal_time[0, link], signal_time[1, link], signal_first[link], signal_count[link], phase_end, phase_state
         )
@@ -287,16 +301,44 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first
             gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
             if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
                 if gap <= drivers[SIGHT, v]:
-                    stand_before(v, number - first_object[world_of[v]], gap, state, drivers, mind)
+                    stand_before(v, number - first_object[world_of[v]], gap, 0.0, state, drivers, mind)
                 break
 
 
 @lean
-def stand_before(v, number, gap, state, drivers, mind):
-    """Object `number` of the world is followed as a car that stands."""
-    follow(v, gap, 0.0, state, drivers, mind)
+def stand_before(v, number, gap, speed, state, drivers, mind):
+    """Object `number` of the world is followed as a car with its speed [m/s]."""
+    follow(v, gap, speed, state, drivers, mind)
     if not gap >= mind[GAP, v]:
-        mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, 0.0
+        mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, speed
+
+
+@lean
+def movers(state, parameter, points, path_first, path_count, mover, table, standing, first_object, object_count, world_of, drivers, mind):
+    """The same for those who move, wherever they are now: a driver minds one from the moment on at which he is in that strip."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] == 0.0:
+            continue
+        first = first_object[world_of[v]]
+        for i in mover:
+            if standing[i] != 0 and first <= i < first + object_count[world_of[v]]:
+                mind_mover(v, i, i - first, state, parameter, points, path_first[v], path_count[v], table, drivers, mind)
+
+
+@lean
+def mind_mover(v, i, number, state, parameter, points, first, count, table, drivers, mind):
+    """What one who moves means for a driver."""
+    dx, dy = table[O_X, i] - state[X, v], table[O_Y, i] - state[Y, v]
+    distance = sqrt(dx * dx + dy * dy)
+    if distance > drivers[SIGHT, v] + parameter[FRONT, v] or dx * cos(state[PSI, v]) + dy * sin(state[PSI, v]) < 0.0:
+        return
+    s, e = project(points, first, count, table[O_X, i], table[O_Y, i], mind[STATION, v] + distance)
+    across = table[O_HEADING, i] - interpolate(points, first, PATH_HEADING, clip(s, count))
+    c, b = abs(cos(across)), abs(sin(across))
+    along, aside = 0.5 * (table[O_LENGTH, i] * c + table[O_WIDTH, i] * b), 0.5 * (table[O_LENGTH, i] * b + table[O_WIDTH, i] * c)
+    gap = s - along - mind[STATION, v] - parameter[FRONT, v]
+    if gap >= 0.0 and abs(e) - aside < 0.5 * parameter[WIDTH, v] + ELBOW_ROOM:
+        stand_before(v, number, gap, max(table[O_SPEED, i] * cos(across), 0.0), state, drivers, mind)
 
 
 @inlined
