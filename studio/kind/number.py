@@ -75,6 +75,8 @@ def shape(name: str, kind: Any, names: str, most: int = 0) -> Shape:
         return Shape(name, 1)
     if kind is Area:
         return Shape(name, WIDE[AREA], names=AREA)
+    if kind == list[tuple[float, float]] and most:
+        return Shape(name, 2 * most)
     allowed = "float, int, bool, Literal[...], tuple[float, float], list[tuple[float, float]] with max_length, names such as VehicleName"
     raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")
 
