@@ -96,7 +96,7 @@ def told(made, *rows):
     ones = np.ones(times.size, dtype=np.int32)
     messages = replace(
         none(("awareness",), ("a", "b")), time=times, sender=0 * ones, kind=0 * ones, number=np.arange(times.size), size=200.0 * ones,
-        count=ones, receiver=ones, cause=causes, delay=delays, distance=20.0 * ones,
+        said_0=0.0 * ones, said_1=0.0 * ones, count=ones, receiver=ones, cause=causes, delay=delays, distance=20.0 * ones,
     )  # fmt: skip
     return replace(made, messages=messages)
 

@@ -98,7 +98,7 @@ def sent(rows, link=("a", "b")):
     ones = np.ones(times.size, dtype=np.int32)
     messages = replace(
         none(("awareness",), link), time=times, sender=0 * ones, kind=0 * ones, number=np.arange(times.size), size=200.0 * ones,
-        count=ones, receiver=ones, cause=causes, delay=delays, distance=distances,
+        said_0=0.0 * ones, said_1=0.0 * ones, count=ones, receiver=ones, cause=causes, delay=delays, distance=distances,
     )  # fmt: skip
     made = record(np.linspace(0.0, 1.0, 51), link)
     return replace(made, messages=messages, links=("→".join(link),), ages=np.full((1, 51), 0.1))
