@@ -8,6 +8,7 @@ import numpy as np
 import yaml
 
 from studio import job
+from studio.conventions import DEFAULT_TICK
 from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
 from studio.road.drawn.motorway import motorway
@@ -36,16 +37,18 @@ def stage(**parts: Any) -> Simulation:
 
 
 def everything() -> Simulation:
-    """A stage with a script of every condition and maneuver that comes with the studio, with drawn settings."""
+    """A stage with a script of every condition and maneuver that comes with the studio, with drawn settings; a maneuver at every tick."""
     seed = np.random.default_rng(1)
     brake = {"kind": "brake", "vehicle": "far", "deceleration": 1.0, "duration": 0.1}
     script: dict[str, Any] = {"first": {"when": {"kind": "time", "at": 0.0}, "do": brake}}
+    begun: list[str] = []
     for kind in [each for each in registry.every() if each.is_built_in and each.sort in ("condition", "action")]:
         chosen = {"kind": kind.name} | draw.settings(kind.module.Settings, seed).model_dump(mode="json")
         if kind.sort == "condition":
             script[kind.name] = {"when": chosen, "do": brake}
         elif hasattr(kind.module, "act"):
-            script[kind.name] = {"when": {"kind": "time", "at": 0.0}, "do": chosen}
+            script[kind.name] = {"when": {"kind": "time", "at": DEFAULT_TICK * len(begun)}, "do": chosen}
+            begun.append(kind.name)
     return stage(script=script)
 
 
