@@ -65,8 +65,6 @@ def longest(field: FieldInfo) -> int:
 def shape(name: str, kind: Any, names: str, most: int = 0) -> Shape:
     """One field, which holds so many entries at most where it is a list."""
     kind = plain(kind)
-    if kind == list[tuple[float, float]] and most:
-        return Shape(name, 2 * most)
     if names and kind is str:
         return Shape(name, 1, names=names)
     if get_origin(kind) is Literal:
@@ -77,6 +75,8 @@ def shape(name: str, kind: Any, names: str, most: int = 0) -> Shape:
         return Shape(name, 1)
     if kind is Area:
         return Shape(name, WIDE[AREA], names=AREA)
+    if get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float] and most:
+        return Shape(name, 2 * most)
     allowed = "float, int, bool, Literal[...], tuple[float, float], list[tuple[float, float]] with max_length, names such as VehicleName"
     raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")
 
