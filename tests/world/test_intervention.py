@@ -91,6 +91,7 @@ class Pushing:
 
     commands: dict
     groups: tuple = ()
+    cycles: int = 1
 
     def decide(self, time, tick, around):
         commands = around[-1]
