@@ -11,6 +11,7 @@ from studio.kind import registry
 from studio.kind.preset import presets
 from studio.kind.quantity import Quantity, quantities
 from studio.kind.registry import Kind
+from studio.kind.settings import Nested, marks
 from studio.kind.sort import SORTS, Sort
 
 HEAD = """# Kinds
@@ -125,8 +126,30 @@ def described(name: str, part: Any, sort: Sort) -> str:
     """The fields of a part of a kind; "" when it has none."""
     if part is None:
         return ""
-    listed = fields(own(part.model_json_schema(), sort)) if name in SET else numbers(part)
-    return f"`{name}`: {filled(part.__doc__)}\n\n{listed.rstrip()}" if listed else ""
+    node = nested(part, own(part.model_json_schema(), sort)) if name in SET else {}
+    listed = fields(node) if name in SET else numbers(part)
+    more = "".join(f"\n\n### {title}\n\n{filled(each.get('description', ''))}\n\n{fields(each).rstrip()}" for title, each in parts_of(node))
+    return f"`{name}`: {filled(part.__doc__)}\n\n{listed.rstrip()}{more}" if listed else ""
+
+
+def nested(part: Any, node: dict[str, Any]) -> dict[str, Any]:
+    """The schema of settings in which kinds stand: these are told by their sort, and not all of them again."""
+    properties = dict(node.get("properties", {}))
+    for name, field in part.model_fields.items():
+        for mark in marks(field, Nested):
+            one = {"type": f"any {mark.sort}"}
+            is_list = properties[name].get("type") == "array"
+            kept = {key: each for key, each in properties[name].items() if key in ("title", "description", "minItems", "maxItems")}
+            properties[name] = kept | ({"type": "array", "items": one} if is_list else one)
+    return node | {"properties": properties}
+
+
+def parts_of(node: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """The parts that fields of a schema refer to, by name."""
+    for each in node.get("properties", {}).values():
+        if "$ref" in each:
+            name = each["$ref"].rpartition("/")[2]
+            yield name, node["$defs"][name]
 
 
 def numbers(part: Any) -> str:

@@ -75,7 +75,7 @@ def shape(name: str, kind: Any, names: str, most: int = 0) -> Shape:
         return Shape(name, 1)
     if kind is Area:
         return Shape(name, WIDE[AREA], names=AREA)
-    if kind == list[tuple[float, float]] and most:
+    if get_origin(kind) is list and plain(get_args(kind)[0]) == tuple[float, float] and most:
         return Shape(name, 2 * most)
     allowed = "float, int, bool, Literal[...], tuple[float, float], list[tuple[float, float]] with max_length, names such as VehicleName"
     raise TypeError(f"{name} is {getattr(kind, '__name__', kind)}; allowed: {allowed}")

@@ -9,6 +9,7 @@ import numpy as np
 import yaml
 
 from studio import job
+from studio.conventions import DEFAULT_TICK
 from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
 from studio.kind.registry import Kind
@@ -40,16 +41,18 @@ def stage(**parts: Any) -> Simulation:
 
 
 def everything() -> Simulation:
-    """A stage with every condition, maneuver, sensor, message and radio that comes with the studio."""
+    """A stage with every condition, maneuver, sensor, message and radio that comes with the studio; a maneuver at every tick."""
     seed = np.random.default_rng(1)
     brake = {"kind": "brake", "vehicle": "far", "deceleration": 1.0, "duration": 0.1}
     script: dict[str, Any] = {"first": {"when": {"kind": "time", "at": 0.0}, "do": brake}}
+    begun: list[str] = []
     for kind in [each for each in registry.every() if each.sort in ("condition", "action") and has_place(each)]:
         chosen = {"kind": kind.name} | draw.settings(kind.module.Settings, seed).model_dump(mode="json")
         if kind.sort == "condition":
             script[kind.name] = {"when": chosen, "do": brake}
         elif hasattr(kind.module, "act"):
-            script[kind.name] = {"when": {"kind": "time", "at": 0.0}, "do": chosen}
+            script[kind.name] = {"when": {"kind": "time", "at": DEFAULT_TICK * len(begun)}, "do": chosen}
+            begun.append(kind.name)
     with chatter() as name:
         talks = {"all": {"application": name, "units": ["own", "far"]}}
         return stage(script=script, vehicles={"own": {"sensors": one_each("sensor")}}, applications=talks, radios=in_turn())

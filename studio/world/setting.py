@@ -31,6 +31,7 @@ from studio.world import crew
 from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
 from studio.world.effect import Walk
+from studio.world.exclusive import exclusive
 from studio.world.footprint import Footprint, Overlap, depth, overlaps
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
@@ -173,13 +174,8 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
         found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
     for i, name in enumerate(scenario.recording.channels):
         found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
-    return (
-        [each for each in found if each]
-        + reserved(scenario, where)
-        + circles(scenario, where)
-        + untimely(scenario, where)
-        + crew.problems(scenario, where)
-    )
+    more = (reserved, circles, exclusive, untimely, crew.problems)
+    return [each for each in found if each] + [each for look in more for each in look(scenario, where)]
 
 
 def brought(scenario: Scenario) -> dict[str, Any]:

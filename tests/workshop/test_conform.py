@@ -97,4 +97,4 @@ def test_settings(field, base, words):
 
 
 def test_actions_are_tried_with_all_that_they_see():
-    assert tuple(RANGES) == Sees._fields
+    assert (*RANGES, "pool") == Sees._fields

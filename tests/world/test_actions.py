@@ -173,6 +173,18 @@ def test_what_is_wrong_is_told(road, settings, word):
     assert word in str(caught.value)
 
 
+def test_two_maneuvers_at_once_are_refused(road):
+    """Of the same hands of one vehicle at one time; pedals and wheel, or another time, are fine."""
+    script = {"slow": own("brake"), "fast": own("set_speed", speed=30)}
+    with pytest.raises(ScenarioError) as caught:
+        job.prepare(job.load(road, {"script": script}))
+    (problem,) = caught.value.problems
+    assert problem.where.endswith("script.fast.do") and "takes the pedals of 'own' at the same time as 'slow'" in str(problem)
+    job.prepare(
+        job.load(road, {"script": {"slow": own("brake"), "over": own("change_lane"), "fast": own("set_speed", when=1.02, speed=30)}})
+    )
+
+
 # -- who moves -----------------------------------------------------------------------------------------
 
 
