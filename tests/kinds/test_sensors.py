@@ -16,11 +16,11 @@ from studio.road.drawn.motorway import motorway
 from studio.road.network.signals import GREEN, RED, RED_AMBER
 from studio.scenario.schema import Vehicle
 from studio.vehicle.parameter import FRONT, LENGTH
-from studio.vehicle.state import PSI, V_X, YAW_RATE, X, Y
+from studio.vehicle.state import A_X, DELTA, PSI, V_X, YAW_RATE, X, Y
 from studio.workshop.stage import CARS, SCENARIO, stage, vehicle
 from studio.world.build import build
 from studio.world.table.mind import OFFSET, STATION
-from studio.world.table.unit import FAILS
+from studio.world.table.unit import FAILS, OWN_SPEED, OWN_STEERING
 from studio.world.tick import gather, sense, tick
 from tests.conftest import ROOT
 
@@ -217,6 +217,24 @@ def test_the_state_has_noise_around_the_truth():
         (found,) = targets(each)
         errors.append((found.speed - world.vehicles.state[V_X, own], found.yaw_rate - world.vehicles.state[YAW_RATE, own]))
     np.testing.assert_allclose(np.std(errors, axis=0), [0.1, 0.01], rtol=4.0 / sqrt(4000))
+
+
+def test_the_bus_has_noise_where_it_is_asked_for():
+    """Of 2000 ticks the deviation of each signal, within four standard errors; without any the truth; sensors look from the true motion."""
+    noise = {"speed_noise": 0.1, "acceleration_noise": 0.2, "yaw_rate_noise": 0.01, "steering_noise": 0.02}
+    radar = {"front": {"kind": "front_radar"} | EXACT["front_radar"]}
+    run = stage(vehicles={"own": {"bus": noise, "sensors": radar}, "behind": {"sensors": radar}})
+    tick(run.world)
+    rows, state = slice(OWN_SPEED, OWN_STEERING + 1), run.world.vehicles.state
+    own, other, errors = run.world.column("own"), run.world.column("behind"), []
+    (each,) = run.world.units.mounted
+    for _ in range(2000):
+        look(run.world)
+        now = run.world.units.now[rows]
+        errors.append(now[:, own] - state[[V_X, A_X, YAW_RATE, DELTA], own])
+        assert np.array_equal(now[:, other], state[[V_X, A_X, YAW_RATE, DELTA], other])
+        assert each.out[2, 1] == pytest.approx(state[V_X, run.world.column("ahead")] - state[V_X, own], abs=1e-3)
+    np.testing.assert_allclose(np.std(errors, axis=0), [0.1, 0.2, 0.01, 0.02], rtol=4.0 / sqrt(4000))
 
 
 # -- road ----------------------------------------------------------------------------------------------

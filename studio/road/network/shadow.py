@@ -284,7 +284,8 @@ def fill(shadow):
     for b in range(shadow.bodies.shape[1]):
         if is_at_eye(shadow, b):
             for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
-                walk(shadow, 0, shadow.walls[0, i], shadow.walls[1, i], shadow.walls[2, i], shadow.walls[3, i], True)
+                x0, y0, x1, y1 = shadow.walls[0, i], shadow.walls[1, i], shadow.walls[2, i], shadow.walls[3, i]
+                walk(frame, shadow.sky_first, shadow.mass, 0, x0, y0, x1, y1, True)
 
 
 @lean
@@ -308,12 +309,11 @@ def is_within(shadow, b, x, y):
 
 
 @lean
-def walk(shadow, m, x0, y0, x1, y1, marks):
+def walk(frame, first, mass, m, x0, y0, x1, y1, marks):
     """Goes along a line on map m from cell to cell: what stands in the fullest of them; `marks` them as PARTLY full instead.
 
     From cell to cell as in J. Amanatides, A. Woo, A fast voxel traversal algorithm for ray tracing, Eurographics 1987.
     """
-    frame = shadow.grid.frame
     columns, rows = int(frame[COLUMNS, m]) * FINER, int(frame[ROWS, m]) * FINER
     u, v = (x0 - frame[WEST, m]) / SKY_CELL, (y0 - frame[SOUTH, m]) / SKY_CELL
     du, dv = (x1 - x0) / SKY_CELL, (y1 - y0) / SKY_CELL
@@ -324,10 +324,10 @@ def walk(shadow, m, x0, y0, x1, y1, marks):
     most = OPEN
     for k in range(steps + 1):
         if 0 <= i < columns and 0 <= j < rows:
-            cell = shadow.sky_first[m] + j * columns + i
+            cell = first[m] + j * columns + i
             if marks:
-                shadow.mass[cell] = PARTLY
-            most = max(most, int(shadow.mass[cell]))
+                mass[cell] = PARTLY
+            most = max(most, int(mass[cell]))
         if most == FULL or k == steps:
             return most
         if next_u < next_v:

@@ -254,13 +254,15 @@ def cover_buildings(view, me, i, sight, blocks):
     x0, y0 = of_world(me, distance * cos(sight[LOW, i]), distance * sin(sight[LOW, i]))
     x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
     x2, y2 = of_world(me, sight[SEEN_X, i], sight[SEEN_Y, i])
-    a, b = walk(view.shadow, place, me.eye_x, me.eye_y, x0, y0, False), walk(view.shadow, place, me.eye_x, me.eye_y, x1, y1, False)
-    c = walk(view.shadow, place, me.eye_x, me.eye_y, x2, y2, False)
+    frame, first, mass = view.shadow.grid.frame, view.shadow.sky_first, view.shadow.mass
+    a = walk(frame, first, mass, place, me.eye_x, me.eye_y, x0, y0, False)
+    b = walk(frame, first, mass, place, me.eye_x, me.eye_y, x1, y1, False)
+    c = walk(frame, first, mass, place, me.eye_x, me.eye_y, x2, y2, False)
     if max(a, b, c) == OPEN:
         return blocks
     if min(a, b, c) == FULL:
         return cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
-    return cover_walls(view, me, i, x0, y0, x1, y1, sight, blocks)
+    return cover_walls(view.shadow, place, me, i, x0, y0, x1, y1, sight, blocks)
 
 
 @inlined
@@ -276,9 +278,8 @@ def of_world(me, x, y):
 
 
 @lean
-def cover_walls(view, me, i, x0, y0, x1, y1, sight, blocks):
+def cover_walls(shadow, place, me, i, x0, y0, x1, y1, sight, blocks):
     """The same wall by wall, of all buildings between the sensor and the edges of the body."""
-    shadow, place = view.shadow, view.place_of[me.world]
     frame = shadow.grid.frame
     columns, rows = int(frame[COLUMNS, place]), int(frame[ROWS, place])
     west, east = min(me.eye_x, x0, x1), max(me.eye_x, x0, x1)
