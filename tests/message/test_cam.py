@@ -93,3 +93,18 @@ def test_in_the_world(own_kinds):
     assert np.mean(np.isclose(gaps, 0.3)) > 0.95 and car.size == pytest.approx(33, abs=1)
     sizes = found.size[found.of[car]]
     assert set(sizes) == {CAM.SMALL, CAM.SIZE} and np.mean(sizes == CAM.SIZE) == pytest.approx(0.5, abs=0.1)
+
+
+def test_congestion_control_reaches_them(own_kinds):
+    """Six cars at 25 m/s would send every 0.2 s; 50 ms on the air each fill the channel, and all wait 0.4 s from then on."""
+    own_kinds(Path(__file__).parent)
+    current = stage(
+        routes={"along": {"roads": ["motorway"], "speeds": [{"at": 0, "speed": 25.0}]}},
+        applications={"hears": {"application": "listener", "units": ["own"]}},
+        radio={"kind": "patchy", "airtime": 0.05, "range": 5000.0, "heard": 5000.0},
+    )
+    current.advance(400)
+    found = current.record().messages
+    for sender in range(len(found.units)):
+        gaps = np.diff(found.time[(found.sender == sender) & (found.time > 1.0)])
+        assert gaps.size > 10 and gaps.min() > 0.39 and np.median(gaps) == pytest.approx(0.4, abs=1e-6)
