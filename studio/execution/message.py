@@ -127,7 +127,8 @@ def of_post(world: World, number: int, post: Post, kind: int) -> Messages:
 def sorted_by_time(found: Messages) -> Messages:
     """The same in the order of sending; what was sent at the same time stays as it was."""
     order = np.argsort(found.time, kind="stable")
-    first = np.cumsum(found.count) - found.count
-    entries = np.concatenate([np.arange(first[m], first[m] + found.count[m]) for m in order]).astype(np.int64)
+    first, count = np.cumsum(found.count) - found.count, found.count[order]
+    shift = first[order] - (np.cumsum(count) - count)  # by how much the entries of each message move
+    entries = np.arange(found.cause.size) + np.repeat(shift, count)
     parts = {each.name: getattr(found, each.name)[entries if each.name in OF_ENTRIES else order] for each in fields(Messages)[2:]}
     return Messages(found.kinds, found.units, **parts)

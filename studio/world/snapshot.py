@@ -107,7 +107,8 @@ def origin_of(settings: Sequence[Setting], world: World) -> str:
     for fixed in (world.vehicles.parameter, world.vehicles.gears, world.vehicles.tyres):
         digest.update(fixed.tobytes())
     of_script = [each.kind for each in (*world.script.asked, *world.script.maneuvers)]
-    for kind in [*(seats.kind for seats in world.seats), *(hosted.application for hosted in world.hosted), *of_script]:
+    of_radio = [kind for post in world.units.posts for kind in (post.kind, post.radio)]
+    for kind in [*(seats.kind for seats in world.seats), *(hosted.application for hosted in world.hosted), *of_script, *of_radio]:
         digest.update(kind.digest.encode())
     return digest.hexdigest()
 

@@ -431,8 +431,7 @@ class World:
             mine = u.world[each.unit] == number
             yield from (each.out[:, mine], each.ring[:, mine[each.slots]], each.output[:, mine[each.slots]])
         for post in u.posts:
-            slots = post.ring.reshape(post.ring.shape[0], -1, post.sender.size)
-            yield slots[:, :, u.world[post.sender] == number]
+            yield post.newest(number, u.world)
             yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))
             yield post.kept[:, u.world[post.sender] == number]
         for air in (each for each in u.airs if number in each.worlds):

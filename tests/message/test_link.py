@@ -205,6 +205,19 @@ def test_batch_and_order_change_no_bit():
     assert {cause for *_, cause, _ in first} >= {RECEIVED, BURST} and first != told(beside.record(0).messages)
 
 
+def test_another_delay_beside_changes_no_hash():
+    """Where others' messages are longer under way, more is kept; the hash of a world's state is the same as alone."""
+
+    def made(delay):
+        return stage(stations=posts(4), applications={"hears": {"application": "ear", "units": list(posts(4))}},
+                     radio={"kind": "patchy", "delay": delay}).cases[0].setting  # fmt: skip
+
+    alone, both = simulation(made(0.02)), simulation(made(0.9), made(0.02))
+    for each in (alone, both):
+        each.advance(60)
+    assert alone.world.digest(0) == both.world.digest(1) != both.world.digest(0)
+
+
 def test_a_snapshot_knows_what_links_remember():
     """Back to a moment, and on again: the same state, with what the radio remembers of links, units and cells."""
     current = batch([7])

@@ -14,10 +14,10 @@ A busy channel is waited for, and messages are spoilt by others (channel.py); co
 **Presets** "motorway", "suburban" and "urban" are fitted to the delivery over distance that was measured on such roads, from 100 m to
 1000 m (CAM-VAM data set, University of Modena and Reggio Emilia, 2021 and 2022; which radio it was it does not say), and to the runs of its
 losses. Exponent, standard deviation of the shadow, blockage and its share of the time: least squares, with the fading given, at 23 dBm,
-6 Mbit/s and 350 bytes in a free channel. Fading, times of blockage and distance of the shadows: round ones
-with mean runs above three where six to eight of ten messages arrive (cars at 32, 20.6 and 8.2 m/s that send every 0.2, 0.2 and 0.4 s;
-9.7 was measured where 0.70 arrive). What houses took is part of what was measured, so these presets have `buildings` off. Shortest delay
-and mean rest meet the measured 5 % and 50 %. How well all that fits is told in the documentation, "Radio".
+6 Mbit/s and 350 bytes in a free channel. Fading, times of blockage and distance of the shadows: round ones with mean runs above three where
+six to eight of ten messages arrive (cars at 32, 20.6 and 8.2 m/s that send every 0.2, 0.2 and 0.4 s; 9.7 was measured where 0.70 arrive).
+What houses took is part of what was measured, so these presets have `buildings` off. Shortest delay and mean rest meet the measured 5 % and
+50 %. `hearing` is about where half arrive, an estimate. How well all that fits is told in the documentation, "Radio".
 
 First values: two slopes and a shadow as L. Cheng et al., IEEE JSAC 25, 2007, measured; fading of the simulator Veins (1.5 up to 80 m, 0.75
 beyond); about 4 ms in line of sight as in field tests; noise of 10 MHz with a receiver of 6 dB.

@@ -15,7 +15,7 @@ from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.scenario.schema import Application, Bus
 from studio.world.board.air import air
-from studio.world.board.post import Known, Need, Post, post
+from studio.world.board.post import Known, Need, Post, post, slots_of
 from studio.world.board.sensing import Mounted, Sensor, mounted
 from studio.world.passes.sight import ROOM, SIGHT
 from studio.world.setting import Car, Setting
@@ -144,29 +144,27 @@ def need_of(settings: Sequence[Setting], units: Units, kind: Kind, radio: Kind) 
     """Who sends and who hears a kind of message, in the worlds with this radio."""
     senders: set[int] = set()
     pairs: list[tuple[int, int]] = []
-    most = 0
+    most, slots = 0, [0] * len(settings)
     for w, each in enumerate(settings):
         if not is_wanted(each, kind, radio.name):
             continue
         sending, at_once = senders_of(each, units, w, kind)
         senders |= sending
-        most = max(most, at_once)
+        most, slots[w] = max(most, at_once), slots_in(each, kind, radio, at_once)
         pairs += [(receiver, sender) for receiver, some in receivers_of(each, units, w, kind) for sender in (some or sending)
                   if sender in sending and sender != receiver]  # fmt: skip
     beacons = [getattr(each.scenario.messages, kind.name, None) for each in settings]
-    longest = max(float(radio.module.longest(each)) for each in radios_of(settings, radio.name)) + added_delay(settings)
-    return Need(sorted(senders), most, shortest_cycle(settings), pairs, beacons, longest)
+    return Need(sorted(senders), most, pairs, beacons, slots)
 
 
-def added_delay(settings: Sequence[Setting]) -> float:
-    """The most [s] by which anything in a script delays messages."""
-    return max((getattr(entry.do, "added_delay", 0.0) for each in settings for entry in each.scenario.script.values()), default=0.0)
-
-
-def shortest_cycle(settings: Sequence[Setting]) -> float:
-    """The shortest time [s] between two decisions of an application."""
-    tick = settings[0].scenario.clock.tick
-    return min((group.cycle or tick for each in settings for group in each.scenario.applications.values()), default=tick)
+def slots_in(each: Setting, kind: Kind, radio: Kind, at_once: int) -> int:
+    """How many messages of one sender may have to be kept in a world: beacons, and what applications send at every instant."""
+    scenario, tick, has_beacon = each.scenario, each.scenario.clock.tick, hasattr(kind.module, "beacon")
+    added = max((getattr(entry.do, "added_delay", 0.0) for entry in scenario.script.values()), default=0.0)
+    longest = float(radio.module.longest(scenario.radio_of(kind.name))) + added
+    cycle = min((group.cycle or tick for group in scenario.applications.values()), default=tick)
+    shortest = cycle if at_once or not has_beacon else getattr(scenario.messages, kind.name).period
+    return slots_of(longest, shortest, max(at_once + has_beacon, 1))
 
 
 def senders_of(each: Setting, units: Units, world: int, kind: Kind) -> tuple[set[int], int]:

@@ -57,6 +57,7 @@ class Log:
     now: Logged = field(init=False)  # arrays that stay where they are, for compiled code
     count: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
     full: list[Logged] = field(default_factory=list)
+    books: dict[tuple[int, ...], Book] = field(default_factory=dict)  # the last that was asked for, by how much stood in it
 
     def __post_init__(self) -> None:
         messages, entries = self.most
@@ -73,6 +74,7 @@ class Log:
         """What was sent from a time [s] on, for a world that has gone back to it."""
         kept = [before(each, time) for each in (*self.full, self.written())]
         self.full, self.count[:] = [each for each in kept if each.message.size], 0
+        self.books.clear()
 
     def written(self) -> Logged:
         """What stands in `now`."""
@@ -80,7 +82,14 @@ class Log:
         return Logged(self.now.message[:, :messages].copy(), *(each[:entries].copy() for each in self.now[1:]))
 
     def joined(self) -> Book:
-        """All of it."""
+        """All of it; the worlds of a batch ask for the same one after another."""
+        size = (len(self.full), *self.count.tolist())
+        if size not in self.books:
+            self.books = {size: self.book()}
+        return self.books[size]
+
+    def book(self) -> Book:
+        """All of it, joined."""
         parts = [*self.full, self.written()]
         message, *entries = [np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)]
         count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])

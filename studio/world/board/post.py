@@ -146,6 +146,7 @@ class Post:
     worlds: tuple[int, ...]
     is_of_applications: bool  # whether applications send it, besides or instead of beacons
     sender: np.ndarray  # units that send it, world after world, as chance numbers them
+    slots: np.ndarray  # per world, how many messages of one sender are kept there at least
     period: np.ndarray  # [ticks] per world, of beacons
     settings: np.ndarray  # of beacons, [row, world]
     kept: Moving  # what senders remember of beacons, [row, sender]
@@ -193,6 +194,13 @@ class Post:
         links = (self.link_first, self.link_receiver, self.arrival, self.lost, self.memory)
         return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
 
+    def newest(self, world: int, world_of: np.ndarray) -> np.ndarray:
+        """What is kept of the messages of a world, float64[row, slot, sender], the newest first: the same in every batch."""
+        own = np.flatnonzero(world_of[self.sender] == world)
+        numbers = self.last[own] - np.arange(self.slots[world])[:, None]
+        found = self.ring[:, numbers % self.arrival.shape[0] * self.sender.size + own]
+        return np.where((numbers >= 0) & (found[S_NUMBER] == numbers), found, 0.0)
+
     def received(self, time: float) -> None:
         """What has come in between two ticks is taken."""
         receive(time, self.sender.size, self.last, self.ring, self.link_sender, self.arrival, self.inbox)
@@ -235,15 +243,14 @@ class Open(NamedTuple):
 
 
 class Need(NamedTuple):
-    """What a post is made for: units that send, how many messages at once and how often [s], pairs (receiver, sender), settings per
-    world, the longest delay [s]."""
+    """What a post is made for: units that send, how many messages at once, pairs (receiver, sender); per world the settings of beacons,
+    and how many messages of one sender may have to be kept."""
 
     senders: Sequence[int]
     at_once: int
-    cycle: float
     pairs: Sequence[tuple[int, int]]
     beacons: Sequence[Any]
-    longest: float
+    slots: Sequence[int]
 
 
 class Known(NamedTuple):
@@ -265,7 +272,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
     pairs = sorted((index[s], world_of[r], entity[r], r) for r, s in set(need.pairs))
     links = np.array([(s, r) for s, _, _, r in pairs], dtype=np.int64).reshape(-1, 2).T
     periods = np.array([round(each.period / tick) if hasattr(each, "period") else 1 for each in need.beacons], dtype=np.int64)
-    slots = slots_of(need, periods, tick)
+    slots = max(need.slots)
     carried = width(kind.module.Payload)
     inbox = np.zeros((len(HEARD) + carried, links.shape[1]))
     inbox[H_NUMBER] = -1.0
@@ -282,6 +289,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         worlds=tuple(sorted({int(world_of[unit]) for unit in need.senders})),
         is_of_applications=need.at_once > 0,
         sender=sender,
+        slots=np.array(need.slots, dtype=np.int64),
         period=periods,
         settings=np.array([numbers(each) if has_beacon else [] for each in need.beacons]).T.copy(),
         kept=remembered(kind.module, "Memory", sender.size),
@@ -306,10 +314,9 @@ def before_first(entity: int, period: int) -> int:
     return ceil(entity / period) - 1
 
 
-def slots_of(need: Need, periods: np.ndarray, tick: float) -> int:
-    """How many messages of one sender can be under way, and two more. Applications may send some at every instant."""
-    shortest = need.cycle if need.at_once else tick * int(periods.min())
-    return (int(need.longest / shortest + EARLY) + 2) * max(need.at_once, 1) + 1
+def slots_of(longest: float, shortest: float, together: int) -> int:
+    """How many messages of one sender can be under way, and two more: with a longest delay, of so many together once in a shortest time."""
+    return (int(longest / shortest + EARLY) + 2) * together + 1
 
 
 def written_for(kind: Kind, radio: Kind) -> ModuleType:
