@@ -94,35 +94,35 @@ class Me(NamedTuple):
 
 
 class Way(NamedTuple):
-    """The way of one message to one receiver, at the moment of sending."""
+    """The way of one message to one receiver, at the moment of sending. Tests give what they are about."""
 
-    distance: float  # [m] from antenna to antenna
-    walls: float  # [1] walls of buildings that it passes
-    inside: float  # [m] within buildings
-    size: float  # [bytes]
-    speed: float  # [m/s] of the receiver
-    approach: float  # [m/s] at which both come nearer to each other; negative while they part
-    time: float  # [s] since the start
-    from_x: float  # [m] the sender's antenna
-    from_y: float  # [m]
-    from_height: float  # [m] above the road
-    to_x: float  # [m] the receiver's antenna
-    to_y: float  # [m]
-    to_height: float  # [m]
-    from_load: float  # [1] share of the last tenth of a second in which the channel was busy, where the sender is
-    load: float  # [1] likewise, where the receiver is
-    wait: float  # [s] for the cell, as `admit` of the radio gave it; 0 for a radio without cells
+    distance: float = 0.0  # [m] from antenna to antenna
+    walls: float = 0.0  # [1] walls of buildings that it passes
+    inside: float = 0.0  # [m] within buildings
+    size: float = 0.0  # [bytes]
+    speed: float = 0.0  # [m/s] of the receiver
+    approach: float = 0.0  # [m/s] at which both come nearer to each other; negative while they part
+    time: float = 0.0  # [s] since the start
+    from_x: float = 0.0  # [m] the sender's antenna
+    from_y: float = 0.0  # [m]
+    from_height: float = 0.0  # [m] above the road
+    to_x: float = 0.0  # [m] the receiver's antenna
+    to_y: float = 0.0  # [m]
+    to_height: float = 0.0  # [m]
+    from_load: float = 0.0  # [1] share of the last tenth of a second in which the channel was busy, where the sender is
+    load: float = 0.0  # [1] likewise, where the receiver is
+    wait: float = 0.0  # [s] for the cell, as `admit` of the radio gave it; 0 for a radio without cells
 
 
 class Draw(NamedTuple):
     """Chance's part in one message on one link: by these numbers it is told apart. `chance` and the like draw from it."""
 
-    seed: int
-    receiver: int
-    sender: int
-    stream: int  # the first of those of this kind of message
-    number: int  # of the message among those of its sender
-    common: int  # the first stream of the radio, for what does not hang on the kind of message
+    seed: int = 0
+    receiver: int = 0
+    sender: int = 0
+    stream: int = 0  # the first of those of this kind of message
+    number: int = 0  # of the message among those of its sender
+    common: int = 0  # the first stream of the radio, for what does not hang on the kind of message
 
 
 class Sent(NamedTuple):
