@@ -314,7 +314,7 @@ class Scenario(Part, defer_build=True):
     description: str = Field("", max_length=2000, title="Description")
     map: Map = Field(..., title="Map")
     clock: Clock = Field(default_factory=Clock, title="Clock")
-    seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
+    seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number whose stream has none of its own")
     seeds: Seeds = Field(default_factory=Seeds, title="Seeds", description="of single streams")
     routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
