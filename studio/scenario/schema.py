@@ -327,10 +327,10 @@ class Goal(Part):
 class Seeds(Part):
     """Seeds of single streams of chance; where none is given the scenario's counts. So one of them can be varied while the rest stays."""
 
-    traffic: int | None = Field(None, ge=0, le=2**63 - 1, title="Traffic", description="routes, places and styles of the traffic")
-    sensors: int | None = Field(None, ge=0, le=2**63 - 1, title="Sensors", description="errors of all sensors")
-    satellites: int | None = Field(None, ge=0, le=2**63 - 1, title="Satellites", description="errors of the cars' own positions")
-    radio: int | None = Field(None, ge=0, le=2**63 - 1, title="Radio", description="loss and delay of messages")
+    traffic: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the traffic", description="its routes, places and styles")
+    sensors: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the sensors", description="of their errors")
+    satellites: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the satellites", description="errors of cars' positions")
+    radio: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the radio", description="of loss and delay of messages")
 
 
 class Scenario(Part, defer_build=True):
@@ -341,7 +341,7 @@ class Scenario(Part, defer_build=True):
     description: str = Field("", max_length=2000, title="Description")
     map: Map = Field(..., title="Map")
     clock: Clock = Field(default_factory=Clock, title="Clock")
-    seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number")
+    seed: int = Field(1, ge=0, le=2**63 - 1, title="Seed", description="of every random number whose stream has none of its own")
     seeds: Seeds = Field(default_factory=Seeds, title="Seeds", description="of single streams")
     routes: dict[Name, Route] = Field(..., min_length=1, title="Routes")
     vehicles: dict[Name, Vehicle] = Field(..., min_length=1, title="Vehicles")
