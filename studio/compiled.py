@@ -98,6 +98,7 @@ def compiled(function: Any = None, **options: Any) -> Any:
     # time would both write number 1, and one would be taken for the other; so every process has names of its own.
     file = dispatcher._cache._cache_file
     file._load_index = partial(readable, file._load_index)
+    file._load_data = partial(loadable, file._load_data)
     file._data_name_pattern = file._data_name_pattern.replace("{number:d}", f"{{number:d}}-{uuid.uuid4().hex[:12]}")
     dispatcher.compile = partial(compile_alone, dispatcher.compile, f"{file._index_path}.lock")
     return dispatcher
@@ -124,6 +125,17 @@ def readable(load: Callable[[], dict]) -> dict:
         return load()
     except (ImportError, AttributeError):
         return {}
+
+
+def loadable(load: Callable[[str], Any], name: str) -> Any:
+    """Kept machine code; as if there were none where it names a module that is not loaded now.
+
+    numba tells unions of types apart by their names alone, so what a user's own file has called `Does` may stand in the code of another.
+    """
+    try:
+        return load(name)
+    except (ImportError, AttributeError) as error:
+        raise OSError(f"{name} cannot be used: {error}") from error
 
 
 def compile_alone(compile, lock: str, signature):

@@ -11,7 +11,7 @@ import pytest
 from studio.compiled import Locator, folder_of
 from studio.source import PACKAGE, closure, compiled_functions, digest_of, imports
 
-MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("vehicle", "motion.py"), ("model", "tyre.py"), ("assess", "safety.py")))
+MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("vehicle", "motion.py"), ("model", "tyre.py"), ("assess", "danger.py")))
 
 
 @pytest.fixture
@@ -106,7 +106,8 @@ def test_a_function_lies_where_its_digest_says():
 
 def test_compiled_functions_of_a_file_are_known():
     assert "forces" in compiled_functions(TYRE) and "formula_angle" in compiled_functions(TYRE)
-    assert compiled_functions(PACKAGE / "world" / "board" / "sensing.py") == ["unfit"]  # the loop that it writes stands in another file
+    sensing = compiled_functions(PACKAGE / "world" / "board" / "sensing.py")
+    assert "unfit" in sensing and "run" not in sensing  # the loop that it writes stands in another file
     assert compiled_functions(PACKAGE / "compiled.py") == []
 
 
@@ -141,3 +142,30 @@ def test_the_code_of_users_types_is_in_nobodys_way(tmp_path):
         use = f"mine = load(Path({str(folder / 'mine.py')!r})); pair = mine.Pair(1.0, 2.0); print(mine.total(pair), first(pair))"
         assert said(load + use, environment) == "3.0 1.0"
     assert said(load + "print(first((4.0, 5.0)))", environment) == "4.0"
+
+
+ANSWERS = """
+from typing import NamedTuple
+from studio.compiled import compiled
+class Memory(NamedTuple):
+    time: float
+class Does(NamedTuple):
+    number: int
+@compiled
+def decide(time):
+    return Memory(time), Does(1)
+"""
+
+
+def test_names_that_users_share_are_in_nobodys_way(tmp_path):
+    """Two files whose tuples are called alike, loaded together once; then one of them alone, whose kept code may name the other."""
+    environment = os.environ | {"STUDIO_CACHE": str(tmp_path / "cache")}
+    load = "from pathlib import Path; from studio.kind.folder import load\n"
+    use = []
+    for folder in (tmp_path / "one", tmp_path / "other"):
+        folder.mkdir()
+        (folder / "mine.py").write_text(ANSWERS)
+        use.append(f"print(load(Path({str(folder / 'mine.py')!r})).decide(2.0)[1].number)\n")
+    assert said(load + use[0] + use[1], environment).split() == ["1", "1"]
+    assert said(load + use[1], environment) == "1"
+    assert said(load + use[0], environment) == "1"

@@ -118,8 +118,8 @@ function SectionBody({ section, ...shared }: { section: Section } & Shared) {
   );
 }
 
-/** Long parts, such as a whole vehicle, stand closed until they are wanted. */
-const SHORT = 12;
+/** Long parts, such as a whole vehicle, stand closed until they are wanted; an application, which is tuned, is not one. */
+const SHORT = 20;
 
 function InnerSection({ section, ...shared }: { section: Section } & Shared) {
   const [toggled, setToggled] = useState<boolean>();
