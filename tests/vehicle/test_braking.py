@@ -121,6 +121,25 @@ def test_stopping_distance_at_a_constant_torque():
     assert ground.state[X] == pytest.approx(27.78**2 / 8.0, rel=5e-3)
 
 
+@pytest.mark.parametrize(("kmh", "mu", "distance"), [(100, 0.85, 46.27), (50, 0.85, 11.57), (100, 0.3, 131.1)])
+def test_stopping_distance_by_the_book(kmh, mu, distance):
+    """v²/(2 mu g), within what building up slip and pitch takes."""
+    ground = Ground(MODELS, speed=kmh / 3.6, resistances=False, friction=2.0)  # no tyre is at its limit
+    p = ground.parameter
+    ground.command(applied_brake=mu * GRAVITY * heavier(p) * p[RADIUS]).run(14.0)
+    assert ground.state[X] == pytest.approx(distance, abs=0.05 + 2e-3 * distance)
+
+
+def test_stopping_distance_with_a_ramp():
+    """Full at 0.3 s: 50.40 m from 100 km/h with 0.85 g."""
+    ground = Ground(MODELS, speed=100 / 3.6, resistances=False, friction=2.0, step=0.001, tick=0.001)
+    full = 0.85 * GRAVITY * heavier(ground.parameter) * ground.parameter[RADIUS]
+    for k in range(300):
+        ground.command(applied_brake=full * (k + 0.5) / 300).run(0.001)
+    ground.command(applied_brake=full).run(5.0)
+    assert ground.state[X] == pytest.approx(50.40, rel=5e-3)
+
+
 # --- the limit of the tyres ------------------------------------------------------------------------------------------------
 
 
