@@ -61,7 +61,9 @@ class Own(NamedTuple):
     yaw_rate: Annotated[float, "rad/s", "to the left"]
     steering: Annotated[float, "rad", "road wheel angle, to the left"]
     set_speed: Annotated[float, "m/s", "that the driver has set for this stretch"]
-    request: Annotated[float, "m/s²", "that was asked of the actuators at the last tick, by whomever: the driver where nobody else drives"]
+    request: Annotated[
+        float, "m/s²", "asked of the actuators at the last tick by application or script; where a person drives, `acceleration`"
+    ]
     gps_x: Annotated[float, "m", "east position of the centre of gravity by satellite, with its errors"]
     gps_y: Annotated[float, "m", "north position, likewise"]
 

@@ -27,7 +27,7 @@ class Payload(NamedTuple):
     y: Annotated[float, "m", "north position, likewise"] = 0.0
     speed: Annotated[float, "m/s", "along the car"] = 0.0
     acceleration: Annotated[float, "m/s²", "forward"] = 0.0
-    intention: Annotated[float, "m/s²", "that it has requested of its actuators"] = 0.0
+    intention: Annotated[float, "m/s²", "asked of its actuators by application or script; where a person drives, its acceleration"] = 0.0
 
 
 @compiled

@@ -7,7 +7,7 @@ from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.satellite import fix
-from studio.world.table.mind import V_DESIRED
+from studio.world.table.mind import COMMANDS_DRIVE, DRIVER_HAS, INTERVENTION_HAS, V_DESIRED
 from studio.world.table.unit import (
     BUMPER,
     COSINE,
@@ -50,9 +50,15 @@ def carry(vehicle, fixed, state, parameter, mind, commands, places, gps_set, wor
         now[OWN_YAW_RATE, u], now[OWN_STEERING, u] = state[YAW_RATE, v], state[DELTA, v]
         blur(k, u, entity[v], bus_seed[world_of[v]], fixed, now)
         now[OWN_SET_SPEED, u] = mind[V_DESIRED, v]
-        now[OWN_REQUEST, u] = commands[U, ((k - 1) % RING) * n + v]
+        now[OWN_REQUEST, u] = now[OWN_ACCELERATION, u] if is_driven(v, mind) else commands[U, ((k - 1) % RING) * n + v]
         now[OWN_X, u] = state[X, v] + satellite[GPS_EAST, v]
         now[OWN_Y, u] = state[Y, v] + satellite[GPS_NORTH, v]
+
+
+@inlined
+def is_driven(v, mind):
+    """Whether a person has the pedals: what he wants, and has made of what he sees, stands on no bus."""
+    return mind[COMMANDS_DRIVE, v] == DRIVER_HAS or mind[COMMANDS_DRIVE, v] == INTERVENTION_HAS
 
 
 @inlined
