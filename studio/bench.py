@@ -7,6 +7,7 @@
                 that the density is always the same; `ratio` is what all of it costs over the integration of its vehicles alone
     equipped    the same with four sensors on every car that look late and not through others, and IEEE 802.11p with shadows, fading,
                 bursts and a busy channel, over which everybody hears everybody; every message is recorded
+    town        the same once more in a town: cars on ways of their own, which tell each other of themselves by the standard's rules
     place       the sample's map imported from its file, with nothing kept from before; where the ways of its vehicles run
                 close to each other
     scene       one update of the sample's vehicles in the 3D picture, which at 60 Hz has 16.7 ms for everything
@@ -18,7 +19,6 @@ import multiprocessing
 import os
 import platform
 import statistics
-import tempfile
 import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
@@ -32,14 +32,14 @@ import numpy as np
 
 from studio import job
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
+from studio.crowd import equipped, motorway_crowd, town_crowd
 from studio.errors import Problem, ServerError
 from studio.execution.simulation import Simulation, simulation
 from studio.road.assembly.plan import Wish
-from studio.road.drawn.motorway import motorway
 from studio.road.library.place import imported
 from studio.road.library.reader import reader_of
 from studio.road.ways.conflict import zones
-from studio.scenario import catalogue, setup
+from studio.scenario import catalogue
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.projection import Scene
@@ -50,7 +50,7 @@ from studio.vehicle.fleet import Fleet, Start
 from studio.world.build import build
 from studio.world.channel import CHANNELS
 from studio.world.passes import notice
-from studio.world.setting import Setting, setting
+from studio.world.setting import Setting
 from studio.world.tick import (
     act,
     applications,
@@ -69,18 +69,10 @@ from studio.world.tick import (
 
 FLEETS = (1, 8, 100, 1000, 10_000)
 CROWDS = (25, 100, 300, 1000)
-PLATOON, GAP, EVERY = 5, 25.0, 200.0  # cars of a platoon, [m] from one to the next, [m] from platoon to platoon
-LANES, MARGIN = 3, 1000.0  # of each direction; [m] of road before the last car and ahead of the first
-ROADS = {"eastbound": "motorway", "westbound": "-motorway"}
+TOWN = 100  # cars
 MEASURED, LEAST_TICKS, MOST_TICKS = 20_000, 10, 60  # vehicle ticks that one repeat takes; ticks at least and at most
 WARM = 100  # ticks before the first repeat: until then everything that is compiled has been loaded, and the first car brakes
 OFTEN = 25  # repeats of an advance, which are short
-FOUR_SENSORS = {
-    "front": {"kind": "front_radar", "preset": "long_range_radar"},
-    "left": {"kind": "blind_spot", "preset": "left"},
-    "lane": {"kind": "lane_markings", "preset": "camera"},
-    "place": {"kind": "satellite_receiver", "preset": "gnss"},
-}
 DEVICE_FLEETS = (1000, 10_000, 100_000)
 REPEATS = 5
 SPAN = 0.2  # [s] of real time that one repeat takes at least
@@ -123,50 +115,6 @@ def whole_tick(sample: Setting) -> float:
 
 
 # -- the whole advance -----------------------------------------------------------------------------
-
-
-def crowd(count: int, equipment: Callable[[dict[str, Any]], dict[str, Any]] = lambda document: document) -> Setting:
-    """`count` cars in platoons on all lanes of both directions of a motorway, everything on in each of them."""
-    rows = -(-count // (PLATOON * 2 * LANES))
-    with tempfile.TemporaryDirectory() as folder:
-        road = motorway(length=2.0 * MARGIN + rows * EVERY, lanes=LANES)
-        (Path(folder) / "motorway.xodr").write_text(road, encoding="utf-8")
-        return setting(setup.complete(equipment(crowd_document(count)), "the crowd"), Path(folder), "the crowd")
-
-
-def crowd_document(count: int) -> dict[str, Any]:
-    """Its scenario: the first car of every platoon leads, the others follow it with CACC; one brakes at times."""
-    names = [f"car_{i}" for i in range(count)]
-    platoons = [names[i : i + PLATOON] for i in range(0, count, PLATOON)]
-    return {
-        "title": f"{count} cars in platoons",
-        "map": {"file": "motorway.xodr"},
-        "clock": {"duration": 60},
-        "routes": {name: {"roads": [road], "speeds": [{"at": 0, "speed": 30}]} for name, road in ROADS.items()},
-        "vehicles": {name: crowd_vehicle(i) for i, name in enumerate(names)},
-        "applications": {
-            f"platoon_{k}": {"application": "cacc", "units": members[1:], "listens_to": members[:-1]}
-            for k, members in enumerate(platoons)
-            if len(members) > 1
-        },
-        "script": {"brake": {"when": {"kind": "time", "at": 1}, "do": {"kind": "brake", "vehicle": names[0], "deceleration": 2}}},
-    }
-
-
-def crowd_vehicle(i: int) -> dict[str, Any]:
-    """Car i: its platoon's place on the motorway, and its own within the platoon."""
-    platoon, place = divmod(i, PLATOON)
-    row, lane = divmod(platoon, 2 * LANES)
-    route, road = list(ROADS.items())[lane // LANES]
-    offset = MARGIN + EVERY * (row + lane / (2 * LANES)) - place * GAP
-    return {"route": route, "position": {"road": road, "lane": lane % LANES, "offset": offset}, "speed": 30}
-
-
-def equipped(document: dict[str, Any]) -> dict[str, Any]:
-    """A crowd with four sensors on every car and a real radio, over which all hear all."""
-    vehicles = {name: each | {"sensors": FOUR_SENSORS} for name, each in document["vehicles"].items()}
-    groups = {name: {key: part for key, part in each.items() if key != "listens_to"} for name, each in document["applications"].items()}
-    return document | {"vehicles": vehicles, "applications": groups, "radio": {"kind": "wlan", "preset": "motorway"}}
 
 
 def advance(setting: Setting) -> dict[str, Any]:
@@ -295,8 +243,8 @@ def all_cores(count: int = 1000) -> float:
         return sum(pool.map(dynamics, [count] * cores, chunksize=1))
 
 
-def run(sample: Path, progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
-    """All figures, with the machine and the versions."""
+def run(sample: Path, town: Path, progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
+    """All figures, with the machine and the versions; `town` is the map of a town."""
     one_core = {}
     for i, count in enumerate(FLEETS):
         one_core[str(count)] = dynamics(count)
@@ -309,8 +257,8 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
     scene = {"update": picture(prepared)}
     progress(1 - 1 / (len(FLEETS) + 3))
     with one_core_only():
-        crowds = {str(count): advance(crowd(count)) for count in CROWDS}
-        full = {str(count): advance(crowd(count, equipped)) for count in CROWDS}
+        crowds = {str(count): advance(motorway_crowd(count)) for count in CROWDS}
+        full = {str(count): advance(motorway_crowd(count, equipped)) for count in CROWDS}
     return {
         "machine": machine(),
         "versions": versions(),
@@ -326,6 +274,7 @@ def run(sample: Path, progress: Callable[[float], None] = lambda share: None) ->
         "tick": {"one_core": tick_rate},
         "advance": {"one_core": crowds},
         "equipped": {"one_core": full},
+        "town": {"one_core": {str(TOWN): advance(town_crowd(town, TOWN))}},
         "place": place,
         "scene": scene,
     }

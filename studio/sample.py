@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 
 PACKAGED = Path(__file__).resolve().parent / "_scenarios"
+TOWN = "urban_grid.osm"
 FIRST = "grosser_stern_platoon"
 
 
@@ -34,3 +35,8 @@ def copy_new(source: str, target: str) -> None:
 def first() -> Path:
     """The sample that everything is shown with."""
     return folder() / f"{FIRST}.yaml"
+
+
+def town() -> Path:
+    """The map of a town."""
+    return folder() / "maps" / TOWN

@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from studio import bench
-from studio.errors import ServerError
+from studio.crowd import GAP, PLATOON, motorway_crowd, starts_in, town_crowd
+from studio.errors import MapError, ServerError
 from studio.execution.simulation import simulation
+from studio.road import load
+from studio.sample import town
 from studio.vehicle import cuda, fleet
 
 
@@ -24,16 +27,18 @@ def test_the_report_has_all_figures(monkeypatch, sample):
     monkeypatch.setattr(bench, "SPAN", 0.001)
     monkeypatch.setattr(bench, "FLEETS", (1, 8))
     monkeypatch.setattr(bench, "CROWDS", (7,))
+    monkeypatch.setattr(bench, "TOWN", 5)
     monkeypatch.setattr(bench, "MEASURED", 1)
     monkeypatch.setattr(bench, "REPEATS", 1)
     monkeypatch.setattr(bench, "all_cores", lambda: bench.dynamics(8))
     seen = []
-    figures = bench.run(sample, seen.append)
+    figures = bench.run(sample, town(), seen.append)
     assert set(figures["dynamics"]["one_core"]) == {"1", "8"}
     crowd = figures["advance"]["one_core"]["7"]
     assert crowd["rate"] > 0 and crowd["ratio"] > 1 and {"look", "sense", "move", "collide", "record", "report"} <= set(crowd["parts"])
     full = figures["equipped"]["one_core"]["7"]
     assert full["parts"]["sense"] > crowd["parts"]["sense"] and full["ratio"] > 1
+    assert figures["town"]["one_core"]["5"]["parts"]["communicate"] > 0
     assert figures["tick"]["one_core"] > 0 and figures["dynamics"]["all_cores"] > 0
     assert set(figures["place"]) == {"import", "conflicts"} and set(figures["scene"]) == {"update"}
     assert min(*figures["place"].values(), *figures["scene"].values()) > 0
@@ -44,14 +49,29 @@ def test_the_report_has_all_figures(monkeypatch, sample):
 @pytest.mark.parametrize("count", [25, 62])
 def test_a_crowd_is_as_dense_as_another(count):
     """Everybody but the first of a platoon follows at the distance of the file; nobody collides while the first one brakes."""
-    run = simulation(bench.crowd(count))
+    run = simulation(motorway_crowd(count))
     run.advance(150)
     (case,) = run.cases
-    followers = [v for v in range(count) if v % bench.PLATOON]
+    followers = [v for v in range(count) if v % PLATOON]
     gap = run.record().channel("gap")[followers]
     assert case.status == "running" and run.world.events.hits_found == 0
-    assert (gap[:, 0] == pytest.approx(bench.GAP - 4.5, abs=0.1)) and np.isfinite(gap).all() and gap.min() > 10.0
+    assert (gap[:, 0] == pytest.approx(GAP - 4.5, abs=0.1)) and np.isfinite(gap).all() and gap.min() > 10.0
     assert [event.text for event in case.happenings if event.kind == "script_begun"] == ["brake begins: brake with 2 m/s²"]
+
+
+def test_cars_of_a_town_hear_each_other():
+    """Each has its own way, all sensors and messages; nobody starts in another."""
+    run = simulation(town_crowd(town(), 12))
+    run.advance(100)
+    (case,) = run.cases
+    heard = run.record().trace("car_0.all.heard")
+    assert case.status == "running" and run.world.events.hits_found == 0 and heard[-1] > 0
+
+
+def test_a_town_may_be_too_small():
+    with pytest.raises(MapError) as caught:
+        list(starts_in(load(town()), 5000, town()))
+    assert "no room for so many cars" in str(caught.value)
 
 
 @pytest.mark.parametrize("count", [1, 7])

@@ -25,7 +25,7 @@ FLOORS = [
     {"workshop"},
     {"warmup"},
     {"scene"},
-    {"bench"},
+    {"bench", "crowd"},
     {"server"},
     {"cli"},
 ]
