@@ -82,6 +82,11 @@ def reach(settings):
     return settings.range
 
 
+def minds_walls(settings):
+    """Whether walls count."""
+    return settings.buildings
+
+
 @compiled
 def transmit(settings, way, draw):
     """Whether a message is lost on its way, and how long it takes."""

@@ -90,6 +90,11 @@ def reach(settings):
     return ANYWHERE
 
 
+def minds_walls(settings):
+    """Whether walls count: not in a network."""
+    return False
+
+
 @compiled
 def admit(settings, sent, cell_):
     """How long a message waits until it has gone through, and what waits then; one that would wait too long does not come in."""

@@ -137,6 +137,11 @@ def heard_within(settings):
     return settings.hearing
 
 
+def minds_walls(settings):
+    """Whether walls count."""
+    return settings.buildings
+
+
 @compiled
 def airtime(settings, size):
     """How long [s] a message of `size` bytes makes the channel busy."""

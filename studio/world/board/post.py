@@ -26,7 +26,6 @@ from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import quantities, width
 from studio.kind.registry import Kind
-from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import walls_between
 from studio.rows import Moving
 from studio.world.board.air import EARLY, Air, remembered
@@ -53,6 +52,7 @@ from studio.world.table.unit import (
     S_SIZE,
     S_STAMP,
     S_TIME,
+    S_UNTIL,
     S_X,
     S_Y,
     SENT,
@@ -72,9 +72,9 @@ from studio.application.contract import Own
 from studio.compiled import lean
 from studio.world.board.air import occupy
 from studio.world.board.log import log_message
-from studio.world.board.post import hindrance, is_free, receive, send, settle, way_of
-from studio.world.table.cause import RECEIVED
-from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_X, S_Y
+from studio.world.board.post import apart, behind, hindrance, is_free, receive, send, settle, way_of
+from studio.world.table.cause import OUT_OF_RANGE, RECEIVED, TOO_WEAK
+from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_UNTIL, S_X, S_Y
 from studio.world.view import Draw, Sent, Turn
 from {radio_module} import SettingsTuple as Radio, {radio_parts}
 {imports}
@@ -90,30 +90,36 @@ def dispatch({given}):
         for number in range(last[i] - fresh[i] + 1, last[i] + 1):
             slot = number % arrival.shape[0]
             column = slot * sender.size + i
-            time, size, wait = ring[S_TIME, column], ring[S_SIZE, column], 0.0
+            time, size, wait, until = ring[S_TIME, column], ring[S_SIZE, column], 0.0, -1.0
             log_message(time, s, number, size, column, ring, log_message_rows, log_count)
 {admission}            for link in range(link_first[i], link_first[i + 1]):
                 u = link_receiver[link]
-                way = way_of(s, u, column, wait, reach[j], place_of[j], shadow, fixed, now, load, ring)
-                cause, delay = hindrance(way.distance, reach[j], s, u, now, trouble), 0.0
+                distance = apart(column, u, now, ring)
+                cause, delay = hindrance(distance, reach[j], s, u, now, trouble), 0.0
                 if cause == RECEIVED:
-                    {found} = transmit(radio, way, Draw(seed[j], entity[u], entity[s], stream, number, common){memory})
+                    draw = Draw(seed[j], entity[u], entity[s], stream, number, common)
+                    way = way_of(s, u, column, distance, wait, fixed, now, load, ring)
+                    {found} = transmit(radio, way, draw{memory})
+                    if minds_walls[j] and found.lost != TOO_WEAK and found.lost != OUT_OF_RANGE:
+                        {found} = transmit(radio, behind(way, place_of[j], shadow), draw{memory})
 {store}                    cause, delay = int(found.lost), found.delay + trouble[ADDED, s]
-                settle(slot, link, time, cause, delay, way.distance, arrival, lost, log_links, log_causes, log_delays, log_distances,
-                       log_count)
+                came = settle(slot, link, time, cause, delay, distance, arrival, lost, log_links, log_causes, log_delays, log_distances,
+                              log_count)
+                until = max(until, came)
+            ring[S_UNTIL, column] = until
             trouble[DROPS, s] = max(trouble[DROPS, s] - 1.0, 0.0)
         fresh[i] = 0
 
 
 @lean
-def exchange(period, settings, kept, link_sender, inbox, gap, {given}, k, now_time):
+def exchange(period, settings, kept, inbox, gap, {given}, k, now_time):
 {beacons}
     dispatch({given})
-    receive(now_time, sender.size, last, ring, link_sender, arrival, inbox)
+    receive(now_time, last, ring, link_first, arrival, inbox)
 '''
 GIVEN = (
-    "stream, common, air, reach, within, busy, load, cell, world_of, unit_first, entity, seed, place_of, shadow, fixed, now, trouble, "
-    "sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
+    "stream, common, air, reach, within, minds_walls, busy, load, cell, world_of, unit_first, entity, seed, place_of, shadow, fixed, "
+    "now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
     "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
 )
 ADMISSION = """            wait, remembered = admit(radio, Sent(time, ring[S_X, column], ring[S_Y, column], size), Cell({cell}))
@@ -167,7 +173,7 @@ class Post:
 
     def exchanged(self, k: int, time: float, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
-        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.link_sender, self.inbox, air.gap)
+        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.inbox, air.gap)
         return self.called("exchange", own, air, around, (k, time))
 
     def dispatched(self, air: Air, around: tuple) -> Iterable[Fault]:
@@ -190,7 +196,7 @@ class Post:
 
     def given(self, air: Air, around: tuple) -> tuple:
         """What the radio decides about, and what it looks at for that, as GIVEN names it."""
-        of_air = (self.radio.stream, air.settings, air.reach, air.within, air.busy, air.load, air.cell)
+        of_air = (self.radio.stream, air.settings, air.reach, air.within, air.minds_walls, air.busy, air.load, air.cell)
         links = (self.link_first, self.link_receiver, self.arrival, self.lost, self.memory)
         return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
 
@@ -203,7 +209,7 @@ class Post:
 
     def received(self, time: float) -> None:
         """What has come in between two ticks is taken."""
-        receive(time, self.sender.size, self.last, self.ring, self.link_sender, self.arrival, self.inbox)
+        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox)
 
     @property
     def stream(self) -> int:
@@ -278,7 +284,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
     inbox[H_NUMBER] = -1.0
     inbox[H_SENDER] = units.number[sender[links[0]]]
     ring = np.zeros((len(SENT) + carried, slots * sender.size))
-    ring[S_NUMBER] = -1.0
+    ring[S_NUMBER] = ring[S_UNTIL] = -1.0
     has_beacon, is_regular, loops = hasattr(kind.module, "beacon"), not hasattr(kind.module, "due"), written_for(kind, radio)
     first = [before_first(int(entity[u]), int(periods[world_of[u]])) if has_beacon and is_regular else -1 for u in sender]
     most = 1 + need.at_once
@@ -403,7 +409,7 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
     ring[S_TIME, column] = time
     ring[S_STAMP, column] = time * (1.0 + fixed[DRIFT, unit]) + fixed[OFFSET, unit]
     ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
-    ring[S_SIZE, column] = size
+    ring[S_SIZE, column], ring[S_UNTIL, column] = size, -1.0
     row = SENT_ROWS
     for value in literal_unroll(payload):
         ring[row, column] = value * 1.0
@@ -412,16 +418,30 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
 
 
 @inlined
-def way_of(sender, receiver, column, wait, reach, place, shadow, fixed, now, load, ring):
-    """The way from a message's antenna to a receiver's; walls are counted within reach only."""
+def apart(column, receiver, now, ring):
+    """How far a receiver is from the antenna of a message [m]."""
+    dx, dy = now[TRUE_X, receiver] - ring[S_X, column], now[TRUE_Y, receiver] - ring[S_Y, column]
+    return sqrt(dx * dx + dy * dy)
+
+
+@inlined
+def way_of(sender, receiver, column, distance, wait, fixed, now, load, ring):
+    """The way from a message's antenna to a receiver's, as if no building were there."""
     x0, y0, x1, y1 = ring[S_X, column], ring[S_Y, column], now[TRUE_X, receiver], now[TRUE_Y, receiver]
-    distance, walls, inside = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), 0.0, 0.0
-    if distance <= reach and shadow.grid.frame[COLUMNS, place] > 0.0:
-        walls, inside = walls_between(shadow, place, x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver])
     return Way(
-        distance, float(walls), inside, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
+        distance, 0.0, 0.0, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
         approach_of(sender, receiver, x1 - x0, y1 - y0, distance, now), ring[S_TIME, column],
         x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver], load[sender], load[receiver], wait,
+    )  # fmt: skip
+
+
+@lean
+def behind(way, place, shadow):
+    """The same way with the buildings of its map."""
+    walls, inside = walls_between(shadow, place, way.from_x, way.from_y, way.from_height, way.to_x, way.to_y, way.to_height)
+    return Way(
+        way.distance, float(walls), inside, way.size, way.speed, way.approach, way.time, way.from_x, way.from_y, way.from_height,
+        way.to_x, way.to_y, way.to_height, way.from_load, way.load, way.wait,
     )  # fmt: skip
 
 
@@ -447,31 +467,66 @@ def hindrance(distance, reach, sender, receiver, now, trouble):
 
 @inlined
 def settle(slot, link, time, cause, delay, distance, arrival, lost, links, causes, delays, distances, count):
-    """Writes down what becomes of a message that was sent at a time [s] on one link."""
-    arrival[slot, link] = time + delay if cause == RECEIVED else inf
+    """Writes down what becomes of a message that was sent at a time [s] on one link; when it is there [s], negative if never."""
+    came = time + delay if cause == RECEIVED else -1.0
+    arrival[slot, link] = came if cause == RECEIVED else inf
     lost[link] += cause != RECEIVED
     if cause != OUT_OF_RANGE:
         log_link(link, cause, delay if cause == RECEIVED else nan, distance, links, causes, delays, distances, count)
+    return came
 
 
 # -- receiving -----------------------------------------------------------------------------------------
 
 
 @lean
-def receive(time, sender_count, last, ring, link_sender, arrival, inbox):
-    """Every link takes the newest of the messages that have come in."""
-    slots = arrival.shape[0]
-    for link in range(link_sender.size):
-        i = link_sender[link]
-        for number in range(last[i], max(last[i] - slots, int(inbox[H_NUMBER, link]), -1), -1):
-            slot = number % slots
-            column = slot * sender_count + i
-            if ring[S_NUMBER, column] != number:
-                break
-            if arrival[slot, link] - EARLY <= time:
-                inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, sender_count, ring, arrival)
-                take(arrival[slot, link], number, column, link, ring, inbox)
-                break
+def receive(time, last, ring, link_first, arrival, inbox):
+    """Every link takes the newest of the messages that have come in; senders of whom nothing is under way are passed over."""
+    for i in range(last.size):
+        oldest = oldest_under_way(i, last, ring)
+        if oldest <= last[i]:
+            for link in range(link_first[i], link_first[i + 1]):
+                take_newest(time, i, oldest, link, last, ring, arrival, inbox)
+            arrive(time, i, oldest, last, ring)
+
+
+@inlined
+def column_of(number, i, last, ring):
+    """Where message `number` of sender i stands in the ring."""
+    return number % (ring.shape[1] // last.size) * last.size + i
+
+
+@inlined
+def oldest_under_way(i, last, ring):
+    """The number of the oldest message of sender i that is under way to somebody; above the newest one's where none is."""
+    oldest = last[i] + 1
+    for number in range(last[i], max(last[i] - ring.shape[1] // last.size, -1), -1):
+        column = column_of(number, i, last, ring)
+        if ring[S_NUMBER, column] == number and ring[S_UNTIL, column] >= 0.0:
+            oldest = number
+    return oldest
+
+
+@inlined
+def arrive(time, i, oldest, last, ring):
+    """What has reached all whom it reaches by a time [s] is no longer under way."""
+    for number in range(oldest, last[i] + 1):
+        column = column_of(number, i, last, ring)
+        if ring[S_UNTIL, column] - EARLY <= time:
+            ring[S_UNTIL, column] = -1.0
+
+
+@inlined
+def take_newest(time, i, oldest, link, last, ring, arrival, inbox):
+    """A link of sender i takes the newest message that has come in, if it is newer than what it has; none is older than `oldest`."""
+    had = int(inbox[H_NUMBER, link])
+    for number in range(last[i], max(oldest, had + 1) - 1, -1):
+        column = column_of(number, i, last, ring)
+        came = arrival[number % arrival.shape[0], link]
+        if ring[S_NUMBER, column] == number and came - EARLY <= time:
+            inbox[H_MISSED, link] = lost_since(had, number, i, link, last.size, ring, arrival)
+            take(came, number, column, link, ring, inbox)
+            return
 
 
 @lean
