@@ -52,6 +52,9 @@ class Air:
     reach: np.ndarray  # [m] per world, beyond it nothing is heard
     within: np.ndarray  # [m] per world, beyond it the channel is not busy
     minds_walls: np.ndarray  # bool per world, whether walls between two antennas count
+    table: np.ndarray  # [world, entry], what the radio has worked out of the settings
+    felt: np.ndarray  # float64[unit], what the radio knows of the place of every unit, when something has been sent
+    around: np.ndarray  # [row, unit], what it keeps for that; nothing hangs on it
     busy: Moving  # [ns] int64[unit]: for how long the channel has been busy in the window that has begun
     load: Moving  # [1] float64[unit]: share of the window before
     since: Moving  # [s] float64[1]: when the window has begun
@@ -90,6 +93,11 @@ def air(radio: Kind, worlds: Sequence[int], settings: Sequence[Any], units: int)
         reach=np.array(reach),
         within=np.array(within),
         minds_walls=np.array(walls),
+        table=np.array([module.table(each) if hasattr(module, "table") else () for each in settings], dtype=float).reshape(
+            len(settings), -1
+        ),
+        felt=np.zeros(units),
+        around=remembered(module, "Around", units),
         busy=np.zeros(units, dtype=np.int64),
         load=np.zeros(units),
         since=np.zeros(1),

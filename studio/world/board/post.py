@@ -72,21 +72,21 @@ from studio.application.contract import Own
 from studio.compiled import lean
 from studio.world.board.air import occupy
 from studio.world.board.log import log_message
-from studio.world.board.post import apart, behind, hindrance, is_free, receive, send, settle, way_of
+from studio.world.board.post import apart, behind, hindrance, is_any, is_free, receive, send, settle, way_of
 from studio.world.table.cause import OUT_OF_RANGE, RECEIVED, TOO_WEAK
-from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_UNTIL, S_X, S_Y
-from studio.world.view import Draw, Sent, Turn
+from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_UNTIL, S_X, S_Y, TRUE_X, TRUE_Y
+from studio.world.view import Draw, Sent, Spot, Turn
 from {radio_module} import SettingsTuple as Radio, {radio_parts}
-{imports}
+{imports}{places}
 
 @lean
 def dispatch({given}):
-    for i in range(sender.size):
+{located}    for i in range(sender.size):
         if fresh[i] == 0:
             continue
         s = sender[i]
         j = world_of[s]
-        radio = Radio({air})
+        radio, known = Radio({air}), table[j]
         for number in range(last[i] - fresh[i] + 1, last[i] + 1):
             slot = number % arrival.shape[0]
             column = slot * sender.size + i
@@ -98,7 +98,7 @@ def dispatch({given}):
                 cause, delay = hindrance(distance, reach[j], s, u, now, trouble), 0.0
                 if cause == RECEIVED:
                     draw = Draw(seed[j], entity[u], entity[s], stream, number, common)
-                    way = way_of(s, u, column, distance, wait, fixed, now, load, ring)
+                    way = way_of(s, u, column, distance, wait, known, felt, fixed, now, load, ring)
                     {found} = transmit(radio, way, draw{memory})
                     if minds_walls[j] and found.lost != TOO_WEAK and found.lost != OUT_OF_RANGE:
                         {found} = transmit(radio, behind(way, place_of[j], shadow), draw{memory})
@@ -118,12 +118,29 @@ def exchange(period, settings, kept, inbox, gap, {given}, k, now_time):
     receive(now_time, last, ring, link_first, arrival, inbox)
 '''
 GIVEN = (
-    "stream, common, air, reach, within, minds_walls, busy, load, cell, world_of, unit_first, entity, seed, place_of, shadow, fixed, "
-    "now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
+    "stream, common, air, reach, within, minds_walls, table, felt, around, busy, load, cell, world_of, unit_first, entity, seed, place_of, "
+    "shadow, fixed, now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
     "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
 )
-ADMISSION = """            wait, remembered = admit(radio, Sent(time, ring[S_X, column], ring[S_Y, column], size), Cell({cell}))
+ADMISSION = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
+            wait, remembered = admit(radio, sent, Cell({cell}))
 """
+WAITING = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
+            wait = wait_of(radio, sent, Draw(seed[j], entity[s], entity[s], stream, number, common))
+"""
+PLACES = """
+
+@lean
+def locate(common, air, felt, around, world_of, seed, now, fresh):
+    if not is_any(fresh):
+        return
+    for u in range(world_of.size):
+        if now[PRESENT, u] == 0.0:
+            continue
+        j = world_of[u]
+        spot = Spot(now[TRUE_X, u], now[TRUE_Y, u], seed[j], common)
+        felt[u], remembered = place(Radio({air}), spot, Around({around}))
+{store}"""
 OCCUPATION = """            spent = airtime(radio, size)
             occupy(j, ring[S_X, column], ring[S_Y, column], within[j], spent, world_of, unit_first, now, busy)
 """
@@ -196,7 +213,19 @@ class Post:
 
     def given(self, air: Air, around: tuple) -> tuple:
         """What the radio decides about, and what it looks at for that, as GIVEN names it."""
-        of_air = (self.radio.stream, air.settings, air.reach, air.within, air.minds_walls, air.busy, air.load, air.cell)
+        of_air = (
+            self.radio.stream,
+            air.settings,
+            air.reach,
+            air.within,
+            air.minds_walls,
+            air.table,
+            air.felt,
+            air.around,
+            air.busy,
+            air.load,
+            air.cell,
+        )
         links = (self.link_first, self.link_receiver, self.arrival, self.lost, self.memory)
         return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
 
@@ -330,7 +359,8 @@ def written_for(kind: Kind, radio: Kind) -> ModuleType:
     module, air = kind.module, radio.module
     tuple_of(air, air.Settings)
     fields = quantities(air.Memory) if hasattr(air, "Memory") else []
-    parts = [part for part in ("transmit", "airtime", "admit", "Cell") if hasattr(air, part)]
+    parts = [part for part in ("transmit", "airtime", "admit", "Cell", "place", "Around") if hasattr(air, part)]
+    parts += ["wait as wait_of"] if hasattr(air, "wait") else []
     source = TEXT.format(
         name=kind.name,
         radio=radio.name,
@@ -339,6 +369,8 @@ def written_for(kind: Kind, radio: Kind) -> ModuleType:
         given=GIVEN,
         air=spelled([each.size for each in shapes(air.Settings)], "air"),
         imports=imports(module),
+        places=places(air) if hasattr(air, "place") else "",
+        located="    locate(common, air, felt, around, world_of, seed, now, fresh)\n" if hasattr(air, "place") else "",
         admission=admission(air),
         found="found, remembered" if fields else "found",
         memory=f", Link({spelled([each.size for each in fields], 'memory', 'link')})" if fields else "",
@@ -355,10 +387,19 @@ def imports(module: ModuleType) -> str:
     return f"from {module.__name__} import {', '.join(['SettingsTuple', *named])}\n" if hasattr(module, "beacon") else ""
 
 
+def places(air: ModuleType) -> str:
+    """The loop that tells what the radio knows of the place of every unit."""
+    fields = quantities(air.Around)
+    settings, around = spelled([each.size for each in shapes(air.Settings)], "air"), spelled([each.size for each in fields], "around", "u")
+    return PLACES.format(air=settings, around=around, store=stored(fields, "u", " " * 8, "around"))
+
+
 def admission(air: ModuleType) -> str:
-    """The lines that let a message into a network of cells, and onto a channel."""
+    """The lines that let a message into a network of cells, or make it wait, and onto a channel."""
     fields = quantities(air.Cell) if hasattr(air, "admit") else []
-    text = ADMISSION.format(cell=spelled([each.size for each in fields], "cell")) + stored(fields, "j", " " * 12, "cell") if fields else ""
+    text = WAITING if hasattr(air, "wait") else ""
+    if fields:
+        text = ADMISSION.format(cell=spelled([each.size for each in fields], "cell")) + stored(fields, "j", " " * 12, "cell")
     return text + OCCUPATION if hasattr(air, "airtime") else text
 
 
@@ -418,6 +459,15 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
 
 
 @inlined
+def is_any(fresh):
+    """Whether anybody has sent something that the radio has not decided about."""
+    for i in range(fresh.size):
+        if fresh[i] > 0:
+            return True
+    return False
+
+
+@inlined
 def apart(column, receiver, now, ring):
     """How far a receiver is from the antenna of a message [m]."""
     dx, dy = now[TRUE_X, receiver] - ring[S_X, column], now[TRUE_Y, receiver] - ring[S_Y, column]
@@ -425,13 +475,14 @@ def apart(column, receiver, now, ring):
 
 
 @inlined
-def way_of(sender, receiver, column, distance, wait, fixed, now, load, ring):
+def way_of(sender, receiver, column, distance, wait, table, felt, fixed, now, load, ring):
     """The way from a message's antenna to a receiver's, as if no building were there."""
     x0, y0, x1, y1 = ring[S_X, column], ring[S_Y, column], now[TRUE_X, receiver], now[TRUE_Y, receiver]
     return Way(
         distance, 0.0, 0.0, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
         approach_of(sender, receiver, x1 - x0, y1 - y0, distance, now), ring[S_TIME, column],
         x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver], load[sender], load[receiver], wait,
+        felt[sender], felt[receiver], table,
     )  # fmt: skip
 
 
@@ -441,7 +492,7 @@ def behind(way, place, shadow):
     walls, inside = walls_between(shadow, place, way.from_x, way.from_y, way.from_height, way.to_x, way.to_y, way.to_height)
     return Way(
         way.distance, float(walls), inside, way.size, way.speed, way.approach, way.time, way.from_x, way.from_y, way.from_height,
-        way.to_x, way.to_y, way.to_height, way.from_load, way.load, way.wait,
+        way.to_x, way.to_y, way.to_height, way.from_load, way.load, way.wait, way.from_place, way.to_place, way.table,
     )  # fmt: skip
 
 
