@@ -112,10 +112,10 @@ def dispatch({given}):
 
 
 @lean
-def exchange(period, settings, kept, inbox, gap, {given}, k, now_time):
+def exchange(period, settings, kept, inbox, came, came_count, gap, {given}, k, now_time):
 {beacons}
     dispatch({given})
-    receive(now_time, last, ring, link_first, arrival, inbox)
+    receive(now_time, last, ring, link_first, arrival, inbox, came, came_count)
 '''
 GIVEN = (
     "stream, common, air, reach, within, minds_walls, table, felt, around, busy, load, cell, world_of, unit_first, entity, seed, place_of, "
@@ -183,6 +183,8 @@ class Post:
     lost: Moving  # messages lost so far, per link
     memory: Moving  # what the radio remembers, [row, link]
     inbox: Moving  # [row, link]
+    came: np.ndarray  # int64[link], the links that have taken a message when it was looked last
+    came_count: np.ndarray  # int64[1], how many they are
     log: Log
     dispatch: Callable  # the radio decides about what was sent
     exchange: Callable  # beacons go out, the radio decides, what has come in is taken
@@ -190,7 +192,7 @@ class Post:
 
     def exchanged(self, k: int, time: float, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
-        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.inbox, air.gap)
+        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.inbox, self.came, self.came_count, air.gap)
         return self.called("exchange", own, air, around, (k, time))
 
     def dispatched(self, air: Air, around: tuple) -> Iterable[Fault]:
@@ -238,7 +240,7 @@ class Post:
 
     def received(self, time: float) -> None:
         """What has come in between two ticks is taken."""
-        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox)
+        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox, self.came, self.came_count)
 
     @property
     def stream(self) -> int:
@@ -251,14 +253,6 @@ class Post:
         return {int(unit): i for i, unit in enumerate(self.sender)}
 
     @property
-    def links_by_receiver(self) -> dict[int, list[int]]:
-        """The numbers of all links of every unit that hears somebody."""
-        found: dict[int, list[int]] = {}
-        for link, unit in enumerate(self.link_receiver.tolist()):
-            found.setdefault(unit, []).append(link)
-        return found
-
-    @property
     def links(self) -> dict[tuple[int, int], int]:
         """Number of every link by the units of receiver and sender."""
         pairs = zip(self.link_receiver.tolist(), self.sender[self.link_sender].tolist(), strict=True)
@@ -266,15 +260,30 @@ class Post:
 
 
 class Open(NamedTuple):
-    """The inboxes of a port that hears everybody: for every unit its links, how many it has heard, and those, the freshest first."""
+    """The inboxes of a port where somebody hears everybody: before every member the links that it has heard, the freshest first."""
 
     post: Post
-    first: np.ndarray
-    count: np.ndarray
-    links: np.ndarray
-    heard: np.ndarray
-    slots: np.ndarray
-    kept: np.ndarray  # [s] per unit, for how long what was heard counts
+    is_open: np.ndarray  # bool[member], whether it hears everybody; the others are left as they are
+    kept: np.ndarray  # [s] per member, for how long what was heard counts
+    heard: np.ndarray  # how many of `slots` are filled, per member
+    slots: np.ndarray  # int64[place, member], the links
+    when: np.ndarray  # [s] float64[place, member], when their messages were sent
+    member_first: np.ndarray  # per unit of all worlds, and one more: where the members that it is begin
+    member: np.ndarray
+
+    def lay(self, time: float) -> None:
+        """What has come in since the last time is laid before the members, and what is too old is taken away."""
+        self.put(self.post.came[: self.post.came_count[0]])
+        forget(time, self.is_open, self.kept, self.heard, self.slots, self.when)
+
+    def lay_anew(self) -> None:
+        """The same with all that every link has heard last."""
+        self.heard[self.is_open], self.slots[:, self.is_open] = 0, -1
+        self.put(np.flatnonzero(self.post.inbox[H_NUMBER] >= 0.0))
+
+    def put(self, came: np.ndarray) -> None:
+        """Links that have taken a message come to their places."""
+        freshen(came, self.post.link_receiver, self.member_first, self.member, self.post.inbox, self.heard, self.slots, self.when)
 
 
 class Need(NamedTuple):
@@ -338,6 +347,8 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         lost=np.zeros(links.shape[1], dtype=np.int64),
         memory=remembered(radio.module, "Memory", links.shape[1]),
         inbox=inbox,
+        came=np.zeros(links.shape[1], dtype=np.int64),
+        came_count=np.zeros(1, dtype=np.int64),
         log=Log((most * sender.size, most * links.shape[1])),
         dispatch=loops.dispatch,
         exchange=loops.exchange,
@@ -531,14 +542,14 @@ def settle(slot, link, time, cause, delay, distance, arrival, lost, links, cause
 
 
 @lean
-def receive(time, last, ring, link_first, arrival, inbox):
-    """Every link takes the newest of the messages that have come in; senders of whom nothing is under way are passed over."""
+def receive(time, last, ring, link_first, arrival, inbox, came, came_count):
+    """Every link takes the newest of the messages that have come in; what is no longer under way to anybody is passed over."""
+    came_count[0] = 0
     for i in range(last.size):
-        oldest = oldest_under_way(i, last, ring)
-        if oldest <= last[i]:
-            for link in range(link_first[i], link_first[i + 1]):
-                take_newest(time, i, oldest, link, last, ring, arrival, inbox)
-            arrive(time, i, oldest, last, ring)
+        for number in range(last[i], max(last[i] - arrival.shape[0], -1), -1):
+            column = column_of(number, i, last, ring)
+            if ring[S_NUMBER, column] == number and ring[S_UNTIL, column] >= 0.0:
+                deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count)
 
 
 @inlined
@@ -548,36 +559,17 @@ def column_of(number, i, last, ring):
 
 
 @inlined
-def oldest_under_way(i, last, ring):
-    """The number of the oldest message of sender i that is under way to somebody; above the newest one's where none is."""
-    oldest = last[i] + 1
-    for number in range(last[i], max(last[i] - ring.shape[1] // last.size, -1), -1):
-        column = column_of(number, i, last, ring)
-        if ring[S_NUMBER, column] == number and ring[S_UNTIL, column] >= 0.0:
-            oldest = number
-    return oldest
-
-
-@inlined
-def arrive(time, i, oldest, last, ring):
-    """What has reached all whom it reaches by a time [s] is no longer under way."""
-    for number in range(oldest, last[i] + 1):
-        column = column_of(number, i, last, ring)
-        if ring[S_UNTIL, column] - EARLY <= time:
-            ring[S_UNTIL, column] = -1.0
-
-
-@inlined
-def take_newest(time, i, oldest, link, last, ring, arrival, inbox):
-    """A link of sender i takes the newest message that has come in, if it is newer than what it has; none is older than `oldest`."""
-    had = int(inbox[H_NUMBER, link])
-    for number in range(last[i], max(oldest, had + 1) - 1, -1):
-        column = column_of(number, i, last, ring)
-        came = arrival[number % arrival.shape[0], link]
-        if ring[S_NUMBER, column] == number and came - EARLY <= time:
-            inbox[H_MISSED, link] = lost_since(had, number, i, link, last.size, ring, arrival)
-            take(came, number, column, link, ring, inbox)
-            return
+def deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count):
+    """A message of sender i is taken by the links that it has reached by a time [s] and that have no newer one."""
+    slot = number % arrival.shape[0]
+    for link in range(link_first[i], link_first[i + 1]):
+        if arrival[slot, link] - EARLY <= time and inbox[H_NUMBER, link] < number:
+            inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, last.size, ring, arrival)
+            take(arrival[slot, link], number, column, link, ring, inbox)
+            came[came_count[0]] = link
+            came_count[0] += 1
+    if ring[S_UNTIL, column] - EARLY <= time:
+        ring[S_UNTIL, column] = -1.0
 
 
 @lean
@@ -604,26 +596,42 @@ def take(came, number, column, link, ring, inbox):
 
 
 @lean
-def freshest(time, first, count, links, kept, inbox, heard, slots):
-    """For every car j, the links among `links[first[j]]` and the next `count[j]` that have heard something, the freshest first.
+def freshen(came, link_receiver, member_first, member, inbox, heard, slots, when):
+    """Links that have taken a message come to their places before all members that their receivers are."""
+    for k in range(came.size):
+        link = came[k]
+        u = link_receiver[link]
+        for p in range(member_first[u], member_first[u + 1]):
+            put(link, member[p], inbox[H_TIME, link], heard, slots, when)
 
-    What was sent longer ago than `kept[j]` [s] is forgotten. One with a count below zero is left as it is.
-    """
-    most = slots.shape[0]
-    for j in range(first.size):
-        if count[j] < 0:
-            continue
-        heard[j] = 0
-        slots[:, j] = -1
-        for p in range(first[j], first[j] + count[j]):
-            link = links[p]
-            if inbox[H_NUMBER, link] < 0.0 or time - inbox[H_TIME, link] > kept[j]:
-                continue
-            place = min(heard[j], most)
-            while place > 0 and inbox[H_TIME, slots[place - 1, j]] < inbox[H_TIME, link]:
-                if place < most:
-                    slots[place, j] = slots[place - 1, j]
-                place -= 1
-            if place < most:
-                slots[place, j] = link
-                heard[j] = min(heard[j] + 1, most)
+
+@inlined
+def put(link, j, time, heard, slots, when):
+    """Puts a link, whose message was sent at a time [s], to its place before member j: the freshest first, of equal ones the first link."""
+    place, most = 0, slots.shape[0]
+    while place < heard[j] and slots[place, j] != link:
+        place += 1
+    if place == most:
+        place -= 1
+        if not is_fresher(link, time, slots[place, j], when[place, j]):
+            return
+    heard[j] = max(heard[j], place + 1)
+    while place > 0 and is_fresher(link, time, slots[place - 1, j], when[place - 1, j]):
+        slots[place, j], when[place, j] = slots[place - 1, j], when[place - 1, j]
+        place -= 1
+    slots[place, j], when[place, j] = link, time
+
+
+@inlined
+def is_fresher(link, time, other, other_time):
+    """Whether a link comes before another."""
+    return time > other_time or (time == other_time and link < other)
+
+
+@lean
+def forget(time, is_open, kept, heard, slots, when):
+    """What was sent longer ago than `kept[j]` [s] is taken away from before member j."""
+    for j in range(heard.size):
+        while is_open[j] and heard[j] > 0 and time - when[heard[j] - 1, j] > kept[j]:
+            heard[j] -= 1
+            slots[heard[j], j] = -1
