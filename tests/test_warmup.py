@@ -25,8 +25,7 @@ SELDOM = {
     "passes.ground.rise",
     "passes.notice.notice_shown",
     "board.text.bad_count",
-    "board.post.forget",
-    "board.post.freshen",
+    "board.post.lay",
 }  # that no sample needs
 
 

@@ -76,7 +76,7 @@ def restore(world: World, kept: Snapshot) -> None:
     for post in world.units.posts:
         post.log.forget(world.clock.time - EARLY)
     for each in world.open_inboxes:
-        each.lay_anew()
+        each.lay_anew(world.clock.time)
 
 
 def check(world: World, kept: Snapshot) -> None:

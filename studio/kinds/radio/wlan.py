@@ -29,7 +29,7 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import Field
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.kind.preset import Preset
 from studio.kind.settings import Part, number
 from studio.model.radio import arrival, burst, channel, congestion, fading, packet, propagation, shadowing
@@ -189,7 +189,7 @@ def wait(settings, sent, draw):
     return on_air + channel.waiting(sent.load, on_air, draws[0], draws[1])
 
 
-@compiled
+@inlined
 def transmit(settings, way, draw):
     """What becomes of a message, and how long it takes.
 

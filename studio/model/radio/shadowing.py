@@ -30,6 +30,7 @@ from studio.compiled import compiled
 from studio.model.random import HALF, LOW, philox
 
 FINE, COARSE, SHARE = 0.4, 1.8, 0.45  # cells over d_cor, share of the variance that the fine ones have
+FORGOTTEN = 40.0  # times d_cor: from there on 2 + 2 exp(-D/d_cor) is 2, to the last bit
 TURN_COS, TURN_SIN = cos(pi / 6.0), sin(pi / 6.0)
 MIDDLE = 2147483648.0  # lattice numbers are not negative
 UNIFORM = 2.0**-16
@@ -56,7 +57,8 @@ class Around(NamedTuple):
 @compiled
 def of_both(f_p, f_q, distance, d_cor):
     """The shadow between two places whose fields are f_p and f_q, a distance [m] apart, over its standard deviation [1]."""
-    return (f_p + f_q) / sqrt(2.0 + 2.0 * exp(-distance / d_cor))
+    apart = distance / d_cor
+    return (f_p + f_q) / sqrt(2.0 + 2.0 * exp(-apart)) if apart < FORGOTTEN else (f_p + f_q) / sqrt(2.0)
 
 
 @compiled

@@ -103,7 +103,7 @@ def dispatch({given}):
                     if minds_walls[j] and found.lost != TOO_WEAK and found.lost != OUT_OF_RANGE:
                         {found} = transmit(radio, behind(way, place_of[j], shadow), draw{memory})
 {store}                    cause, delay = int(found.lost), found.delay + trouble[ADDED, s]
-                came = settle(slot, link, time, cause, delay, distance, arrival, lost, log_links, log_causes, log_delays, log_distances,
+                came = settle(slot, link, time, cause, delay, distance, arrival, log_links, log_causes, log_delays, log_distances,
                               log_count)
                 until = max(until, came)
             ring[S_UNTIL, column] = until
@@ -119,7 +119,7 @@ def exchange(period, settings, kept, inbox, came, came_count, gap, {given}, k, n
 '''
 GIVEN = (
     "stream, common, air, reach, within, minds_walls, table, felt, around, busy, load, cell, world_of, unit_first, entity, seed, place_of, "
-    "shadow, fixed, now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
+    "shadow, fixed, now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, memory, "
     "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
 )
 ADMISSION = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
@@ -180,7 +180,6 @@ class Post:
     link_sender: np.ndarray  # index into `sender`
     link_receiver: np.ndarray  # unit
     arrival: Moving  # [s] float64[slot, link], infinite for a message that is lost
-    lost: Moving  # messages lost so far, per link
     memory: Moving  # what the radio remembers, [row, link]
     inbox: Moving  # [row, link]
     came: np.ndarray  # int64[link], the links that have taken a message when it was looked last
@@ -228,7 +227,7 @@ class Post:
             air.load,
             air.cell,
         )
-        links = (self.link_first, self.link_receiver, self.arrival, self.lost, self.memory)
+        links = (self.link_first, self.link_receiver, self.arrival, self.memory)
         return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
 
     def newest(self, world: int, world_of: np.ndarray) -> np.ndarray:
@@ -259,7 +258,8 @@ class Post:
         return {pair: link for link, pair in enumerate(pairs)}
 
 
-class Open(NamedTuple):
+@dataclass
+class Open:
     """The inboxes of a port where somebody hears everybody: before every member the links that it has heard, the freshest first."""
 
     post: Post
@@ -270,20 +270,25 @@ class Open(NamedTuple):
     when: np.ndarray  # [s] float64[place, member], when their messages were sent
     member_first: np.ndarray  # per unit of all worlds, and one more: where the members that it is begin
     member: np.ndarray
+    ready: Callable | None = None  # `lay` with all arrays given, once it has been called
 
     def lay(self, time: float) -> None:
         """What has come in since the last time is laid before the members, and what is too old is taken away."""
-        self.put(self.post.came[: self.post.came_count[0]])
-        forget(time, self.is_open, self.kept, self.heard, self.slots, self.when)
+        if self.ready is None:
+            post = self.post
+            self.ready = bound(lay, post.came, post.came_count, post.link_receiver, post.inbox, *self.given, then=(time,))
+        self.ready(time)
 
-    def lay_anew(self) -> None:
+    def lay_anew(self, time: float) -> None:
         """The same with all that every link has heard last."""
         self.heard[self.is_open], self.slots[:, self.is_open] = 0, -1
-        self.put(np.flatnonzero(self.post.inbox[H_NUMBER] >= 0.0))
+        came = np.flatnonzero(self.post.inbox[H_NUMBER] >= 0.0)
+        lay(*(came, np.array([came.size]), self.post.link_receiver, self.post.inbox, *self.given, time))
 
-    def put(self, came: np.ndarray) -> None:
-        """Links that have taken a message come to their places."""
-        freshen(came, self.post.link_receiver, self.member_first, self.member, self.post.inbox, self.heard, self.slots, self.when)
+    @property
+    def given(self) -> tuple:
+        """What is there of every member."""
+        return self.member_first, self.member, self.is_open, self.kept, self.heard, self.slots, self.when
 
 
 class Need(NamedTuple):
@@ -344,7 +349,6 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         link_sender=links[0].copy(),
         link_receiver=links[1].copy(),
         arrival=np.full((slots, links.shape[1]), inf),
-        lost=np.zeros(links.shape[1], dtype=np.int64),
         memory=remembered(radio.module, "Memory", links.shape[1]),
         inbox=inbox,
         came=np.zeros(links.shape[1], dtype=np.int64),
@@ -528,11 +532,10 @@ def hindrance(distance, reach, sender, receiver, now, trouble):
 
 
 @inlined
-def settle(slot, link, time, cause, delay, distance, arrival, lost, links, causes, delays, distances, count):
+def settle(slot, link, time, cause, delay, distance, arrival, links, causes, delays, distances, count):
     """Writes down what becomes of a message that was sent at a time [s] on one link; when it is there [s], negative if never."""
     came = time + delay if cause == RECEIVED else -1.0
     arrival[slot, link] = came if cause == RECEIVED else inf
-    lost[link] += cause != RECEIVED
     if cause != OUT_OF_RANGE:
         log_link(link, cause, delay if cause == RECEIVED else nan, distance, links, causes, delays, distances, count)
     return came
@@ -596,13 +599,14 @@ def take(came, number, column, link, ring, inbox):
 
 
 @lean
-def freshen(came, link_receiver, member_first, member, inbox, heard, slots, when):
-    """Links that have taken a message come to their places before all members that their receivers are."""
-    for k in range(came.size):
+def lay(came, came_count, link_receiver, inbox, member_first, member, is_open, kept, heard, slots, when, time):
+    """Links that have taken a message come to their places before all members that their receivers are; what is too old goes."""
+    for k in range(came_count[0]):
         link = came[k]
         u = link_receiver[link]
         for p in range(member_first[u], member_first[u + 1]):
             put(link, member[p], inbox[H_TIME, link], heard, slots, when)
+    forget(time, is_open, kept, heard, slots, when)
 
 
 @inlined
@@ -628,7 +632,7 @@ def is_fresher(link, time, other, other_time):
     return time > other_time or (time == other_time and link < other)
 
 
-@lean
+@inlined
 def forget(time, is_open, kept, heard, slots, when):
     """What was sent longer ago than `kept[j]` [s] is taken away from before member j."""
     for j in range(heard.size):
