@@ -38,7 +38,8 @@ def settings(preset: str = "", **changes: Any) -> Any:
 def table(settings: Any) -> np.ndarray:
     """What the radio works out of settings as compiled code gets them."""
     rate = wlan.Settings.model_json_schema()["properties"]["rate"]["enum"][int(settings.rate)]
-    return wlan.table(wlan.Settings(frequency=settings.frequency, rate=rate, m_near=settings.m_near, m_far=settings.m_far))
+    same = ("frequency", "m_near", "m_far", "delay", "delay_rest", "delay_longest")
+    return wlan.table(wlan.Settings(rate=rate, **{name: getattr(settings, name) for name in same}))
 
 
 def heard(settings: Any, distance: float, journey: Journey, pairs: int = PAIRS, messages: int = MESSAGES) -> tuple[np.ndarray, np.ndarray]:

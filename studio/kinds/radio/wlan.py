@@ -45,10 +45,12 @@ NO_CONTROL = 0.0
 LARGEST = 2304  # [bytes] of a frame's body
 STEP = 0.25  # [s] after which a link may be blocked or cleared
 FARTHEST_SHADOW = 4.0  # standard deviations; no shadow is deeper or brighter
+ROUNDING = 1e-9  # [dB]
 BLOCKED, SHADOW = 1, 2  # streams of a pair of units
 WAIT = 15  # draws of a message that all its receivers share
 SURVIVES, FADES, SPOILT, LATE = range(4)  # those of one receiver
-AT_ONE_METRE, WORN = 0, 1  # of the table: loss [dB] of free space, wear of a packet, powers of fading nearby and far away
+# Of the table: loss [dB] of free space, share of delays that is not cut, wear of a packet, powers of fading nearby and far away.
+AT_ONE_METRE, NOT_CUT, WORN = range(3)
 NEAR = WORN + packet.POINTS
 FAR = NEAR + fading.POINTS
 
@@ -167,7 +169,8 @@ def table(settings):
     """What is worked out once."""
     closest = propagation.free_space(propagation.CLOSEST, propagation.wavelength(settings.frequency))
     rate = packet.RATES.index(float(settings.rate.split()[0]))
-    return np.concatenate([[closest], packet.worn(rate), fading.quantiles(settings.m_near), fading.quantiles(settings.m_far)])
+    share = arrival.not_cut(settings.delay, settings.delay_rest, settings.delay_longest)
+    return np.concatenate([[closest, share], packet.worn(rate), fading.quantiles(settings.m_near), fading.quantiles(settings.m_far)])
 
 
 @compiled
@@ -193,17 +196,21 @@ def wait(settings, sent, draw):
 def transmit(settings, way, draw):
     """What becomes of a message, and how long it takes.
 
-    What is too weak with the brightest fading is too weak; nobody has to look how it fades.
+    What is too weak with the brightest shadow and fading is too weak; nobody has to look which there are.
     """
     taken = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
-    clear = settings.transmit_power - path_loss(settings, way) - settings.noise + shadow(settings, way)
-    if taken == 0.0 and clear + brightest(settings, way) < packet.HOPELESS[int(settings.rate)]:
+    clear = settings.transmit_power - path_loss(settings, way) - settings.noise
+    darkest, lightest = shadow_bounds(settings, way)
+    if taken == 0.0 and clear + lightest + brightest(settings, way) < packet.HOPELESS[int(settings.rate)]:
         return Transmission(TOO_WEAK, 0.0)
     draws = chances(draw, 0)
-    lost = fate(settings, way, draw, clear, taken, draws)
+    least = clear - taken + darkest + fade_bounds(settings, way, draws[FADES])[0] - settings.blockage
+    lost = RECEIVED
+    if least < packet.CERTAIN[int(settings.rate)]:
+        lost = fate(settings, way, draw, clear + shadow(settings, way), taken, draws)
     if lost == RECEIVED and settings.contention > 0.0 and is_spoilt(settings, way, draws[SPOILT]):
         lost = BUSY
-    return Transmission(lost, delay(settings, draws[LATE]) + way.wait if lost == RECEIVED else 0.0)
+    return Transmission(lost, delay(settings, way, draws[LATE]) + way.wait if lost == RECEIVED else 0.0)
 
 
 @compiled
@@ -215,9 +222,10 @@ def is_spoilt(settings, way, draw):
 
 
 @compiled
-def delay(settings, draw):
+def delay(settings, way, draw):
     """Processing in both units [s]."""
-    return arrival.skewed_delay(settings.delay, settings.delay_rest, max(settings.delay_longest, settings.delay), draw)
+    longest = max(settings.delay_longest, settings.delay)
+    return arrival.skewed_delay(settings.delay, settings.delay_rest, longest, way.table[NOT_CUT], draw)
 
 
 @compiled
@@ -226,27 +234,44 @@ def fate(settings, way, draw, clear, taken, draws):
 
     Mostly it is so for all powers between the bounds of fading; then nobody has to look how much it is.
     """
-    rate, table, most, mean = settings.rate, way.table, packet.endured(8.0 * way.size + packet.AROUND, draws[SURVIVES]), clear - taken
-    least, greatest = fade_bounds(settings, way, draws[FADES])
-    if packet.surely_fails(mean + greatest, rate, most, table, WORN):
-        return weakness(settings, way, clear, taken, most)
-    if packet.surely_survives(mean + least - settings.blockage, rate, most, table, WORN):
+    mean, (least, greatest) = clear - taken, fade_bounds(settings, way, draws[FADES])
+    if fails(settings, way, draws, mean + greatest):
+        return weakness(settings, way, clear, taken, draws)
+    if survives(settings, way, draws, mean + least - settings.blockage):
         return RECEIVED
-    lacks = packet.surely_fails(mean + greatest - settings.blockage, rate, most, table, WORN)
-    if not (lacks and packet.surely_survives(mean + least, rate, most, table, WORN)):
+    lacks = fails(settings, way, draws, mean + greatest - settings.blockage)
+    if not (lacks and survives(settings, way, draws, mean + least)):
         faded = mean + fade(settings, way, draws[FADES])
-        if not packet.survives(faded, rate, most, table, WORN):
-            return weakness(settings, way, clear, taken, most)
-        lacks = not packet.survives(faded - settings.blockage, rate, most, table, WORN)
+        if not is_understood(settings, way, draws, faded):
+            return weakness(settings, way, clear, taken, draws)
+        lacks = not is_understood(settings, way, draws, faded - settings.blockage)
     return BURST if lacks and is_blocked(settings, way, draw) else RECEIVED
 
 
 @compiled
-def weakness(settings, way, clear, taken, most):
+def weakness(settings, way, clear, taken, draws):
     """Why a message is too weak: because of the distance, the buildings, or a moment."""
-    if not packet.survives(clear, settings.rate, most, way.table, WORN):
+    if not is_understood(settings, way, draws, clear):
         return TOO_WEAK
-    return FADING if taken == 0.0 or packet.survives(clear - taken, settings.rate, most, way.table, WORN) else BUILDING
+    return FADING if taken == 0.0 or is_understood(settings, way, draws, clear - taken) else BUILDING
+
+
+@compiled
+def survives(settings, way, draws, ratio):
+    """Whether a message is known to be understood at a signal to noise ratio [dB]."""
+    return packet.surely_survives(ratio, settings.rate, 8.0 * way.size + packet.AROUND, draws[SURVIVES], way.table, WORN)
+
+
+@compiled
+def fails(settings, way, draws, ratio):
+    """Whether it is known not to be."""
+    return packet.surely_fails(ratio, settings.rate, 8.0 * way.size + packet.AROUND, draws[SURVIVES], way.table, WORN)
+
+
+@compiled
+def is_understood(settings, way, draws, ratio):
+    """Whether it is."""
+    return packet.survives(ratio, settings.rate, 8.0 * way.size + packet.AROUND, draws[SURVIVES], way.table, WORN)
 
 
 @compiled
@@ -270,6 +295,14 @@ def shadow(settings, way):
         return 0.0
     s = shadowing.of_both(way.from_place, way.to_place, way.distance, settings.shadowing_distance)
     return settings.shadowing * min(max(s, -FARTHEST_SHADOW), FARTHEST_SHADOW)
+
+
+@compiled
+def shadow_bounds(settings, way):
+    """Between which values that is; quickly found."""
+    low, high = shadowing.bounds(way.from_place, way.to_place)
+    low, high = min(max(low, -FARTHEST_SHADOW), FARTHEST_SHADOW), min(max(high, -FARTHEST_SHADOW), FARTHEST_SHADOW)
+    return settings.shadowing * low - ROUNDING, settings.shadowing * high + ROUNDING
 
 
 @compiled

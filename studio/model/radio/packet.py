@@ -142,24 +142,24 @@ def worn(rate):
 
 
 @compiled
-def surely_survives(ratio, rate, most, table, first):
-    """Whether a packet that endures `most` is known to be understood at a ratio [dB]; wear stands in a table from `first` on."""
+def surely_survives(ratio, rate, bits, draw, table, first):
+    """Whether a packet of so many bits is known to be understood at a ratio [dB]; wear stands in a table from `first` on."""
     if ratio < HOPELESS[int(rate)] or ratio > CERTAIN[int(rate)]:
         return ratio > CERTAIN[int(rate)]
-    return table[first + int((ratio - HOPELESS[int(rate)]) / STEP)] < most
+    return table[first + int((ratio - HOPELESS[int(rate)]) / STEP)] < endured(bits, draw)
 
 
 @compiled
-def surely_fails(ratio, rate, most, table, first):
+def surely_fails(ratio, rate, bits, draw, table, first):
     """Whether it is known not to be."""
     if ratio < HOPELESS[int(rate)] or ratio > CERTAIN[int(rate)]:
         return ratio < HOPELESS[int(rate)]
-    return table[first + int((ratio - HOPELESS[int(rate)]) / STEP) + 1] >= most
+    return table[first + int((ratio - HOPELESS[int(rate)]) / STEP) + 1] >= endured(bits, draw)
 
 
 @compiled
-def survives(ratio, rate, most, table, first):
+def survives(ratio, rate, bits, draw, table, first):
     """Whether it is understood."""
-    if surely_fails(ratio, rate, most, table, first):
+    if surely_fails(ratio, rate, bits, draw, table, first):
         return False
-    return surely_survives(ratio, rate, most, table, first) or wear(10.0 ** (0.1 * ratio), rate) < most
+    return surely_survives(ratio, rate, bits, draw, table, first) or wear(10.0 ** (0.1 * ratio), rate) < endured(bits, draw)

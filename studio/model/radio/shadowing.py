@@ -62,6 +62,13 @@ def of_both(f_p, f_q, distance, d_cor):
 
 
 @compiled
+def bounds(f_p, f_q):
+    """Between which values that is at any distance; cheap."""
+    near, far = (f_p + f_q) / 2.0, (f_p + f_q) / sqrt(2.0)
+    return min(near, far), max(near, far)
+
+
+@compiled
 def field(seed, stream, x, y, around):
     """f at a place, in units of d_cor, and what is around it; `around` is what was around the place before."""
     u, v = x / FINE, y / FINE

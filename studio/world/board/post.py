@@ -48,11 +48,11 @@ from studio.world.table.unit import (
     OFFSET,
     OWN_FIRST,
     PRESENT,
+    S_NEXT,
     S_NUMBER,
     S_SIZE,
     S_STAMP,
     S_TIME,
-    S_UNTIL,
     S_X,
     S_Y,
     SENT,
@@ -68,13 +68,15 @@ SENT_ROWS, HEARD_ROWS = len(SENT), len(HEARD)
 
 TEXT = '''"""Messages of the kind {name} on the radio {radio}."""
 
+from math import inf
+
 from studio.application.contract import Own
 from studio.compiled import lean
 from studio.world.board.air import occupy
 from studio.world.board.log import log_message
 from studio.world.board.post import apart, behind, hindrance, is_any, is_free, receive, send, settle, way_of
 from studio.world.table.cause import OUT_OF_RANGE, RECEIVED, TOO_WEAK
-from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_UNTIL, S_X, S_Y, TRUE_X, TRUE_Y
+from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_NEXT, S_X, S_Y, TRUE_X, TRUE_Y
 from studio.world.view import Draw, Sent, Spot, Turn
 from {radio_module} import SettingsTuple as Radio, {radio_parts}
 {imports}{places}
@@ -90,7 +92,7 @@ def dispatch({given}):
         for number in range(last[i] - fresh[i] + 1, last[i] + 1):
             slot = number % arrival.shape[0]
             column = slot * sender.size + i
-            time, size, wait, until = ring[S_TIME, column], ring[S_SIZE, column], 0.0, -1.0
+            time, size, wait, next_ = ring[S_TIME, column], ring[S_SIZE, column], 0.0, inf
             log_message(time, s, number, size, column, ring, log_message_rows, log_count)
 {admission}            for link in range(link_first[i], link_first[i + 1]):
                 u = link_receiver[link]
@@ -105,8 +107,8 @@ def dispatch({given}):
 {store}                    cause, delay = int(found.lost), found.delay + trouble[ADDED, s]
                 came = settle(slot, link, time, cause, delay, distance, arrival, log_links, log_causes, log_delays, log_distances,
                               log_count)
-                until = max(until, came)
-            ring[S_UNTIL, column] = until
+                next_ = min(next_, came)
+            ring[S_NEXT, column] = next_
             trouble[DROPS, s] = max(trouble[DROPS, s] - 1.0, 0.0)
         fresh[i] = 0
 
@@ -327,7 +329,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
     inbox[H_NUMBER] = -1.0
     inbox[H_SENDER] = units.number[sender[links[0]]]
     ring = np.zeros((len(SENT) + carried, slots * sender.size))
-    ring[S_NUMBER] = ring[S_UNTIL] = -1.0
+    ring[S_NUMBER], ring[S_NEXT] = -1.0, inf
     has_beacon, is_regular, loops = hasattr(kind.module, "beacon"), not hasattr(kind.module, "due"), written_for(kind, radio)
     first = [before_first(int(entity[u]), int(periods[world_of[u]])) if has_beacon and is_regular else -1 for u in sender]
     most = 1 + need.at_once
@@ -465,7 +467,7 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
     ring[S_TIME, column] = time
     ring[S_STAMP, column] = time * (1.0 + fixed[DRIFT, unit]) + fixed[OFFSET, unit]
     ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
-    ring[S_SIZE, column], ring[S_UNTIL, column] = size, -1.0
+    ring[S_SIZE, column], ring[S_NEXT, column] = size, inf
     row = SENT_ROWS
     for value in literal_unroll(payload):
         ring[row, column] = value * 1.0
@@ -533,9 +535,9 @@ def hindrance(distance, reach, sender, receiver, now, trouble):
 
 @inlined
 def settle(slot, link, time, cause, delay, distance, arrival, links, causes, delays, distances, count):
-    """Writes down what becomes of a message that was sent at a time [s] on one link; when it is there [s], negative if never."""
-    came = time + delay if cause == RECEIVED else -1.0
-    arrival[slot, link] = came if cause == RECEIVED else inf
+    """Writes down what becomes of a message that was sent at a time [s] on one link; when it is there [s], infinite if never."""
+    came = time + delay if cause == RECEIVED else inf
+    arrival[slot, link] = came
     if cause != OUT_OF_RANGE:
         log_link(link, cause, delay if cause == RECEIVED else nan, distance, links, causes, delays, distances, count)
     return came
@@ -546,12 +548,12 @@ def settle(slot, link, time, cause, delay, distance, arrival, links, causes, del
 
 @lean
 def receive(time, last, ring, link_first, arrival, inbox, came, came_count):
-    """Every link takes the newest of the messages that have come in; what is no longer under way to anybody is passed over."""
+    """Every link takes the newest of the messages that have come in; one that has not come to anybody since then is passed over."""
     came_count[0] = 0
     for i in range(last.size):
         for number in range(last[i], max(last[i] - arrival.shape[0], -1), -1):
             column = column_of(number, i, last, ring)
-            if ring[S_NUMBER, column] == number and ring[S_UNTIL, column] >= 0.0:
+            if ring[S_NUMBER, column] == number and ring[S_NEXT, column] - EARLY <= time:
                 deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count)
 
 
@@ -564,15 +566,17 @@ def column_of(number, i, last, ring):
 @inlined
 def deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count):
     """A message of sender i is taken by the links that it has reached by a time [s] and that have no newer one."""
-    slot = number % arrival.shape[0]
+    slot, next_ = number % arrival.shape[0], inf
     for link in range(link_first[i], link_first[i + 1]):
-        if arrival[slot, link] - EARLY <= time and inbox[H_NUMBER, link] < number:
+        there = arrival[slot, link]
+        if there - EARLY > time:
+            next_ = min(next_, there)
+        elif inbox[H_NUMBER, link] < number:
             inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, last.size, ring, arrival)
-            take(arrival[slot, link], number, column, link, ring, inbox)
+            take(there, number, column, link, ring, inbox)
             came[came_count[0]] = link
             came_count[0] += 1
-    if ring[S_UNTIL, column] - EARLY <= time:
-        ring[S_UNTIL, column] = -1.0
+    ring[S_NEXT, column] = next_
 
 
 @lean

@@ -142,6 +142,13 @@ def test_a_link_is_the_same_in_both_directions_and_alike_beside_it():
     assert abs(np.corrcoef(there, shadows(2, np.hstack([a, b]), 25.0))[0, 1]) < 4.0 / 500**0.5
 
 
+def test_bounds_of_a_shadow():
+    """Whatever the distance is, and whoever is darker."""
+    for f_p, f_q in ((1.0, 2.0), (-1.5, 0.2), (-1.0, -1.0), (0.5, -0.5)):
+        low, high = shadowing.bounds(f_p, f_q)
+        assert all(low - 1e-15 <= shadowing.of_both(f_p, f_q, d, 25.0) <= high + 1e-15 for d in (0.0, 1.0, 25.0, 900.0, 1e4))
+
+
 def test_the_field_has_no_edges():
     """Across the borders of cells it changes by as little as within them."""
     line = np.stack([np.arange(-20.0, 20.0, 1e-3), np.full(40_000, 0.3)], axis=1)
