@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
+from studio.execution.hearing import Hearing
 from studio.execution.message import Messages, none
 from studio.kind import registry
 from studio.kind.registry import Kind
@@ -218,11 +219,10 @@ class Derived:
 
 @dataclass(frozen=True)
 class Chunk:
-    """Room for some samples: their times, values [sample, channel, vehicle], ages of all links [sample, link], and probes."""
+    """Room for some samples: their times, values [sample, channel, vehicle], and probes."""
 
     time: np.ndarray
     values: np.ndarray
-    ages: np.ndarray
     probes: np.ndarray
 
 
@@ -236,7 +236,7 @@ class Recorder:
     columns: np.ndarray
     every: int
     vehicle_share: list[slice]
-    links: int
+    hearing: Hearing
     reader: Reader
     probe_share: list[slice]
     count: int = 0
@@ -251,7 +251,7 @@ class Recorder:
             chunk = self.chunks[-1]
             chunk.time[place] = world.clock.time
             channel.sample(world, self.columns, k, chunk.values[place])
-            channel.link_ages(world, chunk.ages[place])
+            self.hearing.take(world)
             self.reader.read(chunk.probes[place])
             self.count += 1
 
@@ -262,14 +262,14 @@ class Recorder:
 
     @cached_property
     def widths(self) -> tuple[int, ...]:
-        """How many numbers of a sample are its time, values, ages and probes."""
-        return 1, len(CHANNELS) * self.columns.size, self.links, len(self.reader.probes)
+        """How many numbers of a sample are its time, values and probes."""
+        return 1, len(CHANNELS) * self.columns.size, len(self.reader.probes)
 
     def chunk(self) -> Chunk:
         """An empty one: a sample lies in one piece."""
         block = np.empty((self.room, sum(self.widths)))
-        time, values, ages, probes = np.split(block, np.cumsum(self.widths)[:-1], axis=1)
-        return Chunk(time[:, 0], values.reshape(self.room, len(CHANNELS), self.columns.size), ages, probes)
+        time, values, probes = np.split(block, np.cumsum(self.widths)[:-1], axis=1)
+        return Chunk(time[:, 0], values.reshape(self.room, len(CHANNELS), self.columns.size), probes)
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -304,8 +304,7 @@ class Recorder:
 
     def ages(self, links: list[int], count: int) -> np.ndarray:
         """Ages [s] of the newest message on some links, float64[link, sample]; the first samples."""
-        none = np.zeros((0, len(links)))
-        return self.joined([chunk.ages[:, links] for chunk in self.chunks], none, count).T
+        return self.hearing.ages(links, self.times(count))
 
     def joined(self, parts: list[np.ndarray], none: np.ndarray, count: int) -> np.ndarray:
         """The first samples of all chunks, one after another."""

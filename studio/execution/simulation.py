@@ -8,6 +8,7 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
+from studio.execution.hearing import hearing
 from studio.execution.message import messages
 from studio.execution.record import Body, Mount, Record, Recorder
 from studio.kind.sensor import Looking
@@ -273,7 +274,7 @@ def recorder(settings: tuple[Setting, ...], world: World) -> Recorder:
         columns=np.concatenate([first + np.arange(count) for first, count in zip(world.worlds.first, counts, strict=True)]),
         every=round(recording.period / world.clock.tick),
         vehicle_share=shares(counts),
-        links=sum(post.link_receiver.size for post in world.units.posts),
+        hearing=hearing(world.units.posts),
         reader=Reader([probe for each in found for probe in each]),
         probe_share=shares([len(each) for each in found]),
     )

@@ -234,7 +234,9 @@ def compiled_function(value: Any) -> str:
 
 def radio_parts(module: ModuleType) -> str:
     """What the parts of a radio are together: what remembers, and what it remembers."""
-    if what := lacking(module, "Control", "control", "airtime") or lacking(module, "Cell", "admit") or preset.unfit(module):
+    if what := lacking(module, "Control", "control", "airtime") or lacking(module, "Cell", "admit") or lacking(module, "Around", "place"):
+        return what
+    if what := preset.unfit(module) or (hasattr(module, "admit") and hasattr(module, "wait") and "has both admit and wait"):
         return what
     arguments = ("settings", "way", "draw", *(["memory"] if hasattr(module, "Memory") else []))
     found = getattr(module, "transmit", None)
@@ -294,13 +296,24 @@ SORTS = {
             Need("longest", "the longest delay [s] that the settings allow", function("settings"), "def longest(settings)"),
             Need("reach", "the distance [m] beyond which nothing is heard", function("settings"), "def reach(settings)"),
             Need("largest", "the largest message [bytes]", function("settings"), "def largest(settings)"),
-            Need("transmit", "one message on its way to one receiver: Transmission(lost, delay); with a Memory also Memory(...)",
+            Need("transmit", "one message on its way to one receiver: Transmission(lost, delay); with a Memory also Memory(...). Asked "
+                 "without buildings first, and again with them unless it is TOO_WEAK or OUT_OF_RANGE already",
                  compiled_function, "def transmit(settings, way, draw)"),
             Need("Memory", "what it remembers of one link from message to message", record, "class Memory(NamedTuple): ...", optional=True),
             Need("airtime", "how long [s] a message of `size` bytes keeps the channel busy; left out: no channel is ever busy",
                  function("settings", "size", compiled=True), "def airtime(settings, size)", optional=True),
             Need("heard_within", "the distance [m] within which a message keeps the channel busy; left out: reach", function("settings"),
                  "def heard_within(settings)", optional=True),
+            Need("minds_walls", "whether walls between two antennas count with these settings; left out: they do", function("settings"),
+                 "def minds_walls(settings)", optional=True),
+            Need("table", "numbers that are worked out once of the settings, as many for all: `way.table`", function("settings"),
+                 "def table(settings)", optional=True),
+            Need("Around", "what it keeps of what is around a unit, so that it need not be worked out anew", record,
+                 "class Around(NamedTuple): ...", optional=True),
+            Need("place", "one number of the place of a unit, the same for all messages: `way.from_place`, `way.to_place`; and Around(...)",
+                 function("settings", "spot", "around", compiled=True), "def place(settings, spot, around)", optional=True),
+            Need("wait", "how long [s] a message waits before it goes out, the same for all who hear it: `way.wait`",
+                 function("settings", "sent", "draw", compiled=True), "def wait(settings, sent, draw)", optional=True),
             Need("Control", "what the congestion control of one unit remembers", record, "class Control(NamedTuple): ...",
                  optional=True),
             Need("control", "every tenth of a second, of the load of the last: the least time [s] between messages of a unit, Control(...)",

@@ -51,6 +51,13 @@ def uniform(seed, entity, stream, tick, about=0):
 
 
 @compiled
+def uniforms(seed, entity, stream, tick, about=0):
+    """Four independent numbers in (0, 1), from 32 bits each: for about the cost of one."""
+    a, b, c, d = philox(tick, entity, stream, about, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
+    return share(a), share(b), share(c), share(d)
+
+
+@compiled
 def normal(seed, entity, stream, tick, about=0):
     """A number of the standard normal distribution (Box & Muller 1958); `about` tells draws for several things apart."""
     a, b, c, d = philox(tick, entity, stream, about, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)

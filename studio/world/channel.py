@@ -91,21 +91,25 @@ def pick(row, columns, start, values):
         values[i] = row[start + columns[i]]
 
 
-def link_ages(world: World, ages: np.ndarray) -> None:
-    """True age [s] of the newest message on every link, the time since the start while none has come.
+def present(world: World) -> np.ndarray:
+    """Which units are there, bool[unit]."""
+    return world.units.now[PRESENT] > 0.0
 
-    Not a number once one of its ends has left.
-    """
+
+def newly_heard(world: World, newest: np.ndarray, link: np.ndarray, sent: np.ndarray, count: np.ndarray) -> None:
+    """Writes down the links, of all posts, that have heard something newer than `newest` [s], and when that was sent [s]."""
     first = 0
     for post in world.units.posts:
         last = first + post.link_receiver.size
-        age(world.clock.time, world.units.now, post.link_receiver, post.sender, post.link_sender, post.inbox, ages[first:last])
+        note(first, post.inbox, newest[first:last], link, sent, count)
         first = last
 
 
 @lean
-def age(time, now, link_receiver, sender, link_sender, inbox, ages):
-    """The pass behind it."""
-    for link in range(ages.size):
-        there = now[PRESENT, link_receiver[link]] > 0.0 and now[PRESENT, sender[link_sender[link]]] > 0.0
-        ages[link] = (time - inbox[H_TIME, link] if inbox[H_NUMBER, link] >= 0.0 else time) if there else nan
+def note(first, inbox, newest, link, sent, count):
+    """Those of one post, whose links are numbered from `first` on."""
+    for i in range(newest.size):
+        if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
+            newest[i] = inbox[H_TIME, i]
+            link[count[0]], sent[count[0]] = first + i, newest[i]
+            count[0] += 1

@@ -75,6 +75,8 @@ def restore(world: World, kept: Snapshot) -> None:
     script.follow(world)
     for post in world.units.posts:
         post.log.forget(world.clock.time - EARLY)
+    for each in world.open_inboxes:
+        each.lay_anew(world.clock.time)
 
 
 def check(world: World, kept: Snapshot) -> None:

@@ -13,7 +13,6 @@ from math import nan
 from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
-from studio.world.board.post import freshest
 from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.world import World
@@ -150,7 +149,7 @@ def communicate(world: World, refuse: Refuse = let_through) -> None:
 def lay(world: World, time: float) -> None:
     """What everybody has heard is laid before the applications that hear everybody."""
     for each in world.open_inboxes:
-        freshest(time, each.first, each.count, each.links, each.kept, each.post.inbox, each.heard, each.slots)
+        each.lay(time)
 
 
 def listen(world: World, time: float) -> None:

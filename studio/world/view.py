@@ -2,7 +2,7 @@
 
 A sensor looks at the true world and makes its own errors. `around` finds who is near; `look` and `glimpse` tell which bodies can be seen,
 and what of them; `report` writes a target down; random numbers come from `draw` and `draw_normal`, each with a number of its own, 0 to 15,
-and one that tells the targets apart. A radio draws with `chance` and `chance_normal`, which count likewise.
+and one that tells the targets apart. A radio draws with `chance`, `chances` and `chance_normal`, which count likewise.
 """
 
 from math import cos, sin
@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from numba import literal_unroll
 
 from studio.compiled import inlined
-from studio.model.random import normal, normals, uniform
+from studio.model.random import normal, normals, uniform, uniforms
 from studio.vehicle.state import V_X, YAW_RATE
 from studio.world.passes.neighbour import within
 from studio.world.passes.sight import glimpse as glimpse
@@ -111,7 +111,10 @@ class Way(NamedTuple):
     to_height: float = 0.0  # [m]
     from_load: float = 0.0  # [1] share of the last tenth of a second in which the channel was busy, where the sender is
     load: float = 0.0  # [1] likewise, where the receiver is
-    wait: float = 0.0  # [s] for the cell, as `admit` of the radio gave it; 0 for a radio without cells
+    wait: float = 0.0  # [s] as `admit` or `wait` of the radio gave it; 0 for a radio with neither
+    from_place: float = 0.0  # what `place` of the radio gave, where the sender is
+    to_place: float = 0.0  # likewise, where the receiver is
+    table: Any = ()  # what `table` of the radio gave
 
 
 class Draw(NamedTuple):
@@ -126,12 +129,22 @@ class Draw(NamedTuple):
 
 
 class Sent(NamedTuple):
-    """One message on its way into a cell."""
+    """One message before it goes out."""
 
     time: float  # [s]
     x: float  # [m] the sender's antenna
     y: float  # [m]
     size: float  # [bytes]
+    load: float = 0.0  # [1] share of the last tenth of a second in which the channel was busy, where the sender is
+
+
+class Spot(NamedTuple):
+    """Where a unit is, for what a radio knows of a place."""
+
+    x: float  # [m]
+    y: float  # [m]
+    seed: int
+    common: int  # the first stream of the radio
 
 
 class Turn(NamedTuple):
@@ -153,6 +166,18 @@ class Transmission(NamedTuple):
 def chance(draw, number):
     """A number in (0, 1); `number`, 0 to 15, tells the draws about one message on one link apart."""
     return uniform(draw.seed, draw.receiver * PAIR + draw.sender, draw.stream + number, draw.number)
+
+
+@inlined
+def chances(draw, number):
+    """Four numbers like those of `chance`, from 32 bits each, for about the cost of one."""
+    return uniforms(draw.seed, draw.receiver * PAIR + draw.sender, draw.stream + number, draw.number)
+
+
+@inlined
+def chances_of_message(draw, number):
+    """Four numbers that all receivers of a message share; `number` is none that is drawn for one receiver."""
+    return uniforms(draw.seed, draw.sender, draw.stream + number, draw.number)
 
 
 @inlined

@@ -6,9 +6,10 @@ import numpy as np
 
 from studio.compiled import compiled
 from studio.kinds.radio import wlan
+from studio.model.radio.shadowing import Around
 from studio.workshop import draw
 from studio.world.table.cause import RECEIVED
-from studio.world.view import Draw, Way
+from studio.world.view import Draw, Sent, Spot, Way
 
 PAIRS, MESSAGES, SEED = 400, 500, 1
 COMMON = 50_000  # first stream of the radio
@@ -34,23 +35,36 @@ def settings(preset: str = "", **changes: Any) -> Any:
     return draw.settings_tuple(wlan, wlan.Settings(**(values | changes)))
 
 
+def table(settings: Any) -> np.ndarray:
+    """What the radio works out of settings as compiled code gets them."""
+    rate = wlan.Settings.model_json_schema()["properties"]["rate"]["enum"][int(settings.rate)]
+    same = ("frequency", "m_near", "m_far", "delay", "delay_rest", "delay_longest")
+    return wlan.table(wlan.Settings(rate=rate, **{name: getattr(settings, name) for name in same}))
+
+
 def heard(settings: Any, distance: float, journey: Journey, pairs: int = PAIRS, messages: int = MESSAGES) -> tuple[np.ndarray, np.ndarray]:
     """Causes and delays [s] of all messages, [pair, message]."""
     causes, delays = np.zeros((pairs, messages), dtype=np.int8), np.zeros((pairs, messages))
-    send(settings, distance, *journey, SEED, causes, delays)
+    send(settings, table(settings), Around(), distance, *journey, SEED, causes, delays)
     return causes, delays
 
 
 @compiled
-def send(settings, distance, speed, period, size, load, seed, causes, delays):
+def send(settings, table, nothing, distance, speed, period, size, load, seed, causes, delays):
     """Pairs drive along roads far apart; the first message of each is sent at 0 s."""
     for pair in range(causes.shape[0]):
         y = APART * pair
         for k in range(causes.shape[1]):
             time = period * k
             x = speed * time
-            way = Way(distance, 0.0, 0.0, size, speed, 0.0, time, x, y, HEIGHT, x - distance, y, HEIGHT, load, load, 0.0)
-            found = wlan.transmit(settings, way, Draw(seed, 2 * pair, 2 * pair + 1, 2000, k, COMMON))
+            draw = Draw(seed, 2 * pair, 2 * pair + 1, 2000, k, COMMON)
+            wait = wlan.wait(settings, Sent(time, x, y, size, load), draw)
+            here, _ = wlan.place(settings, Spot(x, y, seed, COMMON), nothing)
+            there, _ = wlan.place(settings, Spot(x - distance, y, seed, COMMON), nothing)
+            way = Way(
+                distance, 0.0, 0.0, size, speed, 0.0, time, x, y, HEIGHT, x - distance, y, HEIGHT, load, load, wait, here, there, table
+            )
+            found = wlan.transmit(settings, way, draw)
             causes[pair, k], delays[pair, k] = found.lost, found.delay
 
 

@@ -11,7 +11,7 @@ from studio.kinds.radio import ad_hoc
 from studio.model.radio import propagation
 from studio.workshop import draw
 from studio.world.table.cause import BUILDING, BURST, CHANCE, RECEIVED
-from studio.world.view import Draw, Way, chance
+from studio.world.view import Draw, Way, chances
 
 N = 200_000
 
@@ -82,8 +82,8 @@ def test_what_was_set_before_keeps_its_bits():
     """Losses and delays are those draws that they always were."""
     causes, delays = heard(100.0, 300, loss=0.3, loss_per_metre=0.001)
     draws = [Draw(1, 2, 3, 4000, k, 0) for k in range(300)]
-    assert [bool(each) for each in causes] == [chance(each, 0) < 0.3 + 0.001 * 100.0 for each in draws]
-    assert delays.tolist() == [max(0.02 + 0.005 * (2.0 * chance(each, 1) - 1.0), 0.0) + 2800.0 / 6e6 for each in draws]
+    assert [bool(each) for each in causes] == [chances(each, 0)[0] < 0.3 + 0.001 * 100.0 for each in draws]
+    assert delays.tolist() == [max(0.02 + 0.005 * (2.0 * chances(each, 0)[1] - 1.0), 0.0) + 2800.0 / 6e6 for each in draws]
 
 
 def test_buildings_count_as_distance():

@@ -14,11 +14,11 @@ from pydantic import ValidationError
 from studio import job
 from studio.errors import ScenarioError
 from studio.kinds.radio import wlan
-from studio.model.radio import channel, fading, packet, propagation
+from studio.model.radio import channel, fading, packet, propagation, shadowing
 from studio.world.table.cause import BUILDING, BURST, BUSY, FADING, RECEIVED, TOO_WEAK
-from studio.world.view import Draw, Way
+from studio.world.view import Draw, Sent, Spot, Way
 from tests.conftest import ROOT
-from tests.kinds.link import COMMON, JOURNEYS, SEED, Journey, delivery, heard, mean_run, settings
+from tests.kinds.link import COMMON, JOURNEYS, SEED, Journey, delivery, heard, mean_run, settings, table
 from tests.kinds.measured import DELIVERY, LATENCY, RUNS
 
 PAGE = ROOT / "docs" / "pages" / "explanation" / "radio.md"
@@ -108,12 +108,12 @@ def test_the_page_tells_what_was_driven(driven):
 def snr(distance, **changes):
     """The signal to noise ratio [dB] without chance."""
     of = settings(**(CALM | changes))
-    return of.transmit_power - wlan.path_loss(of, way(distance)) - of.noise
+    return of.transmit_power - wlan.path_loss(of, way(of, distance)) - of.noise
 
 
-def way(distance, **changes):
-    """Of a message of 350 bytes along a street."""
-    usual = Way(distance, 0.0, 0.0, 350.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.895, distance, 0.0, 1.895, 0.0, 0.0, 0.0)
+def way(of, distance, **changes):
+    """Of a message of 350 bytes along a street, with some settings."""
+    usual = Way(distance, 0.0, 0.0, 350.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.895, distance, 0.0, 1.895, 0.0, 0.0, 0.0, table=table(of))
     return usual._replace(**changes)
 
 
@@ -136,7 +136,7 @@ def test_every_way_of_weakening_is_its_own():
     def falls(kind, from_, to):
         return snr(from_, path_loss=kind, **slopes) - snr(to, path_loss=kind, **slopes)
 
-    assert falls("free_space", 10.0, 100.0) == falls("free_space", 1000.0, 10_000.0) == pytest.approx(20.0)
+    assert (falls("free_space", 10.0, 100.0), falls("free_space", 1000.0, 10_000.0)) == pytest.approx((20.0, 20.0))
     assert falls("one_slope", 1000.0, 10_000.0) == pytest.approx(20.0)
     assert falls("two_slopes", 10.0, 100.0) == pytest.approx(20.0) and falls("two_slopes", 1000.0, 10_000.0) == pytest.approx(30.0)
     assert falls("three_slopes", 100.0, 1000.0) == pytest.approx(30.0) and falls("three_slopes", 1000.0, 10_000.0) == pytest.approx(40.0)
@@ -180,11 +180,12 @@ def test_without_any_chance_there_is_an_edge():
 def test_buildings_weaken_and_are_told():
     """Two walls and 20 m: 26 dB, of 20 dB to spare; without them, and with buildings left out, it arrives."""
     power = 26.0 - snr(100.0, transmit_power=0.0)
-    of, through = settings(**(CALM | {"transmit_power": power})), way(100.0, walls=2.0, inside=20.0)
+    of = settings(**(CALM | {"transmit_power": power}))
+    through = way(of, 100.0, walls=2.0, inside=20.0)
     assert wlan.transmit(of, through, drawn()).lost == BUILDING
-    assert wlan.transmit(of, way(100.0), drawn()).lost == RECEIVED
+    assert wlan.transmit(of, way(of, 100.0), drawn()).lost == RECEIVED
     assert wlan.transmit(of._replace(buildings=0.0), through, drawn()).lost == RECEIVED
-    assert wlan.transmit(of, way(100.0, walls=20.0, inside=200.0), drawn()).lost == BUILDING
+    assert wlan.transmit(of, way(of, 100.0, walls=20.0, inside=200.0), drawn()).lost == BUILDING
 
 
 def test_shadows_belong_to_places():
@@ -194,7 +195,8 @@ def test_shadows_belong_to_places():
     standing = np.mean(heard(of, 200.0, STILL, 1000, 20)[0] == RECEIVED, axis=1)
     assert standing.mean() == pytest.approx(0.5, abs=4.0 * (0.25 / 1000) ** 0.5)
     assert np.mean((standing < 0.05) | (standing > 0.95)) > 0.8
-    a, b = (wlan.shadow(of, way(200.0, from_x=x, to_x=x + 200.0), drawn()) for x in (0.0, 1.0))
+    at = {x: wlan.place(of, Spot(x, 0.0, SEED, COMMON), shadowing.Around())[0] for x in (0.0, 1.0, 200.0, 201.0)}
+    a, b = (wlan.shadow(of, way(of, 200.0, from_place=at[x], to_place=at[x + 200.0])) for x in (0.0, 1.0))
     assert 0.0 < abs(a - b) < 2.0
 
 
@@ -225,10 +227,10 @@ def test_delays_are_the_shortest_the_rest_and_the_time_on_the_air():
 
 def test_all_receivers_of_a_message_wait_alike_for_the_channel():
     of = settings(**(CALM | {"contention": True, "delay_longest": 0.007}))
-    busy = way(50.0, from_load=0.6)
-    found = [wlan.delay(of, busy, Draw(SEED, receiver, 3, 2000, 7, COMMON)) for receiver in (1, 2, 9)]
+    sent = Sent(0.0, 0.0, 0.0, 350.0, 0.6)
+    found = [wlan.wait(of, sent, Draw(SEED, receiver, 3, 2000, 7, COMMON)) for receiver in (1, 2, 9)]
     assert found == [found[0]] * 3
-    assert len({wlan.delay(of, busy, Draw(SEED, 1, 3, 2000, k, COMMON)) for k in range(20)}) > 5
+    assert len({wlan.wait(of, sent, Draw(SEED, 1, 3, 2000, k, COMMON)) for k in range(20)}) > 5
 
 
 @pytest.mark.parametrize(("load", "distance"), [(0.0, 50.0), (0.5, 50.0), (0.5, 300.0), (0.9, 600.0)])

@@ -13,7 +13,7 @@ from studio.vehicle.state import ACTIVE
 from studio.workshop.stage import stage
 from studio.world.snapshot import restore, snapshot
 from studio.world.table.cause import ABSENT, BURST, CHANCE, DROPPED, JAMMED, RECEIVED
-from studio.world.table.unit import ADDED, DROPS
+from studio.world.table.unit import ADDED, DROPS, H_NUMBER, H_TIME
 from studio.world.table.unit import JAMMED as IS_JAMMED
 
 HERE = Path(__file__).parent
@@ -173,6 +173,36 @@ def test_times_are_those_of_arriving():
     delay, age = (record.probes[f"post_1.hears.{name}"].values for name in ("delay", "age"))
     np.testing.assert_allclose(delay[20:], 0.0225, atol=1e-12)
     assert age[20:].min() == pytest.approx(0.04, abs=1e-9)
+
+
+def before(each, time):
+    """The links before every member that hears everybody, as they would be sorted anew."""
+    inbox, found = each.post.inbox, []
+    for j in np.flatnonzero(each.is_open):
+        unit = next(u for u in range(each.member_first.size - 1) if j in each.member[each.member_first[u] : each.member_first[u + 1]])
+        known = (each.post.link_receiver == unit) & (inbox[H_NUMBER] >= 0.0) & (time - inbox[H_TIME] <= each.kept[j])
+        found.append(sorted(np.flatnonzero(known).tolist(), key=lambda link: (-inbox[H_TIME, link], link))[: each.slots.shape[0]])
+    return found
+
+
+@pytest.mark.parametrize("keeps", [None, 0.15])
+def test_the_freshest_are_first(keeps):
+    """Four hear all, two hear one each: at every tick as sorted anew; also after going back to a moment."""
+    names = list(posts(6))
+    groups = {"all": {"application": "ear", "units": names[:4], "keeps": keeps},
+              "some": {"application": "ear", "units": names[3:5], "listens_to": [names[:1], names[1:2]], "keeps": keeps}}  # fmt: skip
+    current = stage(stations=posts(6), applications=groups, radio={"kind": "patchy", "loss_good": 0.4, "delay": 0.03, "range": 5000.0})
+    for k in range(80):
+        if k == 30:
+            kept = snapshot(current.world)
+        if k == 60:
+            restore(current.world, kept)
+        current.advance(1)
+        for each in current.world.open_inboxes:
+            time = current.world.clock.time - current.world.clock.tick
+            told = [each.slots[: each.heard[j], j].tolist() for j in np.flatnonzero(each.is_open)]
+            assert told == before(each, time) and (k < 10 or keeps or all(len(one) > 1 for one in told))
+            assert all((each.slots[each.heard[j] :, j] == -1).all() for j in np.flatnonzero(each.is_open))
 
 
 def batch(seeds, order=1):

@@ -15,7 +15,7 @@ from studio.kind.preset import Preset
 from studio.kind.settings import Part, number
 from studio.model.radio import arrival, burst, propagation
 from studio.world.table.cause import BUILDING, BURST, CHANCE, OUT_OF_RANGE, RECEIVED
-from studio.world.view import PAIR, Transmission, chance
+from studio.world.view import PAIR, Transmission, chances
 
 KIND = "radio"
 TITLE = "Ad hoc radio with constant delay and loss"
@@ -82,16 +82,22 @@ def reach(settings):
     return settings.range
 
 
+def minds_walls(settings):
+    """Whether walls count."""
+    return settings.buildings
+
+
 @compiled
 def transmit(settings, way, draw):
     """Whether a message is lost on its way, and how long it takes."""
-    varied = arrival.delay(settings.delay, settings.delay_variation, chance(draw, 1))
+    draws = chances(draw, 0)
+    varied = arrival.delay(settings.delay, settings.delay_variation, draws[1])
     delay = varied + settings.delay_per_metre * way.distance + 8.0 * way.size / settings.bit_rate
-    return Transmission(fate(settings, way, draw), delay)
+    return Transmission(fate(settings, way, draw, draws[0]), delay)
 
 
 @compiled
-def fate(settings, way, draw):
+def fate(settings, way, draw, chance):
     """Why a message is lost, or that it is not."""
     weakened = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
     distance = propagation.felt_distance(way.distance, weakened, settings.path_loss_exponent)
@@ -99,7 +105,7 @@ def fate(settings, way, draw):
         return OUT_OF_RANGE if way.distance > settings.range else BUILDING
     loss = min(settings.loss + settings.loss_per_metre * distance, 1.0)
     if settings.loss_run * (1.0 - loss) <= 1.0:
-        return CHANCE if arrival.is_lost(distance, settings.range, loss, 0.0, chance(draw, 0)) else RECEIVED
+        return CHANCE if arrival.is_lost(distance, settings.range, loss, 0.0, chance) else RECEIVED
     to_bad, to_good = burst.of_loss(loss, settings.loss_run)
     is_bad = burst.is_bad(draw.seed, draw.receiver * PAIR + draw.sender, draw.stream + 2, draw.number, to_bad, to_good)
     return BURST if is_bad else RECEIVED

@@ -18,7 +18,7 @@ from studio.kind.preset import Preset
 from studio.kind.settings import Part, number
 from studio.model.radio import arrival, cell
 from studio.world.table.cause import BANDWIDTH, CHANCE, NO_COVERAGE, RECEIVED
-from studio.world.view import Transmission, chance
+from studio.world.view import Transmission, chances
 
 KIND = "radio"
 TITLE = "Cellular radio with coverage and bandwidth"
@@ -90,6 +90,11 @@ def reach(settings):
     return ANYWHERE
 
 
+def minds_walls(settings):
+    """Whether walls count: not in a network."""
+    return False
+
+
 @compiled
 def admit(settings, sent, cell_):
     """How long a message waits until it has gone through, and what waits then; one that would wait too long does not come in."""
@@ -102,12 +107,13 @@ def admit(settings, sent, cell_):
 @compiled
 def transmit(settings, way, draw):
     """One message to one receiver."""
-    delay = arrival.delay(settings.delay, settings.delay_variation, chance(draw, 1)) + way.wait
+    draws = chances(draw, 0)
+    delay = arrival.delay(settings.delay, settings.delay_variation, draws[1]) + way.wait
     if not (is_covered(settings, way.from_x, way.from_y) and is_covered(settings, way.to_x, way.to_y)):
         return Transmission(NO_COVERAGE, delay)
     if way.wait > settings.longest_wait:
         return Transmission(BANDWIDTH, delay)
-    return Transmission(CHANCE if chance(draw, 0) < settings.loss else RECEIVED, delay)
+    return Transmission(CHANCE if draws[0] < settings.loss else RECEIVED, delay)
 
 
 @compiled

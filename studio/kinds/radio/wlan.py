@@ -23,19 +23,20 @@ First values: two slopes and a shadow as L. Cheng et al., IEEE JSAC 25, 2007, me
 beyond); about 4 ms in line of sight as in field tests; noise of 10 MHz with a receiver of 6 dB.
 """
 
-from math import floor, log10
+from math import floor, inf, log10
 from typing import Any, Literal
 
+import numpy as np
 from pydantic import Field
 
-from studio.compiled import compiled
+from studio.compiled import compiled, inlined
 from studio.kind.preset import Preset
 from studio.kind.settings import Part, number
 from studio.model.radio import arrival, burst, channel, congestion, fading, packet, propagation, shadowing
 from studio.model.radio.congestion import Control as Control
-from studio.model.random import uniform
+from studio.model.radio.shadowing import Around as Around
 from studio.world.table.cause import BUILDING, BURST, BUSY, FADING, RECEIVED, TOO_WEAK
-from studio.world.view import Transmission, chance, pair_of
+from studio.world.view import Transmission, chances, chances_of_message, pair_of
 
 KIND = "radio"
 TITLE = "Wireless LAN between cars (802.11p)"
@@ -44,8 +45,14 @@ NO_CONTROL = 0.0
 LARGEST = 2304  # [bytes] of a frame's body
 STEP = 0.25  # [s] after which a link may be blocked or cleared
 FARTHEST_SHADOW = 4.0  # standard deviations; no shadow is deeper or brighter
+ROUNDING = 1e-9  # [dB]
 BLOCKED, SHADOW = 1, 2  # streams of a pair of units
-SLOT, WAIT = 14, 15  # draws of a message that all its receivers share
+WAIT = 15  # draws of a message that all its receivers share
+SURVIVES, FADES, SPOILT, LATE = range(4)  # those of one receiver
+# Of the table: loss [dB] of free space, share of delays that is not cut, wear of a packet, powers of fading nearby and far away.
+AT_ONE_METRE, NOT_CUT, WORN = range(3)
+NEAR = WORN + packet.POINTS
+FAR = NEAR + fading.POINTS
 
 MEASURED = "fitted to delivery, runs of losses and latency of the CAM-VAM data set (University of Modena and Reggio Emilia)"
 FITTED: dict[str, Any] = {
@@ -137,6 +144,11 @@ def heard_within(settings):
     return settings.hearing
 
 
+def minds_walls(settings):
+    """Whether walls count."""
+    return settings.buildings
+
+
 @compiled
 def airtime(settings, size):
     """How long [s] a message of `size` bytes makes the channel busy."""
@@ -153,114 +165,169 @@ def control(settings, load, control):
     return congestion.interval(after.level, table), after
 
 
+def table(settings):
+    """What is worked out once."""
+    closest = propagation.free_space(propagation.CLOSEST, propagation.wavelength(settings.frequency))
+    rate = packet.RATES.index(float(settings.rate.split()[0]))
+    share = arrival.not_cut(settings.delay, settings.delay_rest, settings.delay_longest)
+    return np.concatenate([[closest, share], packet.worn(rate), fading.quantiles(settings.m_near), fading.quantiles(settings.m_far)])
+
+
 @compiled
+def place(settings, spot, around):
+    """The field of the shadows at a place [1]."""
+    if settings.shadowing == 0.0:
+        return 0.0, around
+    x, y = spot.x / settings.shadowing_distance, spot.y / settings.shadowing_distance
+    return shadowing.field(spot.seed, spot.common + SHADOW, x, y, around)
+
+
+@compiled
+def wait(settings, sent, draw):
+    """Waiting for the channel, and time on the air [s]."""
+    on_air = packet.airtime(sent.size, settings.rate)
+    if settings.contention == 0.0:
+        return on_air
+    draws = chances_of_message(draw, WAIT)
+    return on_air + channel.waiting(sent.load, on_air, draws[0], draws[1])
+
+
+@inlined
 def transmit(settings, way, draw):
-    """What becomes of a message, and how long it takes."""
-    lost = fate(settings, way, draw)
-    if lost == RECEIVED and settings.contention > 0.0:
-        share = channel.hidden(way.distance, settings.hearing)
-        lost = BUSY if chance(draw, 2) < channel.collision(way.load, share) else RECEIVED
-    return Transmission(lost, delay(settings, way, draw) if lost == RECEIVED else 0.0)
+    """What becomes of a message, and how long it takes.
+
+    What is too weak with the brightest shadow and fading is too weak; nobody has to look which there are.
+    """
+    taken = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
+    clear = settings.transmit_power - path_loss(settings, way) - settings.noise
+    darkest, lightest = shadow_bounds(settings, way)
+    if taken == 0.0 and clear + lightest + brightest(settings, way) < packet.HOPELESS[int(settings.rate)]:
+        return Transmission(TOO_WEAK, 0.0)
+    draws = chances(draw, 0)
+    least = clear - taken + darkest + fade_bounds(settings, way, draws[FADES])[0] - settings.blockage
+    lost = RECEIVED
+    if least < packet.CERTAIN[int(settings.rate)]:
+        lost = fate(settings, way, draw, clear + shadow(settings, way), taken, draws)
+    if lost == RECEIVED and settings.contention > 0.0 and is_spoilt(settings, way, draws[SPOILT]):
+        lost = BUSY
+    return Transmission(lost, delay(settings, way, draws[LATE]) + way.wait if lost == RECEIVED else 0.0)
+
+
+@compiled
+def is_spoilt(settings, way, draw):
+    """Whether another message spoils this one; what is above the bound is not looked at closely."""
+    if draw >= channel.collision_bound(way.load, way.distance, settings.hearing):
+        return False
+    return draw < channel.collision(way.load, channel.hidden(way.distance, settings.hearing))
 
 
 @compiled
 def delay(settings, way, draw):
-    """Processing in both units, waiting for the channel, and time on the air [s]."""
-    on_air = packet.airtime(way.size, settings.rate)
-    within = arrival.skewed_delay(settings.delay, settings.delay_rest, max(settings.delay_longest, settings.delay), chance(draw, 3))
-    if settings.contention == 0.0:
-        return within + on_air
-    for_end = uniform(draw.seed, draw.sender, draw.stream + WAIT, draw.number)
-    slots = uniform(draw.seed, draw.sender, draw.stream + SLOT, draw.number)
-    return within + on_air + channel.waiting(way.from_load, on_air, for_end, slots)
+    """Processing in both units [s]."""
+    longest = max(settings.delay_longest, settings.delay)
+    return arrival.skewed_delay(settings.delay, settings.delay_rest, longest, way.table[NOT_CUT], draw)
 
 
 @compiled
-def fate(settings, way, draw):
-    """Why a message is not understood in a free channel, or that it is.
+def fate(settings, way, draw, clear, taken, draws):
+    """Why a message is not understood in a free channel, or that it is; `clear` is above the noise [dB] with its shadow.
 
-    What is clear with the deepest or the brightest shadow is clear; nobody has to look which one there is, nor how the message fades.
+    Mostly it is so for all powers between the bounds of fading; then nobody has to look how much it is.
     """
-    taken = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
-    clear = settings.transmit_power - path_loss(settings, way) - settings.noise
-    unsure, (least, greatest) = FARTHEST_SHADOW * settings.shadowing, fade_bounds(settings, way, draw)
-    if is_understood(settings, way, draw, clear - taken - unsure - settings.blockage + least):
+    mean, (least, greatest) = clear - taken, fade_bounds(settings, way, draws[FADES])
+    if fails(settings, way, draws, mean + greatest):
+        return weakness(settings, way, clear, taken, draws)
+    if survives(settings, way, draws, mean + least - settings.blockage):
         return RECEIVED
-    if not is_understood(settings, way, draw, clear - taken + unsure + greatest):
-        return BUILDING if taken > 0.0 and is_understood(settings, way, draw, clear) else TOO_WEAK
-    clear += shadow(settings, way, draw)
-    if is_understood(settings, way, draw, clear - taken - settings.blockage + least):
-        return RECEIVED
-    if not is_understood(settings, way, draw, clear - taken + greatest):
-        return weakness(settings, way, draw, clear, taken)
-    return closer_fate(settings, way, draw, clear, taken)
+    lacks = fails(settings, way, draws, mean + greatest - settings.blockage)
+    if not (lacks and survives(settings, way, draws, mean + least)):
+        faded = mean + fade(settings, way, draws[FADES])
+        if not is_understood(settings, way, draws, faded):
+            return weakness(settings, way, clear, taken, draws)
+        lacks = not is_understood(settings, way, draws, faded - settings.blockage)
+    return BURST if lacks and is_blocked(settings, way, draw) else RECEIVED
 
 
 @compiled
-def closer_fate(settings, way, draw, clear, taken):
-    """The same where it depends on how the message fades, and on what stands in between; `clear` is with its shadow."""
-    faded = clear - taken + fade(settings, way, draw)
-    if not is_understood(settings, way, draw, faded):
-        return weakness(settings, way, draw, clear, taken)
-    safe = settings.blockage == 0.0 or is_understood(settings, way, draw, faded - settings.blockage)
-    return RECEIVED if safe or not is_blocked(settings, way, draw) else BURST
-
-
-@compiled
-def weakness(settings, way, draw, clear, taken):
+def weakness(settings, way, clear, taken, draws):
     """Why a message is too weak: because of the distance, the buildings, or a moment."""
-    if not is_understood(settings, way, draw, clear):
+    if not is_understood(settings, way, draws, clear):
         return TOO_WEAK
-    return FADING if is_understood(settings, way, draw, clear - taken) else BUILDING
+    return FADING if taken == 0.0 or is_understood(settings, way, draws, clear - taken) else BUILDING
 
 
 @compiled
-def is_understood(settings, way, draw, ratio):
-    """Whether a message is understood at a signal to noise ratio [dB]."""
-    return packet.survives(ratio, 8.0 * way.size + packet.AROUND, settings.rate, chance(draw, 0))
+def survives(settings, way, draws, ratio):
+    """Whether a message is known to be understood at a signal to noise ratio [dB]."""
+    return packet.surely_survives(ratio, settings.rate, 8.0 * way.size + packet.AROUND, draws[SURVIVES], way.table, WORN)
+
+
+@compiled
+def fails(settings, way, draws, ratio):
+    """Whether it is known not to be."""
+    return packet.surely_fails(ratio, settings.rate, 8.0 * way.size + packet.AROUND, draws[SURVIVES], way.table, WORN)
+
+
+@compiled
+def is_understood(settings, way, draws, ratio):
+    """Whether it is."""
+    return packet.survives(ratio, settings.rate, 8.0 * way.size + packet.AROUND, draws[SURVIVES], way.table, WORN)
 
 
 @compiled
 def path_loss(settings, way):
     """What distance and ground take [dB]."""
-    lambda_, which = propagation.wavelength(settings.frequency), settings.path_loss
+    which, closest = settings.path_loss, way.table[AT_ONE_METRE]
     if which == FREE_SPACE:
-        return propagation.free_space(way.distance, lambda_)
+        return propagation.slopes(way.distance, closest, 2.0, 2.0, 2.0, inf, inf)
     if which == TWO_RAY:
+        lambda_ = propagation.wavelength(settings.frequency)
         return propagation.two_ray(way.distance, lambda_, way.from_height, way.to_height, settings.permittivity)
-    n_1 = settings.exponent
-    n_2 = n_1 if which == ONE_SLOPE else settings.second_exponent
-    n_3 = settings.third_exponent if which == THREE_SLOPES else n_2
-    second = max(settings.first_break, settings.second_break)
-    return propagation.slopes(way.distance, lambda_, n_1, n_2, n_3, settings.first_break, second)
+    first = inf if which == ONE_SLOPE else settings.first_break
+    second = max(settings.first_break, settings.second_break) if which == THREE_SLOPES else inf
+    return propagation.slopes(way.distance, closest, settings.exponent, settings.second_exponent, settings.third_exponent, first, second)
 
 
 @compiled
-def shadow(settings, way, draw):
+def shadow(settings, way):
     """What the shadows of both places add [dB]."""
     if settings.shadowing == 0.0:
         return 0.0
-    d_cor, stream = settings.shadowing_distance, draw.common + SHADOW
-    s = shadowing.between(draw.seed, stream, way.from_x, way.from_y, way.to_x, way.to_y, way.distance, d_cor)
+    s = shadowing.of_both(way.from_place, way.to_place, way.distance, settings.shadowing_distance)
     return settings.shadowing * min(max(s, -FARTHEST_SHADOW), FARTHEST_SHADOW)
 
 
 @compiled
-def m_of(settings, way):
-    """The m of this way's fading."""
-    return fading.m_of(way.distance, settings.m_near, settings.m_far, settings.m_change)
+def shadow_bounds(settings, way):
+    """Between which values that is; quickly found."""
+    low, high = shadowing.bounds(way.from_place, way.to_place)
+    low, high = min(max(low, -FARTHEST_SHADOW), FARTHEST_SHADOW), min(max(high, -FARTHEST_SHADOW), FARTHEST_SHADOW)
+    return settings.shadowing * low - ROUNDING, settings.shadowing * high + ROUNDING
 
 
 @compiled
 def fade(settings, way, draw):
     """What fading adds to this message [dB]."""
-    return 10.0 * log10(fading.power(m_of(settings, way), chance(draw, 1))) if settings.fading > 0.0 else 0.0
+    m = fading.m_of(way.distance, settings.m_near, settings.m_far, settings.m_change)
+    return 10.0 * log10(fading.power(m, draw)) if settings.fading > 0.0 else 0.0
 
 
 @compiled
 def fade_bounds(settings, way, draw):
-    """Between which values that is; cheap."""
-    return fading.bounds(m_of(settings, way), chance(draw, 1)) if settings.fading > 0.0 else (0.0, 0.0)
+    """Between which values that is."""
+    return fading.bounds(way.table, powers_at(settings, way), draw) if settings.fading > 0.0 else (0.0, 0.0)
+
+
+@compiled
+def brightest(settings, way):
+    """What it is not above for any message."""
+    return way.table[powers_at(settings, way) + fading.ENTRIES] + fading.SLACK if settings.fading > 0.0 else 0.0
+
+
+@compiled
+def powers_at(settings, way):
+    """Where the powers of this way's fading stand in the table."""
+    return NEAR if way.distance < settings.m_change else FAR
 
 
 @compiled

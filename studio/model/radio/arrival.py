@@ -22,15 +22,18 @@ def delay(mean, variation, draw):
 
 
 @compiled
-def skewed_delay(shortest, rest, longest, draw):
+def not_cut(shortest, rest, longest):
+    """The share of skewed delays that are not longer than `longest` [s]."""
+    return 1.0 - exp(-max(longest - shortest, 0.0) / rest) if rest > 0.0 else 1.0
+
+
+@compiled
+def skewed_delay(shortest, rest, longest, share, draw):
     """Shortest delay and an exponential rest of the given mean [s], cut where the whole is `longest`; draw in (0, 1).
 
-    Cut: what would be longer is drawn from what is not, so that no delay is more frequent than its neighbours.
+    Cut: what would be longer is drawn from what is not, which is this share, so that no delay is more frequent than its neighbours.
     """
-    if rest <= 0.0:
-        return min(shortest, longest)
-    within = 1.0 - exp(-max(longest - shortest, 0.0) / rest)
-    return min(shortest - rest * log(1.0 - within * draw), longest)
+    return min(shortest - rest * log(1.0 - share * draw), longest)
 
 
 @compiled

@@ -12,7 +12,7 @@ So one looks back to the last draw that decides, |1 - a - b| of all do not (J. G
 """
 
 from studio.compiled import compiled
-from studio.model.random import uniform
+from studio.model.random import uniforms
 
 FARTHEST = 20_000  # steps that are looked back; beyond it a chain that hardly ever changes is good
 FIRST = 1 << 30  # numbers of draws are not negative
@@ -20,14 +20,17 @@ FIRST = 1 << 30  # numbers of draws are not negative
 
 @compiled
 def is_bad(seed, entity, stream, step, to_bad, to_good):
-    """Whether a link is bad at a step; to_bad is a, to_good b."""
+    """Whether a link is bad at a step; to_bad is a, to_good b. Four steps each are drawn together."""
     low, high = min(to_bad, 1.0 - to_good), max(to_bad, 1.0 - to_good)
     turns, turned = to_bad > 1.0 - to_good, False
-    for back in range(FARTHEST):
-        u = uniform(seed, entity, stream, FIRST + step - back)
-        if u < low or u >= high:
-            return (u < low) != turned
-        turned = turned != turns
+    four, last = (FIRST + step) // 4, (FIRST + step) % 4
+    for _ in range(FARTHEST // 4):
+        draws = uniforms(seed, entity, stream, four)
+        for i in range(last, -1, -1):
+            if draws[i] < low or draws[i] >= high:
+                return (draws[i] < low) != turned
+            turned = turned != turns
+        four, last = four - 1, 3
     return False
 
 

@@ -17,6 +17,8 @@ Units that the receiver hears and the sender does not are hidden: of two discs o
 the one lies outside the other, and whoever of them begins within T before or after spoils the message (N. Abramson, AFIPS 1970):
 
     h = 1 - 2/pi (acos(x) - x sqrt(1 - x²))        x = D/(2 R)        P_hidden = 1 - exp(-2 h b)
+
+h is concave and begins with the slope 4/pi, and 1 - exp(-y) is below y, so both together are below b²/(CW + 1) + 2 b min(4 x/pi, 1).
 """
 
 from math import acos, exp, floor, pi, sqrt
@@ -54,3 +56,9 @@ def hidden(distance, hearing):
 def collision(ratio, share):
     """The probability that a message is spoilt by another: P_slot and P_hidden; `share` is h."""
     return 1.0 - (1.0 - ratio * (1.0 - exp(-ratio / (CW + 1.0)))) * exp(-2.0 * share * ratio)
+
+
+@compiled
+def collision_bound(ratio, distance, hearing):
+    """What that probability is not above; cheap."""
+    return ratio * (ratio / (CW + 1.0) + 2.0 * min(2.0 / pi * distance / hearing, 1.0))

@@ -10,16 +10,24 @@ A power is made of one draw u by inversion, P(m, x) = u, g = x/m: no draw is thr
 a series below m + 1 and a continued fraction above (M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 1964, 6.5.29 and
 6.5.31). The inversion starts at the power law of small x, or at the cube of Wilson & Hilferty (1931), and improves by Halley's method:
 the density f = x^(m-1) e^-x/Gamma(m) has f'/f = (m - 1)/x - 1.
+
+That takes long. Where it is enough to know between which values a power lies, a table of the quantiles at k/n tells it: g grows with u, so
+it lies between the two beside u. Nothing is interpolated, and whatever is decided so is decided as the power itself would have it.
 """
 
-from math import exp, lgamma, log, sqrt
+from math import exp, lgamma, log, log10, sqrt
+
+import numpy as np
 
 from studio.compiled import compiled
 from studio.model.radio.normal import quantile
 
 TERMS, STEPS = 300, 12
 TINY = 1e-300
-DECIBEL = 10.0 / log(10.0)  # of a power e times as large
+ENTRIES = 1024
+POINTS = ENTRIES + 1
+LEAST_DRAW = 2.0**-33  # of a draw of 32 bits, and as much below 1 is the greatest
+SLACK = 1e-4  # [dB] more than `power` is wrong by
 NEAR = 1e-4  # relative; the error after a step is about its third power
 
 
@@ -44,14 +52,19 @@ def power(m, draw):
 
 
 @compiled
-def bounds(m, draw):
-    """Two powers over the mean [dB] between which that of the same draw lies; quickly found.
+def quantiles(m):
+    """Powers over the mean [dB] of the draws k/ENTRIES, from the least that there is to the greatest."""
+    found = np.empty(POINTS)
+    for k in range(POINTS):
+        found[k] = 10.0 * log10(power(m, min(max(k / ENTRIES, LEAST_DRAW), 1.0 - LEAST_DRAW)))
+    return found
 
-    Below: P(m, x) < x^m/Gamma(m + 1). Above: Q(m, m g) < exp(-m (g - 1 - ln g)) for g > 1 (H. Chernoff, 1952), and
-    g - 1 - ln g > (g - 1)²/(2 g).
-    """
-    c = 1.0 - log(1.0 - draw) / m
-    return DECIBEL * ((log(draw) + lgamma(m + 1.0)) / m - log(m)), DECIBEL * log(c + sqrt(c * c - 1.0))
+
+@compiled
+def bounds(table, first, draw):
+    """Two powers over the mean [dB] between which that of a draw of 32 bits lies; quantiles stand in a table from `first` on."""
+    k = first + int(draw * ENTRIES)
+    return table[k] - SLACK, table[k + 1] + SLACK
 
 
 @compiled

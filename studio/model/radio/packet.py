@@ -25,9 +25,14 @@ as the network simulator ns-3 has them; k of a code k/n)
     p_b = 1/(2 k) sum of c_d D^d        D = sqrt(4 p (1 - p))
 
 and a packet of n bits survives with (1 - p_b)^n. Bounds are above the truth: a real decoder does a little better.
+
+It survives a draw u if -ln(1 - p_b), its wear per bit, is below -ln(u)/n. Wear falls with the ratio, so a table of it tells most packets'
+fate without working it out: by the entries beside the ratio.
 """
 
-from math import ceil, erfc, exp, log1p, sqrt
+from math import ceil, erfc, exp, log, log1p, sqrt
+
+import numpy as np
 
 from studio.compiled import compiled
 
@@ -37,6 +42,9 @@ RATES = (3.0, 4.5, 6.0, 9.0, 12.0, 18.0, 24.0, 27.0)  # [Mbit/s]
 CARRIERS = 48.0
 # Ratios [dB] by rate: below the first not one of 1e9 of the shortest packets survives, above the second not one of the longest is lost.
 HOPELESS, CERTAIN = (0.9, 3.7, 3.9, 6.7, 10.0, 13.2, 17.5, 19.0), (7.7, 10.8, 10.7, 13.8, 17.5, 20.7, 25.6, 26.8)
+
+STEP = 0.05  # [dB]
+POINTS = 170  # of a table: from HOPELESS to beyond CERTAIN
 
 
 @compiled
@@ -107,15 +115,51 @@ def three_quarters(D):
 
 
 @compiled
-def survival(gamma, bits, rate):
-    """The probability that a packet of so many bits is understood at the signal to noise ratio gamma [1]."""
-    p_b = undecoded(wrong(gamma, rate), rate)
-    return exp(bits * log1p(-p_b)) if p_b < 1.0 else 0.0
+def wear(gamma, rate):
+    """-ln(1 - p_b) at the signal to noise ratio gamma [1]."""
+    return -log1p(-undecoded(wrong(gamma, rate), rate))
 
 
 @compiled
-def survives(ratio, bits, rate, draw):
-    """Whether a packet is understood at a signal to noise ratio [dB]; draw in (0, 1)."""
+def survival(gamma, bits, rate):
+    """The probability that a packet of so many bits is understood at the signal to noise ratio gamma [1]."""
+    return exp(-bits * wear(gamma, rate))
+
+
+@compiled
+def endured(bits, draw):
+    """Below which wear per bit a packet of so many bits is understood; draw in (0, 1)."""
+    return -log(draw) / bits
+
+
+@compiled
+def worn(rate):
+    """The wear at every STEP from HOPELESS on."""
+    found = np.empty(POINTS)
+    for k in range(POINTS):
+        found[k] = wear(10.0 ** (0.1 * (HOPELESS[int(rate)] + k * STEP)), rate)
+    return found
+
+
+@compiled
+def surely_survives(ratio, rate, bits, draw, table, first):
+    """Whether a packet of so many bits is known to be understood at a ratio [dB]; wear stands in a table from `first` on."""
     if ratio < HOPELESS[int(rate)] or ratio > CERTAIN[int(rate)]:
         return ratio > CERTAIN[int(rate)]
-    return survival(10.0 ** (0.1 * ratio), bits, rate) > draw
+    return table[first + int((ratio - HOPELESS[int(rate)]) / STEP)] < endured(bits, draw)
+
+
+@compiled
+def surely_fails(ratio, rate, bits, draw, table, first):
+    """Whether it is known not to be."""
+    if ratio < HOPELESS[int(rate)] or ratio > CERTAIN[int(rate)]:
+        return ratio < HOPELESS[int(rate)]
+    return table[first + int((ratio - HOPELESS[int(rate)]) / STEP) + 1] >= endured(bits, draw)
+
+
+@compiled
+def survives(ratio, rate, bits, draw, table, first):
+    """Whether it is understood."""
+    if surely_fails(ratio, rate, bits, draw, table, first):
+        return False
+    return surely_survives(ratio, rate, bits, draw, table, first) or wear(10.0 ** (0.1 * ratio), rate) < endured(bits, draw)

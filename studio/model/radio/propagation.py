@@ -24,7 +24,7 @@ empirical model of IEEE 802.11p radio shadowing in urban environments, WONS 2011
 as a distance of d · 10^(A/(10 n)) without buildings.
 """
 
-from math import cos, log10, pi, sin, sqrt
+from math import cos, log, log10, pi, sin, sqrt
 
 from studio.compiled import compiled
 
@@ -32,6 +32,7 @@ LIGHT = 299792458.0  # [m/s]
 CLOSEST = 1.0  # [m] no antenna is nearer to another
 WALL_LOSS = 9.0  # [dB]
 METRE_LOSS = 0.4  # [dB/m]
+DECIBEL = 10.0 / log(10.0)  # of a power e times as large
 
 
 @compiled
@@ -47,14 +48,17 @@ def free_space(distance, lambda_):
 
 
 @compiled
-def slopes(distance, lambda_, n_1, n_2, n_3, first, second):
-    """Loss [dB] with exponent n_1 up to the first break [m], n_2 up to the second, n_3 beyond.
+def slopes(distance, closest, n_1, n_2, n_3, first, second):
+    """Loss [dB], `closest` at 1 m, with exponent n_1 up to the first break [m], n_2 up to the second, n_3 beyond.
 
     Equal exponents are one slope; with a second break that is not reached there are two.
     """
     d = max(distance, CLOSEST)
-    near, middle, far = min(d, first), min(max(d, first), second), max(d, second)
-    return free_space(CLOSEST, lambda_) + 10.0 * (n_1 * log10(near) + n_2 * log10(middle / first) + n_3 * log10(far / second))
+    if d <= first:
+        return closest + DECIBEL * n_1 * log(d)
+    if d <= second:
+        return closest + DECIBEL * (n_1 * log(first) + n_2 * log(d / first))
+    return closest + DECIBEL * (n_1 * log(first) + n_2 * log(second / first) + n_3 * log(d / second))
 
 
 @compiled

@@ -16,10 +16,13 @@ The shadow between two places p and q is that of both, the same in both directio
 
     S = (f(p) + f(q)) / sqrt(2 + 2 exp(-D/d_cor))
 
+Who moves a little stays in its cells: their corners are drawn again only when it comes into others (`Around`).
+
 If both ends move by Delta it is forgotten as exp(-Delta/d_cor); if one moves only, half of it stays.
 """
 
-from math import cos, exp, floor, pi, sin, sqrt
+from math import cos, exp, floor, nan, pi, sin, sqrt
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -27,35 +30,66 @@ from studio.compiled import compiled
 from studio.model.random import HALF, LOW, philox
 
 FINE, COARSE, SHARE = 0.4, 1.8, 0.45  # cells over d_cor, share of the variance that the fine ones have
+FORGOTTEN = 40.0  # times d_cor: from there on 2 + 2 exp(-D/d_cor) is 2, to the last bit
 TURN_COS, TURN_SIN = cos(pi / 6.0), sin(pi / 6.0)
 MIDDLE = 2147483648.0  # lattice numbers are not negative
 UNIFORM = 2.0**-16
 QUARTER, LOW_HALF = np.uint64(16), np.uint64(0xFFFF)
 
 
-@compiled
-def between(seed, stream, x_p, y_p, x_q, y_q, distance, d_cor):
-    """The shadow between two places [m], over its standard deviation [1]."""
-    both = field(seed, stream, x_p / d_cor, y_p / d_cor) + field(seed, stream, x_q / d_cor, y_q / d_cor)
-    return both / sqrt(2.0 + 2.0 * exp(-distance / d_cor))
+class Around(NamedTuple):
+    """Numbers and corners of the cells that a place lies in."""
+
+    fine_i: Annotated[float, "1"] = nan
+    fine_j: Annotated[float, "1"] = nan
+    fine_00: Annotated[float, "1"] = 0.0
+    fine_10: Annotated[float, "1"] = 0.0
+    fine_01: Annotated[float, "1"] = 0.0
+    fine_11: Annotated[float, "1"] = 0.0
+    coarse_i: Annotated[float, "1"] = nan
+    coarse_j: Annotated[float, "1"] = nan
+    coarse_00: Annotated[float, "1"] = 0.0
+    coarse_10: Annotated[float, "1"] = 0.0
+    coarse_01: Annotated[float, "1"] = 0.0
+    coarse_11: Annotated[float, "1"] = 0.0
 
 
 @compiled
-def field(seed, stream, x, y):
-    """f at a place, in units of d_cor."""
-    fine = lattice(seed, stream, x / FINE, y / FINE)
-    coarse = lattice(seed, stream + 1, (TURN_COS * x - TURN_SIN * y) / COARSE, (TURN_SIN * x + TURN_COS * y) / COARSE)
-    return sqrt(SHARE) * fine + sqrt(1.0 - SHARE) * coarse
+def of_both(f_p, f_q, distance, d_cor):
+    """The shadow between two places whose fields are f_p and f_q, a distance [m] apart, over its standard deviation [1]."""
+    apart = distance / d_cor
+    return (f_p + f_q) / sqrt(2.0 + 2.0 * exp(-apart)) if apart < FORGOTTEN else (f_p + f_q) / sqrt(2.0)
 
 
 @compiled
-def lattice(seed, stream, x, y):
-    """f of one lattice at a place, in units of its cells."""
-    i, j = floor(x), floor(y)
-    s, t = x - i, y - j
-    z_00, z_10, z_01, z_11 = corners(seed, stream, i, j)
+def bounds(f_p, f_q):
+    """Between which values that is at any distance; cheap."""
+    near, far = (f_p + f_q) / 2.0, (f_p + f_q) / sqrt(2.0)
+    return min(near, far), max(near, far)
+
+
+@compiled
+def field(seed, stream, x, y, around):
+    """f at a place, in units of d_cor, and what is around it; `around` is what was around the place before."""
+    u, v = x / FINE, y / FINE
+    i, j = float(floor(u)), float(floor(v))
+    z = (around.fine_00, around.fine_10, around.fine_01, around.fine_11)
+    if i != around.fine_i or j != around.fine_j:
+        z = corners(seed, stream, i, j)
+    s, t = (TURN_COS * x - TURN_SIN * y) / COARSE, (TURN_SIN * x + TURN_COS * y) / COARSE
+    k, l = float(floor(s)), float(floor(t))
+    far = (around.coarse_00, around.coarse_10, around.coarse_01, around.coarse_11)
+    if k != around.coarse_i or l != around.coarse_j:
+        far = corners(seed, stream + 1, k, l)
+    f = sqrt(SHARE) * lattice(u - i, v - j, z) + sqrt(1.0 - SHARE) * lattice(s - k, t - l, far)
+    return f, Around(i, j, z[0], z[1], z[2], z[3], k, l, far[0], far[1], far[2], far[3])
+
+
+@compiled
+def lattice(s, t, z):
+    """f of one lattice at s, t within a cell with these corners."""
     weights = ((1.0 - s) ** 2 + s**2) * ((1.0 - t) ** 2 + t**2)
-    return ((1.0 - t) * ((1.0 - s) * z_00 + s * z_10) + t * ((1.0 - s) * z_01 + s * z_11)) / sqrt(weights)
+    return ((1.0 - t) * ((1.0 - s) * z[0] + s * z[1]) + t * ((1.0 - s) * z[2] + s * z[3])) / sqrt(weights)
 
 
 @compiled

@@ -10,7 +10,7 @@ from studio.kind.registry import Kind
 from studio.workshop import draw, twice
 from studio.workshop.check import Check, tried
 from studio.world.table.cause import CAUSES, RECEIVED
-from studio.world.view import Draw, Sent, Way
+from studio.world.view import Draw, Sent, Spot, Way
 
 DRAWS = 300
 ROUNDING = 1e-9  # [s]
@@ -23,7 +23,7 @@ def checks(kind: Kind) -> Iterator[Check]:
     module, seed = kind.module, np.random.default_rng(1)
     chosen = [draw.settings(module.Settings, seed) for _ in range(DRAWS)]
     yield tried("longest(), reach() and largest() are finite, and not negative", lambda: bounds(kind, chosen))
-    draws = [(draw.settings_tuple(module, each), way(seed, kind, each), chances(seed), *memory(kind, "Memory", seed)) for each in chosen]
+    draws = [drawn(seed, kind, each) for each in chosen]
     yield from twice_over("transmit", module.transmit, draws)
     yield tried("no message comes before it was sent, or after longest()", lambda: delays(kind, chosen, draws))
     if hasattr(module, "airtime"):
@@ -35,9 +35,30 @@ def checks(kind: Kind) -> Iterator[Check]:
         yield from twice_over("control", module.control, asked)
         yield tried("control() gives no time below zero", lambda: negative(lambda *given: module.control(*given)[0], asked))
     if hasattr(module, "admit"):
-        entered = [(given[0], sent(seed, given[1]), *memory(kind, "Cell", seed)) for given in draws]
+        entered = [(given[0], sent(given[1]), *memory(kind, "Cell", seed)) for given in draws]
         yield from twice_over("admit", module.admit, entered)
         yield tried("admit() lets nobody wait less than no time", lambda: negative(lambda *given: module.admit(*given)[0], entered))
+    if hasattr(module, "wait"):
+        waited = [(given[0], sent(given[1]), given[2]) for given in draws]
+        yield from twice_over("wait", module.wait, waited)
+        yield tried("wait() lets nobody wait less than no time", lambda: negative(module.wait, waited))
+    if hasattr(module, "place"):
+        spots = [(given[0], spot(given[1], given[2]), module.Around()) for given in draws]
+        yield from twice_over("place", module.place, spots)
+
+
+def drawn(seed: np.random.Generator, kind: Kind, settings: Any) -> tuple:
+    """What `transmit` is given, with all that other parts of the radio say of a drawn way."""
+    module, plain = kind.module, draw.settings_tuple(kind.module, settings)
+    given, chance = way(seed, kind, settings), chances(seed)
+    if hasattr(module, "wait"):
+        given = given._replace(wait=float(module.wait(plain, sent(given), chance)))
+    if hasattr(module, "place"):
+        near, far = (module.place(plain, spot(each, chance), module.Around())[0] for each in (given, turned(given)))
+        given = given._replace(from_place=near, to_place=far)
+    if hasattr(module, "table"):
+        given = given._replace(table=np.asarray(module.table(settings), dtype=float))
+    return plain, given, chance, *memory(kind, "Memory", seed)
 
 
 def twice_over(name: str, function: Any, draws: list[tuple]) -> Iterator[Check]:
@@ -76,9 +97,19 @@ def chances(seed: np.random.Generator) -> Draw:
     return Draw(*(int(each) for each in seed.integers(0, SEEDS, 2)), *(int(each) for each in seed.integers(0, 60_000, 4)))
 
 
-def sent(seed: np.random.Generator, given: Way) -> Sent:
-    """A message on its way into a cell."""
-    return Sent(given.time, given.from_x, given.from_y, given.size)
+def sent(given: Way) -> Sent:
+    """A message before it goes out."""
+    return Sent(given.time, given.from_x, given.from_y, given.size, given.from_load)
+
+
+def spot(given: Way, chance: Draw) -> Spot:
+    """Where its sender is."""
+    return Spot(given.from_x, given.from_y, chance.seed, chance.common)
+
+
+def turned(given: Way) -> Way:
+    """The same way from its receiver."""
+    return given._replace(from_x=given.to_x, from_y=given.to_y)
 
 
 def memory(kind: Kind, name: str, seed: np.random.Generator) -> tuple:

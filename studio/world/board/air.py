@@ -9,7 +9,7 @@ Times on the air are counted in whole nanoseconds, so that the sum does not depe
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import floor, sqrt
+from math import floor
 from types import ModuleType
 from typing import Any
 
@@ -51,6 +51,10 @@ class Air:
     settings: np.ndarray
     reach: np.ndarray  # [m] per world, beyond it nothing is heard
     within: np.ndarray  # [m] per world, beyond it the channel is not busy
+    minds_walls: np.ndarray  # bool per world, whether walls between two antennas count
+    table: np.ndarray  # [world, entry], what the radio has worked out of the settings
+    felt: np.ndarray  # float64[unit], what the radio knows of the place of every unit, when something has been sent
+    around: np.ndarray  # [row, unit], what it keeps for that; nothing hangs on it
     busy: Moving  # [ns] int64[unit]: for how long the channel has been busy in the window that has begun
     load: Moving  # [1] float64[unit]: share of the window before
     since: Moving  # [s] float64[1]: when the window has begun
@@ -81,12 +85,19 @@ def air(radio: Kind, worlds: Sequence[int], settings: Sequence[Any], units: int)
     tuple_of(module, module.Settings)
     reach = [float(module.reach(each)) for each in settings]
     within = [float(module.heard_within(each)) for each in settings] if hasattr(module, "heard_within") else reach
+    walls = [bool(module.minds_walls(each)) for each in settings] if hasattr(module, "minds_walls") else [True] * len(settings)
     return Air(
         radio=radio,
         worlds=tuple(worlds),
         settings=np.array([numbers(each) for each in settings]).T.copy(),
         reach=np.array(reach),
         within=np.array(within),
+        minds_walls=np.array(walls),
+        table=np.array([module.table(each) if hasattr(module, "table") else () for each in settings], dtype=float).reshape(
+            len(settings), -1
+        ),
+        felt=np.zeros(units),
+        around=remembered(module, "Around", units),
         busy=np.zeros(units, dtype=np.int64),
         load=np.zeros(units),
         since=np.zeros(1),
@@ -137,6 +148,5 @@ def occupy(world, x, y, within, airtime, world_of, unit_first, now, busy):
     u = unit_first[world]
     while u < world_of.size and world_of[u] == world:
         dx, dy = now[TRUE_X, u] - x, now[TRUE_Y, u] - y
-        if now[PRESENT, u] > 0.0 and sqrt(dx * dx + dy * dy) <= within:
-            busy[u] += spent
+        busy[u] += spent * (now[PRESENT, u] > 0.0 and dx * dx + dy * dy <= within * within)
         u += 1

@@ -136,25 +136,23 @@ def to_radio(one: Port, found: list[Crew], units: Units) -> Wiring:
 def from_radio(one: Port, found: list[Crew], units: Units, opened: list[Open]) -> Wiring:
     """The links of every unit: those of `listens_to` in its order, or the freshest of all."""
     post = post_of(units.posts, one.kind, dict(found[0].radios)[one.kind])
-    links, of_receiver = post.links, post.links_by_receiver
+    links = post.links
     members = [(crew, i, unit) for crew in found for i, unit in enumerate(crew.units)]
     slots, heard = np.full((one.most, len(members)), -1, dtype=np.int64), np.zeros(len(members), dtype=np.int64)
-    everybody: list[list[int]] = []
     for j, (crew, i, unit) in enumerate(members):
         senders = crew.group.senders(i)
         named = [links.get((unit, units.number(sender, crew.world)), -1) for sender in senders]
         slots[: len(named), j], heard[j] = named, len(named)
-        everybody.append([] if senders else of_receiver.get(unit, []))
-    named_any = [bool(crew.group.senders(i)) for crew, i, _ in members]
+    is_open = np.array([not crew.group.senders(i) for crew, i, _ in members])
     kept = np.array([crew.group.keeps or np.inf for crew, _, _ in members])
-    if not all(named_any):
-        opened.append(to_all(post, everybody, named_any, heard, slots, kept))
+    if is_open.any():
+        of = np.array([unit for _, _, unit in members])
+        opened.append(to_all(post, is_open, of, units.vehicle.size, kept, heard, slots))
     return Wiring(one, post, ("inbox",), (slots, heard, kept))
 
 
-def to_all(post: Post, everybody: list[list[int]], named: list[bool], heard: np.ndarray, slots: np.ndarray, kept: np.ndarray) -> Open:
-    """The inboxes that hear everybody; units that have named whom they listen to are left as they are, with a count of -1."""
-    sizes = np.array([len(each) for each in everybody], dtype=np.int64)
-    count = np.where(named, -1, sizes)
-    links = np.array([link for each in everybody for link in each], dtype=np.int64)
-    return Open(post, np.cumsum(sizes) - sizes, count, links, heard, slots, kept)
+def to_all(post: Post, is_open: np.ndarray, of: np.ndarray, units: int, kept: np.ndarray, heard: np.ndarray, slots: np.ndarray) -> Open:
+    """The inboxes of members, which stand on units `of` so many, where some hear everybody."""
+    order = np.argsort(of, kind="stable")
+    member = order[is_open[order]]
+    return Open(post, is_open, kept, heard, slots, np.zeros(slots.shape), np.searchsorted(of[member], np.arange(units + 1)), member)

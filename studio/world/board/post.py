@@ -26,7 +26,6 @@ from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import quantities, width
 from studio.kind.registry import Kind
-from studio.road.network.grid import COLUMNS
 from studio.road.network.shadow import walls_between
 from studio.rows import Moving
 from studio.world.board.air import EARLY, Air, remembered
@@ -49,6 +48,7 @@ from studio.world.table.unit import (
     OFFSET,
     OWN_FIRST,
     PRESENT,
+    S_NEXT,
     S_NUMBER,
     S_SIZE,
     S_STAMP,
@@ -68,56 +68,81 @@ SENT_ROWS, HEARD_ROWS = len(SENT), len(HEARD)
 
 TEXT = '''"""Messages of the kind {name} on the radio {radio}."""
 
+from math import inf
+
 from studio.application.contract import Own
 from studio.compiled import lean
 from studio.world.board.air import occupy
 from studio.world.board.log import log_message
-from studio.world.board.post import hindrance, is_free, receive, send, settle, way_of
-from studio.world.table.cause import RECEIVED
-from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_X, S_Y
-from studio.world.view import Draw, Sent, Turn
+from studio.world.board.post import apart, behind, hindrance, is_any, is_free, receive, send, settle, way_of
+from studio.world.table.cause import OUT_OF_RANGE, RECEIVED, TOO_WEAK
+from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_NEXT, S_X, S_Y, TRUE_X, TRUE_Y
+from studio.world.view import Draw, Sent, Spot, Turn
 from {radio_module} import SettingsTuple as Radio, {radio_parts}
-{imports}
+{imports}{places}
 
 @lean
 def dispatch({given}):
-    for i in range(sender.size):
+{located}    for i in range(sender.size):
         if fresh[i] == 0:
             continue
         s = sender[i]
         j = world_of[s]
-        radio = Radio({air})
+        radio, known = Radio({air}), table[j]
         for number in range(last[i] - fresh[i] + 1, last[i] + 1):
             slot = number % arrival.shape[0]
             column = slot * sender.size + i
-            time, size, wait = ring[S_TIME, column], ring[S_SIZE, column], 0.0
+            time, size, wait, next_ = ring[S_TIME, column], ring[S_SIZE, column], 0.0, inf
             log_message(time, s, number, size, column, ring, log_message_rows, log_count)
 {admission}            for link in range(link_first[i], link_first[i + 1]):
                 u = link_receiver[link]
-                way = way_of(s, u, column, wait, reach[j], place_of[j], shadow, fixed, now, load, ring)
-                cause, delay = hindrance(way.distance, reach[j], s, u, now, trouble), 0.0
+                distance = apart(column, u, now, ring)
+                cause, delay = hindrance(distance, reach[j], s, u, now, trouble), 0.0
                 if cause == RECEIVED:
-                    {found} = transmit(radio, way, Draw(seed[j], entity[u], entity[s], stream, number, common){memory})
+                    draw = Draw(seed[j], entity[u], entity[s], stream, number, common)
+                    way = way_of(s, u, column, distance, wait, known, felt, fixed, now, load, ring)
+                    {found} = transmit(radio, way, draw{memory})
+                    if minds_walls[j] and found.lost != TOO_WEAK and found.lost != OUT_OF_RANGE:
+                        {found} = transmit(radio, behind(way, place_of[j], shadow), draw{memory})
 {store}                    cause, delay = int(found.lost), found.delay + trouble[ADDED, s]
-                settle(slot, link, time, cause, delay, way.distance, arrival, lost, log_links, log_causes, log_delays, log_distances,
-                       log_count)
+                came = settle(slot, link, time, cause, delay, distance, arrival, log_links, log_causes, log_delays, log_distances,
+                              log_count)
+                next_ = min(next_, came)
+            ring[S_NEXT, column] = next_
             trouble[DROPS, s] = max(trouble[DROPS, s] - 1.0, 0.0)
         fresh[i] = 0
 
 
 @lean
-def exchange(period, settings, kept, link_sender, inbox, gap, {given}, k, now_time):
+def exchange(period, settings, kept, inbox, came, came_count, gap, {given}, k, now_time):
 {beacons}
     dispatch({given})
-    receive(now_time, sender.size, last, ring, link_sender, arrival, inbox)
+    receive(now_time, last, ring, link_first, arrival, inbox, came, came_count)
 '''
 GIVEN = (
-    "stream, common, air, reach, within, busy, load, cell, world_of, unit_first, entity, seed, place_of, shadow, fixed, now, trouble, "
-    "sender, fresh, last, ring, link_first, link_receiver, arrival, lost, memory, "
+    "stream, common, air, reach, within, minds_walls, table, felt, around, busy, load, cell, world_of, unit_first, entity, seed, place_of, "
+    "shadow, fixed, now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, memory, "
     "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
 )
-ADMISSION = """            wait, remembered = admit(radio, Sent(time, ring[S_X, column], ring[S_Y, column], size), Cell({cell}))
+ADMISSION = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
+            wait, remembered = admit(radio, sent, Cell({cell}))
 """
+WAITING = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
+            wait = wait_of(radio, sent, Draw(seed[j], entity[s], entity[s], stream, number, common))
+"""
+PLACES = """
+
+@lean
+def locate(common, air, felt, around, world_of, seed, now, fresh):
+    if not is_any(fresh):
+        return
+    for u in range(world_of.size):
+        if now[PRESENT, u] == 0.0:
+            continue
+        j = world_of[u]
+        spot = Spot(now[TRUE_X, u], now[TRUE_Y, u], seed[j], common)
+        felt[u], remembered = place(Radio({air}), spot, Around({around}))
+{store}"""
 OCCUPATION = """            spent = airtime(radio, size)
             occupy(j, ring[S_X, column], ring[S_Y, column], within[j], spent, world_of, unit_first, now, busy)
 """
@@ -157,9 +182,10 @@ class Post:
     link_sender: np.ndarray  # index into `sender`
     link_receiver: np.ndarray  # unit
     arrival: Moving  # [s] float64[slot, link], infinite for a message that is lost
-    lost: Moving  # messages lost so far, per link
     memory: Moving  # what the radio remembers, [row, link]
     inbox: Moving  # [row, link]
+    came: np.ndarray  # int64[link], the links that have taken a message when it was looked last
+    came_count: np.ndarray  # int64[1], how many they are
     log: Log
     dispatch: Callable  # the radio decides about what was sent
     exchange: Callable  # beacons go out, the radio decides, what has come in is taken
@@ -167,7 +193,7 @@ class Post:
 
     def exchanged(self, k: int, time: float, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
-        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.link_sender, self.inbox, air.gap)
+        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.inbox, self.came, self.came_count, air.gap)
         return self.called("exchange", own, air, around, (k, time))
 
     def dispatched(self, air: Air, around: tuple) -> Iterable[Fault]:
@@ -190,8 +216,20 @@ class Post:
 
     def given(self, air: Air, around: tuple) -> tuple:
         """What the radio decides about, and what it looks at for that, as GIVEN names it."""
-        of_air = (self.radio.stream, air.settings, air.reach, air.within, air.busy, air.load, air.cell)
-        links = (self.link_first, self.link_receiver, self.arrival, self.lost, self.memory)
+        of_air = (
+            self.radio.stream,
+            air.settings,
+            air.reach,
+            air.within,
+            air.minds_walls,
+            air.table,
+            air.felt,
+            air.around,
+            air.busy,
+            air.load,
+            air.cell,
+        )
+        links = (self.link_first, self.link_receiver, self.arrival, self.memory)
         return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
 
     def newest(self, world: int, world_of: np.ndarray) -> np.ndarray:
@@ -203,7 +241,7 @@ class Post:
 
     def received(self, time: float) -> None:
         """What has come in between two ticks is taken."""
-        receive(time, self.sender.size, self.last, self.ring, self.link_sender, self.arrival, self.inbox)
+        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox, self.came, self.came_count)
 
     @property
     def stream(self) -> int:
@@ -216,30 +254,43 @@ class Post:
         return {int(unit): i for i, unit in enumerate(self.sender)}
 
     @property
-    def links_by_receiver(self) -> dict[int, list[int]]:
-        """The numbers of all links of every unit that hears somebody."""
-        found: dict[int, list[int]] = {}
-        for link, unit in enumerate(self.link_receiver.tolist()):
-            found.setdefault(unit, []).append(link)
-        return found
-
-    @property
     def links(self) -> dict[tuple[int, int], int]:
         """Number of every link by the units of receiver and sender."""
         pairs = zip(self.link_receiver.tolist(), self.sender[self.link_sender].tolist(), strict=True)
         return {pair: link for link, pair in enumerate(pairs)}
 
 
-class Open(NamedTuple):
-    """The inboxes of a port that hears everybody: for every unit its links, how many it has heard, and those, the freshest first."""
+@dataclass
+class Open:
+    """The inboxes of a port where somebody hears everybody: before every member the links that it has heard, the freshest first."""
 
     post: Post
-    first: np.ndarray
-    count: np.ndarray
-    links: np.ndarray
-    heard: np.ndarray
-    slots: np.ndarray
-    kept: np.ndarray  # [s] per unit, for how long what was heard counts
+    is_open: np.ndarray  # bool[member], whether it hears everybody; the others are left as they are
+    kept: np.ndarray  # [s] per member, for how long what was heard counts
+    heard: np.ndarray  # how many of `slots` are filled, per member
+    slots: np.ndarray  # int64[place, member], the links
+    when: np.ndarray  # [s] float64[place, member], when their messages were sent
+    member_first: np.ndarray  # per unit of all worlds, and one more: where the members that it is begin
+    member: np.ndarray
+    ready: Callable | None = None  # `lay` with all arrays given, once it has been called
+
+    def lay(self, time: float) -> None:
+        """What has come in since the last time is laid before the members, and what is too old is taken away."""
+        if self.ready is None:
+            post = self.post
+            self.ready = bound(lay, post.came, post.came_count, post.link_receiver, post.inbox, *self.given, then=(time,))
+        self.ready(time)
+
+    def lay_anew(self, time: float) -> None:
+        """The same with all that every link has heard last."""
+        self.heard[self.is_open], self.slots[:, self.is_open] = 0, -1
+        came = np.flatnonzero(self.post.inbox[H_NUMBER] >= 0.0)
+        lay(*(came, np.array([came.size]), self.post.link_receiver, self.post.inbox, *self.given, time))
+
+    @property
+    def given(self) -> tuple:
+        """What is there of every member."""
+        return self.member_first, self.member, self.is_open, self.kept, self.heard, self.slots, self.when
 
 
 class Need(NamedTuple):
@@ -278,7 +329,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
     inbox[H_NUMBER] = -1.0
     inbox[H_SENDER] = units.number[sender[links[0]]]
     ring = np.zeros((len(SENT) + carried, slots * sender.size))
-    ring[S_NUMBER] = -1.0
+    ring[S_NUMBER], ring[S_NEXT] = -1.0, inf
     has_beacon, is_regular, loops = hasattr(kind.module, "beacon"), not hasattr(kind.module, "due"), written_for(kind, radio)
     first = [before_first(int(entity[u]), int(periods[world_of[u]])) if has_beacon and is_regular else -1 for u in sender]
     most = 1 + need.at_once
@@ -300,9 +351,10 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         link_sender=links[0].copy(),
         link_receiver=links[1].copy(),
         arrival=np.full((slots, links.shape[1]), inf),
-        lost=np.zeros(links.shape[1], dtype=np.int64),
         memory=remembered(radio.module, "Memory", links.shape[1]),
         inbox=inbox,
+        came=np.zeros(links.shape[1], dtype=np.int64),
+        came_count=np.zeros(1, dtype=np.int64),
         log=Log((most * sender.size, most * links.shape[1])),
         dispatch=loops.dispatch,
         exchange=loops.exchange,
@@ -324,7 +376,8 @@ def written_for(kind: Kind, radio: Kind) -> ModuleType:
     module, air = kind.module, radio.module
     tuple_of(air, air.Settings)
     fields = quantities(air.Memory) if hasattr(air, "Memory") else []
-    parts = [part for part in ("transmit", "airtime", "admit", "Cell") if hasattr(air, part)]
+    parts = [part for part in ("transmit", "airtime", "admit", "Cell", "place", "Around") if hasattr(air, part)]
+    parts += ["wait as wait_of"] if hasattr(air, "wait") else []
     source = TEXT.format(
         name=kind.name,
         radio=radio.name,
@@ -333,6 +386,8 @@ def written_for(kind: Kind, radio: Kind) -> ModuleType:
         given=GIVEN,
         air=spelled([each.size for each in shapes(air.Settings)], "air"),
         imports=imports(module),
+        places=places(air) if hasattr(air, "place") else "",
+        located="    locate(common, air, felt, around, world_of, seed, now, fresh)\n" if hasattr(air, "place") else "",
         admission=admission(air),
         found="found, remembered" if fields else "found",
         memory=f", Link({spelled([each.size for each in fields], 'memory', 'link')})" if fields else "",
@@ -349,10 +404,19 @@ def imports(module: ModuleType) -> str:
     return f"from {module.__name__} import {', '.join(['SettingsTuple', *named])}\n" if hasattr(module, "beacon") else ""
 
 
+def places(air: ModuleType) -> str:
+    """The loop that tells what the radio knows of the place of every unit."""
+    fields = quantities(air.Around)
+    settings, around = spelled([each.size for each in shapes(air.Settings)], "air"), spelled([each.size for each in fields], "around", "u")
+    return PLACES.format(air=settings, around=around, store=stored(fields, "u", " " * 8, "around"))
+
+
 def admission(air: ModuleType) -> str:
-    """The lines that let a message into a network of cells, and onto a channel."""
+    """The lines that let a message into a network of cells, or make it wait, and onto a channel."""
     fields = quantities(air.Cell) if hasattr(air, "admit") else []
-    text = ADMISSION.format(cell=spelled([each.size for each in fields], "cell")) + stored(fields, "j", " " * 12, "cell") if fields else ""
+    text = WAITING if hasattr(air, "wait") else ""
+    if fields:
+        text = ADMISSION.format(cell=spelled([each.size for each in fields], "cell")) + stored(fields, "j", " " * 12, "cell")
     return text + OCCUPATION if hasattr(air, "airtime") else text
 
 
@@ -403,7 +467,7 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
     ring[S_TIME, column] = time
     ring[S_STAMP, column] = time * (1.0 + fixed[DRIFT, unit]) + fixed[OFFSET, unit]
     ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
-    ring[S_SIZE, column] = size
+    ring[S_SIZE, column], ring[S_NEXT, column] = size, inf
     row = SENT_ROWS
     for value in literal_unroll(payload):
         ring[row, column] = value * 1.0
@@ -412,16 +476,40 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
 
 
 @inlined
-def way_of(sender, receiver, column, wait, reach, place, shadow, fixed, now, load, ring):
-    """The way from a message's antenna to a receiver's; walls are counted within reach only."""
+def is_any(fresh):
+    """Whether anybody has sent something that the radio has not decided about."""
+    for i in range(fresh.size):
+        if fresh[i] > 0:
+            return True
+    return False
+
+
+@inlined
+def apart(column, receiver, now, ring):
+    """How far a receiver is from the antenna of a message [m]."""
+    dx, dy = now[TRUE_X, receiver] - ring[S_X, column], now[TRUE_Y, receiver] - ring[S_Y, column]
+    return sqrt(dx * dx + dy * dy)
+
+
+@inlined
+def way_of(sender, receiver, column, distance, wait, table, felt, fixed, now, load, ring):
+    """The way from a message's antenna to a receiver's, as if no building were there."""
     x0, y0, x1, y1 = ring[S_X, column], ring[S_Y, column], now[TRUE_X, receiver], now[TRUE_Y, receiver]
-    distance, walls, inside = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), 0.0, 0.0
-    if distance <= reach and shadow.grid.frame[COLUMNS, place] > 0.0:
-        walls, inside = walls_between(shadow, place, x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver])
     return Way(
-        distance, float(walls), inside, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
+        distance, 0.0, 0.0, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
         approach_of(sender, receiver, x1 - x0, y1 - y0, distance, now), ring[S_TIME, column],
         x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver], load[sender], load[receiver], wait,
+        felt[sender], felt[receiver], table,
+    )  # fmt: skip
+
+
+@lean
+def behind(way, place, shadow):
+    """The same way with the buildings of its map."""
+    walls, inside = walls_between(shadow, place, way.from_x, way.from_y, way.from_height, way.to_x, way.to_y, way.to_height)
+    return Way(
+        way.distance, float(walls), inside, way.size, way.speed, way.approach, way.time, way.from_x, way.from_y, way.from_height,
+        way.to_x, way.to_y, way.to_height, way.from_load, way.load, way.wait, way.from_place, way.to_place, way.table,
     )  # fmt: skip
 
 
@@ -446,32 +534,49 @@ def hindrance(distance, reach, sender, receiver, now, trouble):
 
 
 @inlined
-def settle(slot, link, time, cause, delay, distance, arrival, lost, links, causes, delays, distances, count):
-    """Writes down what becomes of a message that was sent at a time [s] on one link."""
-    arrival[slot, link] = time + delay if cause == RECEIVED else inf
-    lost[link] += cause != RECEIVED
+def settle(slot, link, time, cause, delay, distance, arrival, links, causes, delays, distances, count):
+    """Writes down what becomes of a message that was sent at a time [s] on one link; when it is there [s], infinite if never."""
+    came = time + delay if cause == RECEIVED else inf
+    arrival[slot, link] = came
     if cause != OUT_OF_RANGE:
         log_link(link, cause, delay if cause == RECEIVED else nan, distance, links, causes, delays, distances, count)
+    return came
 
 
 # -- receiving -----------------------------------------------------------------------------------------
 
 
 @lean
-def receive(time, sender_count, last, ring, link_sender, arrival, inbox):
-    """Every link takes the newest of the messages that have come in."""
-    slots = arrival.shape[0]
-    for link in range(link_sender.size):
-        i = link_sender[link]
-        for number in range(last[i], max(last[i] - slots, int(inbox[H_NUMBER, link]), -1), -1):
-            slot = number % slots
-            column = slot * sender_count + i
-            if ring[S_NUMBER, column] != number:
-                break
-            if arrival[slot, link] - EARLY <= time:
-                inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, sender_count, ring, arrival)
-                take(arrival[slot, link], number, column, link, ring, inbox)
-                break
+def receive(time, last, ring, link_first, arrival, inbox, came, came_count):
+    """Every link takes the newest of the messages that have come in; one that has not come to anybody since then is passed over."""
+    came_count[0] = 0
+    for i in range(last.size):
+        for number in range(last[i], max(last[i] - arrival.shape[0], -1), -1):
+            column = column_of(number, i, last, ring)
+            if ring[S_NUMBER, column] == number and ring[S_NEXT, column] - EARLY <= time:
+                deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count)
+
+
+@inlined
+def column_of(number, i, last, ring):
+    """Where message `number` of sender i stands in the ring."""
+    return number % (ring.shape[1] // last.size) * last.size + i
+
+
+@inlined
+def deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count):
+    """A message of sender i is taken by the links that it has reached by a time [s] and that have no newer one."""
+    slot, next_ = number % arrival.shape[0], inf
+    for link in range(link_first[i], link_first[i + 1]):
+        there = arrival[slot, link]
+        if there - EARLY > time:
+            next_ = min(next_, there)
+        elif inbox[H_NUMBER, link] < number:
+            inbox[H_MISSED, link] = lost_since(int(inbox[H_NUMBER, link]), number, i, link, last.size, ring, arrival)
+            take(there, number, column, link, ring, inbox)
+            came[came_count[0]] = link
+            came_count[0] += 1
+    ring[S_NEXT, column] = next_
 
 
 @lean
@@ -498,26 +603,43 @@ def take(came, number, column, link, ring, inbox):
 
 
 @lean
-def freshest(time, first, count, links, kept, inbox, heard, slots):
-    """For every car j, the links among `links[first[j]]` and the next `count[j]` that have heard something, the freshest first.
+def lay(came, came_count, link_receiver, inbox, member_first, member, is_open, kept, heard, slots, when, time):
+    """Links that have taken a message come to their places before all members that their receivers are; what is too old goes."""
+    for k in range(came_count[0]):
+        link = came[k]
+        u = link_receiver[link]
+        for p in range(member_first[u], member_first[u + 1]):
+            put(link, member[p], inbox[H_TIME, link], heard, slots, when)
+    forget(time, is_open, kept, heard, slots, when)
 
-    What was sent longer ago than `kept[j]` [s] is forgotten. One with a count below zero is left as it is.
-    """
-    most = slots.shape[0]
-    for j in range(first.size):
-        if count[j] < 0:
-            continue
-        heard[j] = 0
-        slots[:, j] = -1
-        for p in range(first[j], first[j] + count[j]):
-            link = links[p]
-            if inbox[H_NUMBER, link] < 0.0 or time - inbox[H_TIME, link] > kept[j]:
-                continue
-            place = min(heard[j], most)
-            while place > 0 and inbox[H_TIME, slots[place - 1, j]] < inbox[H_TIME, link]:
-                if place < most:
-                    slots[place, j] = slots[place - 1, j]
-                place -= 1
-            if place < most:
-                slots[place, j] = link
-                heard[j] = min(heard[j] + 1, most)
+
+@inlined
+def put(link, j, time, heard, slots, when):
+    """Puts a link, whose message was sent at a time [s], to its place before member j: the freshest first, of equal ones the first link."""
+    place, most = 0, slots.shape[0]
+    while place < heard[j] and slots[place, j] != link:
+        place += 1
+    if place == most:
+        place -= 1
+        if not is_fresher(link, time, slots[place, j], when[place, j]):
+            return
+    heard[j] = max(heard[j], place + 1)
+    while place > 0 and is_fresher(link, time, slots[place - 1, j], when[place - 1, j]):
+        slots[place, j], when[place, j] = slots[place - 1, j], when[place - 1, j]
+        place -= 1
+    slots[place, j], when[place, j] = link, time
+
+
+@inlined
+def is_fresher(link, time, other, other_time):
+    """Whether a link comes before another."""
+    return time > other_time or (time == other_time and link < other)
+
+
+@inlined
+def forget(time, is_open, kept, heard, slots, when):
+    """What was sent longer ago than `kept[j]` [s] is taken away from before member j."""
+    for j in range(heard.size):
+        while is_open[j] and heard[j] > 0 and time - when[heard[j] - 1, j] > kept[j]:
+            heard[j] -= 1
+            slots[heard[j], j] = -1

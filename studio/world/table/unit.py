@@ -64,6 +64,7 @@ S_STAMP = SENT.row("stamp", "s", "time of sending on the sender's clock")
 S_X = SENT.row("x", "m", "where the antenna was; for the radio, not for the receiver")
 S_Y = SENT.row("y", "m", "where the antenna was; for the radio, not for the receiver")
 S_SIZE = SENT.row("size", "byte", "of the message, with everything")
+S_NEXT = SENT.row("next", "s", "when it will be there at the next of its receivers; infinite when it has reached all that it reaches")
 
 # What a link has received last; behind these rows comes what it carries.
 HEARD = Table("heard", Role.STATE, per="link")

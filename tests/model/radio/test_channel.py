@@ -107,13 +107,26 @@ def test_circle_and_polygon():
     assert inside(1.0, 1.0) and inside(9.5, 8.0) and not inside(5.0, 5.0) and not inside(-1.0, 1.0) and not inside(11.0, 1.0)
 
 
+def test_the_bound_of_collisions_is_above_them_and_near_where_few_collide():
+    for distance in (0.0, 10.0, 200.0, 800.0, 2000.0):
+        for ratio in (0.0, 0.02, 0.2, 0.6, 1.0):
+            exact = channel.collision(ratio, channel.hidden(distance, 400.0))
+            bound = channel.collision_bound(ratio, distance, 400.0)
+            assert exact <= bound + 1e-15 and (bound < 1.3 * exact or ratio > 0.1 or distance > 200.0 or exact == 0.0)
+
+
 # -- latency -----------------------------------------------------------------------------------------
+
+
+def skewed(shortest, rest, longest, draw):
+    """A delay with the share that belongs to it."""
+    return arrival.skewed_delay(shortest, rest, longest, arrival.not_cut(shortest, rest, longest), draw)
 
 
 def test_skewed_delays():
     """Quantiles a - b ln(1 - p) where nothing is cut; none beyond the longest, and the same draws stretched within."""
     for p in (0.05, 0.5, 0.95, 0.99):
-        assert arrival.skewed_delay(0.010, 0.009, 10.0, p) == pytest.approx(0.010 - 0.009 * np.log(1.0 - p), abs=1e-12)
-        assert arrival.skewed_delay(0.010, 0.009, 0.03, p) < 0.03
-    assert arrival.skewed_delay(0.010, 0.009, 0.03, 1.0 - 1e-16) == pytest.approx(0.03)
-    assert arrival.skewed_delay(0.010, 0.0, 0.03, 0.7) == 0.010 and arrival.skewed_delay(0.040, 0.009, 0.03, 0.5) == 0.03
+        assert skewed(0.010, 0.009, 10.0, p) == pytest.approx(0.010 - 0.009 * np.log(1.0 - p), abs=1e-12)
+        assert skewed(0.010, 0.009, 0.03, p) < 0.03
+    assert skewed(0.010, 0.009, 0.03, 1.0 - 1e-16) == pytest.approx(0.03)
+    assert skewed(0.010, 0.0, 0.03, 0.7) == 0.010 and skewed(0.040, 0.009, 0.03, 0.5) == 0.03

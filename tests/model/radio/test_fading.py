@@ -25,20 +25,21 @@ def above(m, margin):
     return 1.0 - fading.lower(m, m * 10.0 ** (-0.1 * margin), lgamma(m))
 
 
-@compiled
 def fields(seed, places):
     """The field at places [place, axis], in units of the correlation distance."""
-    return [shadowing.field(seed, 5, places[i, 0], places[i, 1]) for i in range(places.shape[0])]
+    return fields_from(seed, places, shadowing.Around())
 
 
 @compiled
+def fields_from(seed, places, nothing):
+    """The same in a compiled loop, where nothing is known of what is around."""
+    return [shadowing.field(seed, 5, places[i, 0], places[i, 1], nothing)[0] for i in range(places.shape[0])]
+
+
 def shadows(seed, ends, d_cor):
     """The shadow between two places each, [link, x y x y]."""
-    found = []
-    for i in range(ends.shape[0]):
-        x_p, y_p, x_q, y_q = ends[i]
-        found.append(shadowing.between(seed, 5, x_p, y_p, x_q, y_q, np.hypot(x_q - x_p, y_q - y_p), d_cor))
-    return found
+    f_p, f_q = (np.array(fields(seed, each / d_cor)) for each in (ends[:, :2], ends[:, 2:]))
+    return [shadowing.of_both(*each, d_cor) for each in zip(f_p, f_q, np.hypot(*(ends[:, :2] - ends[:, 2:]).T), strict=True)]
 
 
 def test_quantiles_of_the_normal_distribution():
@@ -55,9 +56,14 @@ def test_a_power_is_the_quantile_of_its_draw(m):
 
 @pytest.mark.parametrize("m", [0.5, 0.75, 1.5, 10.0, 50.0])
 def test_a_power_is_between_its_bounds(m):
-    for p in EDGES:
-        least, greatest = fading.bounds(m, p)
-        assert least - 1e-9 <= 10.0 * log10(fading.power(m, p)) <= greatest + 1e-9
+    """Those of the table, which stand behind something else; narrow where most draws are."""
+    table = np.append([0.0, 0.0], fading.quantiles(m))
+    least = fading.LEAST_DRAW
+    draws = np.r_[least, np.geomspace(least, 1e-3, 200), np.linspace(1e-3, 1.0 - 1e-3, 5001), 1.0 - np.geomspace(1e-3, least, 200)]
+    for p in draws:
+        low, high = fading.bounds(table, 2, p)
+        assert low <= 10.0 * log10(fading.power(m, p)) <= high
+        assert high - low < 0.2 or not 0.05 < p < 0.98
 
 
 @pytest.mark.parametrize("m", [0.5, 0.75, 3.0, 20.0])
@@ -136,7 +142,24 @@ def test_a_link_is_the_same_in_both_directions_and_alike_beside_it():
     assert abs(np.corrcoef(there, shadows(2, np.hstack([a, b]), 25.0))[0, 1]) < 4.0 / 500**0.5
 
 
+def test_bounds_of_a_shadow():
+    """Whatever the distance is, and whoever is darker."""
+    for f_p, f_q in ((1.0, 2.0), (-1.5, 0.2), (-1.0, -1.0), (0.5, -0.5)):
+        low, high = shadowing.bounds(f_p, f_q)
+        assert all(low - 1e-15 <= shadowing.of_both(f_p, f_q, d, 25.0) <= high + 1e-15 for d in (0.0, 1.0, 25.0, 900.0, 1e4))
+
+
 def test_the_field_has_no_edges():
     """Across the borders of cells it changes by as little as within them."""
     line = np.stack([np.arange(-20.0, 20.0, 1e-3), np.full(40_000, 0.3)], axis=1)
     assert np.abs(np.diff(fields(9, line))).max() < 0.02
+
+
+def test_what_is_known_of_the_surroundings_changes_no_bit():
+    """A walk through cells of both sizes, with the corners that were around before and without."""
+    walk = np.cumsum(np.random.default_rng(8).normal(0.1, 0.3, (500, 2)), axis=0)
+    around, kept = shadowing.Around(), []
+    for x, y in walk:
+        f, around = shadowing.field(9, 5, x, y, around)
+        kept.append(f)
+    assert kept == fields(9, walk)

@@ -62,7 +62,23 @@ def test_what_is_hopeless_and_what_is_certain(rate):
     low, high = packet.HOPELESS[rate], packet.CERTAIN[rate]
     assert packet.survival(10.0 ** (0.1 * low), 30.0, rate) < 1e-9
     assert packet.survival(10.0 ** (0.1 * high), 8.0 * 2304.0 + packet.AROUND, rate) > 1.0 - 1e-9
-    assert not packet.survives(low - 0.01, 30.0, rate, 1e-12) and packet.survives(high + 0.01, 18_454.0, rate, 1.0 - 1e-12)
+    worn = packet.worn(rate)
+    assert not packet.survives(low - 0.01, rate, 30.0, 1e-12, worn, 0)
+    assert packet.survives(high + 0.01, rate, 18_454.0, 1.0 - 1e-12, worn, 0)
     for ratio in np.linspace(low, high, 20):
         share = packet.survival(10.0 ** (0.1 * ratio), 2822.0, rate)
-        assert [packet.survives(ratio, 2822.0, rate, draw) for draw in (0.1, 0.5, 0.9)] == [share > draw for draw in (0.1, 0.5, 0.9)]
+        for draw in (0.1, 0.5, 0.9):
+            given = (ratio, rate, 2822.0, draw, worn, 0)
+            assert packet.survives(*given) == (share > draw)
+            assert packet.surely_survives(*given) <= (share > draw) <= (not packet.surely_fails(*given))
+
+
+@pytest.mark.parametrize("rate", range(8))
+def test_the_table_of_wear_tells_most_packets_fate(rate):
+    """It covers all ratios that are neither hopeless nor certain; for one of fifty draws or fewer it does not say enough."""
+    worn = packet.worn(rate)
+    assert packet.HOPELESS[rate] + (packet.POINTS - 2) * packet.STEP > packet.CERTAIN[rate]
+    assert (np.diff(worn) <= 0.0).all()
+    ratios, draws = np.arange(packet.HOPELESS[rate], packet.CERTAIN[rate], 0.011), np.linspace(0.01, 0.99, 50)
+    given = [(ratio, rate, 2822.0, draw, worn, 0) for ratio in ratios for draw in draws]
+    assert np.mean([not packet.surely_survives(*each) and not packet.surely_fails(*each) for each in given]) < 0.02

@@ -1,0 +1,91 @@
+"""What every link has heard last, sample by sample, kept as what has changed: most links hear nothing from one sample to the next.
+
+hearing.take(world)            the next sample
+hearing.ages(links, time)  →   [s] float64[link, n], the age of the newest message on some links at the first samples
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from studio.world import channel
+from studio.world.board.post import Post
+from studio.world.world import World
+
+ROOM = 1 << 16  # changes that room is made for at a time at least
+NEVER = -1.0  # [s] in place of a time of sending
+
+
+@dataclass
+class Hearing:
+    """Changes so far: of which link, when what it has heard last was sent, and how many there were up to every sample."""
+
+    sender: np.ndarray  # units at the ends of every link
+    receiver: np.ndarray
+    newest: np.ndarray  # [s] float64[link], when the newest message was sent; NEVER while none has come
+    link: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))  # room for changes that are being written
+    sent: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    count: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int64))
+    full: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)
+    written: int = 0  # changes in `full`
+    until: list[int] = field(default_factory=list)  # per sample, how many changes there had been
+    there: list[tuple[int, np.ndarray]] = field(default_factory=list)  # from which sample on which units are there
+
+    def take(self, world: World) -> None:
+        """The next sample."""
+        if self.newest.size:
+            self.make_room()
+            channel.newly_heard(world, self.newest, self.link, self.sent, self.count)
+            self.until.append(self.written + int(self.count[0]))
+            self.look(channel.present(world))
+
+    def look(self, there: np.ndarray) -> None:
+        """Which units are there at this sample."""
+        if not self.there or (there != self.there[-1][1]).any():
+            self.there.append((len(self.until) - 1, there))
+
+    def make_room(self) -> None:
+        """So that a change of every link finds room."""
+        if self.count[0] + self.newest.size > self.link.size:
+            count, room = int(self.count[0]), max(ROOM, 2 * self.newest.size)
+            self.full.append((self.link[:count].copy(), self.sent[:count].copy()))
+            self.link, self.sent = np.empty(room, np.int32), np.empty(room)
+            self.written, self.count[0] = self.written + count, 0
+
+    def ages(self, links: Sequence[int], time: np.ndarray) -> np.ndarray:
+        """True age [s] of the newest message on some links at the first samples, the time since the start while none has come.
+
+        Not a number once one of its ends has left.
+        """
+        if not links or not time.size:
+            return np.zeros((len(links), time.size))
+        sent = self.newest_at(np.asarray(links), time.size)
+        ages = np.where(sent >= 0.0, time - sent, time)
+        there = self.presence(time.size)
+        ages[~(there[:, self.receiver[links]] & there[:, self.sender[links]]).T] = np.nan
+        return ages
+
+    def newest_at(self, links: np.ndarray, samples: int) -> np.ndarray:
+        """When the newest message on some links was sent [s], float64[link, sample]; it never goes back."""
+        parts = [*self.full, (self.link[: self.count[0]], self.sent[: self.count[0]])]
+        changed, sent = (np.concatenate(each) for each in zip(*parts, strict=True))
+        sample = np.repeat(np.arange(samples), np.diff(self.until[:samples], prepend=0))
+        place = np.full(self.newest.size, -1)
+        place[links] = np.arange(links.size)
+        row = place[changed[: sample.size]]
+        found = np.full((links.size, samples), NEVER)
+        found[row[row >= 0], sample[row >= 0]] = sent[: sample.size][row >= 0]
+        return np.maximum.accumulate(found, axis=1, out=found)
+
+    def presence(self, samples: int) -> np.ndarray:
+        """Which units are there, bool[sample, unit]."""
+        since, units = [first for first, _ in self.there], np.array([each for _, each in self.there])
+        return units[np.searchsorted(since, np.arange(samples), side="right") - 1]
+
+
+def hearing(posts: Sequence[Post]) -> Hearing:
+    """Of all links, which have heard nothing."""
+    sender = np.concatenate([np.zeros(0, np.int64), *(post.sender[post.link_sender] for post in posts)])
+    receiver = np.concatenate([np.zeros(0, np.int64), *(post.link_receiver for post in posts)])
+    return Hearing(sender, receiver, np.full(sender.size, NEVER))
