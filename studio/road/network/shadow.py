@@ -1,9 +1,10 @@
 """What buildings hide: how much of a straight line lies in them, and how much of the sky they cover.
 
     walls    float64[4, w]   x0, y0, x1, y1 of all outlines and holes, building after building, the inside on the left
-    bodies   float64[2, b]   base and top [m]
+    bodies   float64[6, b]   base and top [m]; the middle of the upright box around it, and half its extent to the east and north
     spans    int64[6, b]     first wall and count; columns and rows of the grid that the building reaches over
     grid                     which buildings lie in a cell
+    tops     float64[g]      of the cells of the grid, how high [m] the tallest of them rises above an eye
     sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within the grid
     mass     uint8[c]        of the same cells what stands there at the height of an eye: OPEN, PARTLY or wholly FULL of a building
 
@@ -17,12 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled, lean
+from studio.compiled import inlined, lean
 from studio.road.network import Building, Network, grid
-from studio.road.network.grid import CELLS, COLUMNS, ROWS, SOUTH, WEST, Grid, columns_passed, rows_passed
+from studio.road.network.grid import CELLS, COLUMNS, MARGIN, ROWS, SIZE, SOUTH, WEST, Grid, columns_passed, place, rows_passed
 from studio.road.network.index import once
 
-BASE, TOP = range(2)
+BASE, TOP, BOX_X, BOX_Y, HALF_X, HALF_Y = range(6)
 WALL_FIRST, WALL_COUNT, COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH = range(6)
 
 CELL = 32.0  # [m]
@@ -41,6 +42,7 @@ class Shadow(NamedTuple):
     bodies: np.ndarray
     spans: np.ndarray
     grid: Grid
+    tops: np.ndarray  # per cell
     sky_first: np.ndarray  # per map
     sky: np.ndarray
     mass: np.ndarray
@@ -65,17 +67,34 @@ def shadow(buildings: Sequence[Building]) -> Shadow:
         high = grid.place(frame, 0, own[0].max() + grid.MARGIN, own[1].max() + grid.MARGIN)
         spans[[COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH], b] = low[0], high[0], low[1], high[1]
     cells = int(frame[COLUMNS, 0] * frame[ROWS, 0]) * FINER**2
+    bodies = bodies_of(buildings, walls)
+    lists = grid.over_boxes(frame, spans[COLUMN_LOW:])
     made = Shadow(
         walls=flat,
-        bodies=np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T.copy(),
+        bodies=bodies,
         spans=spans,
-        grid=grid.over_boxes(frame, spans[COLUMN_LOW:]),
+        grid=lists,
+        tops=tallest(bodies, lists),
         sky_first=np.zeros(1, dtype=np.int64),
         sky=np.zeros(cells),
         mass=np.zeros(cells, dtype=np.uint8),
     )
     fill(made)
     return made
+
+
+def bodies_of(buildings: Sequence[Building], walls: Sequence[np.ndarray]) -> np.ndarray:
+    """Heights and boxes of buildings."""
+    low, high = (np.array([end(own[:2], axis=1) for own in walls]).reshape(-1, 2).T for end in (np.min, np.max))
+    heights = np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T
+    return np.concatenate([heights, 0.5 * (low + high), 0.5 * (high - low) + grid.MARGIN])
+
+
+def tallest(bodies: np.ndarray, lists: Grid) -> np.ndarray:
+    """How high [m] the tallest building of every cell rises above an eye; 0 where none does."""
+    tops = np.zeros(lists.first.size - 1)
+    np.maximum.at(tops, np.repeat(np.arange(tops.size), np.diff(lists.first)), bodies[TOP, lists.item] - EYE)
+    return tops
 
 
 def walls_of(building: Building) -> np.ndarray:
@@ -105,6 +124,7 @@ def joined(shadows: Sequence[Shadow]) -> Shadow:
         bodies=np.concatenate([each.bodies for each in shadows], axis=1),
         spans=np.concatenate(spans, axis=1),
         grid=grid.joined([each.grid for each in shadows], bodies.tolist()),
+        tops=np.concatenate([each.tops for each in shadows]),
         sky_first=skies,
         sky=np.concatenate([each.sky for each in shadows]),
         mass=np.concatenate([each.mass for each in shadows]),
@@ -114,7 +134,7 @@ def joined(shadows: Sequence[Shadow]) -> Shadow:
 # -- along a line ----------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def walls_between(shadow, m, x0, y0, z0, x1, y1, z1):
     """Walls that a straight line on map m crosses, and the metres of it that lie inside buildings."""
     frame = shadow.grid.frame
@@ -139,7 +159,7 @@ def walls_between(shadow, m, x0, y0, z0, x1, y1, z1):
     return walls, inside * length
 
 
-@compiled
+@lean
 def is_passed_before(spans, b, column, row, first, low, south, north):
     """Whether a line has met building b before this cell, in this column or in the one before, where it passed rows south to north.
 
@@ -150,7 +170,7 @@ def is_passed_before(spans, b, column, row, first, low, south, north):
     return column > max(low, spans[COLUMN_LOW, b]) and south <= spans[ROW_HIGH, b] and north >= spans[ROW_LOW, b]
 
 
-@compiled
+@lean
 def through(shadow, b, x0, y0, z0, x1, y1, z1):
     """Walls of building b that a line crosses, and the share of the line that lies inside it.
 
@@ -179,7 +199,7 @@ def through(shadow, b, x0, y0, z0, x1, y1, z1):
     return crossed, max(share + (inside_before - balance) * end - inside_before * begin, 0.0)
 
 
-@compiled
+@lean
 def level(z0, z1, base, top):
     """The part of a line from z0 to z1, as two shares of it, that lies between two heights [m]; begin >= end: none."""
     if z0 == z1:
@@ -191,7 +211,7 @@ def level(z0, z1, base, top):
 # -- the sky ---------------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def open_sky(shadow, m, x, y):
     """Share of the sky that is open above a place on map m, to the size of a cell; worked out when first asked for."""
     frame = shadow.grid.frame
@@ -207,61 +227,119 @@ def open_sky(shadow, m, x, y):
     return shadow.sky[cell] - 1.0
 
 
-@compiled
+@lean
 def sky_above(shadow, m, x, y):
     """Share of the hemisphere above a place that no building hides: the mean of 1 - sin(horizon) over all azimuths.
 
     Above the elevation e lies the share 1 - sin(e) of a sector of the hemisphere. Under a building there is no sky, and below
     one that hangs in the air none is counted.
     """
+    if is_under_roof(shadow, m, x, y):
+        return 0.0
     hidden = 0.0
     for k in range(AZIMUTHS):
         angle = 2.0 * pi * (k + 0.5) / AZIMUTHS
-        rise = steepest(shadow, m, x, y, x + SKY_REACH * cos(angle), y + SKY_REACH * sin(angle))
-        hidden += rise / sqrt(1.0 + rise * rise) if rise < inf else 1.0
+        rise = steepest(shadow, m, x, y, SKY_REACH * cos(angle), SKY_REACH * sin(angle))
+        hidden += rise / sqrt(1.0 + rise * rise)
     return 1.0 - hidden / AZIMUTHS
 
 
-@compiled
-def steepest(shadow, m, x0, y0, x1, y1):
-    """Greatest rise [1] from the eye at the start of a line to the top of a building on it; infinite inside one."""
-    frame = shadow.grid.frame
-    rise = 0.0
-    low, high = columns_passed(frame, m, min(x0, x1), max(x0, x1))
-    south, north = 0, -1
-    for column in range(low, high + 1):
-        if x0 <= x1:
-            first, last = rows_passed(frame, m, column, x0, y0, x1, y1)
+@lean
+def is_under_roof(shadow, m, x, y):
+    """Whether a place lies in a building, or below one, that is higher than an eye."""
+    column, row = place(shadow.grid.frame, m, x, y)
+    at = cell_of(shadow.grid.frame, m, column, row)
+    for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]) if at >= 0 else range(0):
+        b = shadow.grid.item[k]
+        if shadow.bodies[TOP, b] > EYE and is_within(shadow, b, x, y):
+            return True
+    return False
+
+
+@inlined
+def cell_of(frame, m, column, row):
+    """The number of a cell; -1 for one that is not in the grid."""
+    columns = int(frame[COLUMNS, m])
+    if 0 <= column < columns and 0 <= row < int(frame[ROWS, m]):
+        return int(frame[CELLS, m]) + row * columns + column
+    return -1
+
+
+@lean
+def steepest(shadow, m, x, y, dx, dy):
+    """Greatest rise [1] from an eye at x, y to the top of a building on a line of SKY_REACH (dx, dy) from there.
+
+    The line is walked outwards from cell to cell, as in `walk`: where the tallest building is too low to rise over what is nearer, none is
+    looked at.
+    """
+    frame, rise, far = shadow.grid.frame, 0.0, 0.0
+    size = frame[SIZE, m]
+    column, row = place(frame, m, x, y)
+    last_column, last_row = -1, -1
+    along_x, along_y = passing(x - frame[WEST, m], column, dx, size), passing(y - frame[SOUTH, m], row, dy, size)
+    while far <= 1.0:
+        at = cell_of(frame, m, column, row)
+        if at >= 0 and shadow.tops[at] > rise * (far * SKY_REACH - MARGIN):
+            rise = steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy)
+        far, last_column, last_row = min(along_x, along_y), column, row
+        if along_x < along_y:
+            column, along_x = column + (1 if dx > 0.0 else -1), along_x + size / abs(dx)
         else:
-            first, last = rows_passed(frame, m, column, x1, y1, x0, y0)
-        for row in range(first, last + 1):
-            cell = int(frame[CELLS, m]) + row * int(frame[COLUMNS, m]) + column
-            for k in range(shadow.grid.first[cell], shadow.grid.first[cell + 1]):
-                b = shadow.grid.item[k]
-                if not is_passed_before(shadow.spans, b, column, row, first, low, south, north):
-                    rise = max(rise, rise_of(shadow, b, x0, y0, x1, y1))
-        south, north = first, last
+            row, along_y = row + (1 if dy > 0.0 else -1), along_y + size / abs(dy)
     return rise
 
 
-@compiled
-def rise_of(shadow, b, x0, y0, x1, y1):
-    """Rise [1] from the eye to the top of building b over its nearest wall on a line; infinite from inside."""
-    height = shadow.bodies[TOP, b] - EYE
-    if height <= 0.0:
-        return 0.0
-    dx, dy, nearest, starts_inside = x1 - x0, y1 - y0, inf, False
+@inlined
+def passing(begin, at, step, size):
+    """The share of a line at which it leaves its first cell; `begin` [m] from the first edge of all, `step` [m] its length that way."""
+    return ((at + 1 if step > 0.0 else at) * size - begin) / step if step != 0.0 else inf
+
+
+@inlined
+def steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy):
+    """The same with the buildings of one cell that do not reach into the cell before, where they have been looked at."""
+    for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
+        b = shadow.grid.item[k]
+        height = shadow.bodies[TOP, b] - EYE
+        is_known = is_over(shadow.spans, b, last_column, last_row)
+        if height > 0.0 and not is_known and may_rise(shadow, b, height, rise, x, y, dx, dy):
+            rise = max(rise, rise_of(shadow, b, height, x, y, dx, dy))
+    return rise
+
+
+@inlined
+def is_over(spans, b, column, row):
+    """Whether building b reaches over a cell."""
+    return spans[COLUMN_LOW, b] <= column <= spans[COLUMN_HIGH, b] and spans[ROW_LOW, b] <= row <= spans[ROW_HIGH, b]
+
+
+@inlined
+def may_rise(shadow, b, height, rise, x, y, dx, dy):
+    """Whether a line from an eye meets the box around building b, and its top could rise higher there than `rise`."""
+    east, north = shadow.bodies[BOX_X, b] - x, shadow.bodies[BOX_Y, b] - y
+    if misses(shadow.bodies, b, east, north, dx, dy):
+        return False
+    aside, ahead = max(abs(east) - shadow.bodies[HALF_X, b], 0.0), max(abs(north) - shadow.bodies[HALF_Y, b], 0.0)
+    return height * height > rise * rise * (aside * aside + ahead * ahead)
+
+
+@inlined
+def misses(bodies, b, east, north, dx, dy):
+    """Whether the straight line (dx, dy) misses the box around building b, whose middle is so far [m] from a place on it."""
+    return abs(dx * north - dy * east) > abs(dx) * bodies[HALF_Y, b] + abs(dy) * bodies[HALF_X, b]
+
+
+@lean
+def rise_of(shadow, b, height, x, y, dx, dy):
+    """Rise [1] from an eye to the top of building b, so high [m] above it, over its nearest wall on a line."""
+    nearest = inf
     for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
-        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x0, shadow.walls[1, i] - y0, shadow.walls[2, i] - x0, shadow.walls[3, i] - y0
-        if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
-            starts_inside = not starts_inside
+        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x, shadow.walls[1, i] - y, shadow.walls[2, i] - x, shadow.walls[3, i] - y
         side_a, side_b = dx * a_y - dy * a_x, dx * b_y - dy * b_x
         if (side_a > 0.0) != (side_b > 0.0):
             t = (a_x * (b_y - a_y) - a_y * (b_x - a_x)) / (side_b - side_a)
             if 0.0 <= t < nearest:
                 nearest = t
-    if starts_inside:
-        return inf
     return height / max(nearest * SKY_REACH, 1e-9) if nearest < 1.0 else 0.0
 
 
