@@ -37,6 +37,7 @@ ADDED = TROUBLE.row("added_delay", "s", "added to the delay of what it sends")
 SATELLITE = Table("satellite", Role.DERIVED, per="vehicle")
 DRIFT_EAST = SATELLITE.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
 DRIFT_NORTH = SATELLITE.row("drift_north", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
+SKY = SATELLITE.row("sky", "1", "share of the sky that was open when the receiver looked up last", role=Role.STATE)
 GPS_EAST = SATELLITE.row("gps_error_east", "m", "measured minus true position", label="Error of the satellite position to the east")
 GPS_NORTH = SATELLITE.row("gps_error_north", "m", "measured minus true position", label="Error of the satellite position to the north")
 
