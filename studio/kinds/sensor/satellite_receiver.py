@@ -9,7 +9,7 @@ phase (RTK) 0.02 m (ION, Navigation; P. D. Groves, Principles of GNSS, Inertial,
 ch. 9 and 10). How much larger errors are between houses, and the delays, are estimated.
 """
 
-from math import atan2, cos, sin
+from math import atan2, sqrt
 from typing import Annotated, NamedTuple
 
 from studio.compiled import inlined
@@ -80,7 +80,7 @@ def sky_of(view, me, memory):
 @inlined
 def course(memory, east, north):
     """The heading over ground, and the speed."""
-    speed = (east * east + north * north) ** 0.5
+    speed = sqrt(east * east + north * north)
     return (atan2(north, east) if speed > SLOW else memory.heading), speed
 
 
@@ -95,8 +95,8 @@ def measure(view, me, settings, memory, out):
     sigma = satellite.spread(settings.drift, settings.canyon_factor, sky)
     x = me.x + sigma * z_east + settings.noise * c
     y = me.y + sigma * z_north + settings.noise * d
-    east = me.speed * cos(me.heading) + settings.speed_noise * e
-    north = me.speed * sin(me.heading) + settings.speed_noise * f
+    east = me.speed * me.cosine + settings.speed_noise * e
+    north = me.speed * me.sine + settings.speed_noise * f
     heading, speed = course(memory, east, north)
-    report(out, me, 0, Reading(x, y, heading, speed, (sigma * sigma + settings.noise * settings.noise) ** 0.5))
+    report(out, me, 0, Reading(x, y, heading, speed, sqrt(sigma * sigma + settings.noise * settings.noise)))
     return 1, Memory(z_east, z_north, view.time, heading, sky)

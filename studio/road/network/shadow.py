@@ -1,11 +1,11 @@
 """What buildings hide: how much of a straight line lies in them, and how much of the sky they cover.
 
     walls    float64[4, w]   x0, y0, x1, y1 of all outlines and holes, building after building, the inside on the left
-    bodies   float64[6, b]   base and top [m]; the middle of the upright box around it, and half its extent to the east and north
-    spans    int64[6, b]     first wall and count; columns and rows of the grid that the building reaches over
+    bodies   float64[b, 6]   base and top [m]; the middle of the upright box around it, and half its extent to the east and north
+    spans    int64[b, 6]     first wall and count; columns and rows of the grid that the building reaches over
     grid                     which buildings lie in a cell
     tops     float64[g]      of the cells of the grid, how high [m] the tallest of them rises above an eye
-    sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within the grid
+    sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within those of the grid
     mass     uint8[c]        of the same cells what stands there at the height of an eye: OPEN, PARTLY or wholly FULL of a building
 
 A line is looked at from its western end, so that both directions give the same bits. Several maps are joined like those of
@@ -43,7 +43,6 @@ class Shadow(NamedTuple):
     spans: np.ndarray
     grid: Grid
     tops: np.ndarray  # per cell
-    sky_first: np.ndarray  # per map
     sky: np.ndarray
     mass: np.ndarray
 
@@ -60,22 +59,21 @@ def shadow(buildings: Sequence[Building]) -> Shadow:
     counts = np.array([own.shape[1] for own in walls], dtype=np.int64)
     flat = np.concatenate([np.empty((4, 0)), *walls], axis=1)
     frame = grid.frame_around(flat[0], flat[1], size=CELL, margin=SKY_REACH)
-    spans = np.zeros((6, len(walls)), dtype=np.int64)
-    spans[WALL_FIRST], spans[WALL_COUNT] = np.cumsum(counts) - counts, counts
+    spans = np.zeros((len(walls), 6), dtype=np.int64)
+    spans[:, WALL_FIRST], spans[:, WALL_COUNT] = np.cumsum(counts) - counts, counts
     for b, own in enumerate(walls):
         low = grid.place(frame, 0, own[0].min() - grid.MARGIN, own[1].min() - grid.MARGIN)
         high = grid.place(frame, 0, own[0].max() + grid.MARGIN, own[1].max() + grid.MARGIN)
-        spans[[COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH], b] = low[0], high[0], low[1], high[1]
+        spans[b, [COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH]] = low[0], high[0], low[1], high[1]
     cells = int(frame[COLUMNS, 0] * frame[ROWS, 0]) * FINER**2
     bodies = bodies_of(buildings, walls)
-    lists = grid.over_boxes(frame, spans[COLUMN_LOW:])
+    lists = grid.over_boxes(frame, spans[:, COLUMN_LOW:].T)
     made = Shadow(
         walls=flat,
         bodies=bodies,
         spans=spans,
         grid=lists,
         tops=tallest(bodies, lists),
-        sky_first=np.zeros(1, dtype=np.int64),
         sky=np.zeros(cells),
         mass=np.zeros(cells, dtype=np.uint8),
     )
@@ -87,13 +85,13 @@ def bodies_of(buildings: Sequence[Building], walls: Sequence[np.ndarray]) -> np.
     """Heights and boxes of buildings."""
     low, high = (np.array([end(own[:2], axis=1) for own in walls]).reshape(-1, 2).T for end in (np.min, np.max))
     heights = np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T
-    return np.concatenate([heights, 0.5 * (low + high), 0.5 * (high - low) + grid.MARGIN])
+    return np.concatenate([heights, 0.5 * (low + high), 0.5 * (high - low) + grid.MARGIN]).T.copy()
 
 
 def tallest(bodies: np.ndarray, lists: Grid) -> np.ndarray:
     """How high [m] the tallest building of every cell rises above an eye; 0 where none does."""
     tops = np.zeros(lists.first.size - 1)
-    np.maximum.at(tops, np.repeat(np.arange(tops.size), np.diff(lists.first)), bodies[TOP, lists.item] - EYE)
+    np.maximum.at(tops, np.repeat(np.arange(tops.size), np.diff(lists.first)), bodies[lists.item, TOP] - EYE)
     return tops
 
 
@@ -112,20 +110,19 @@ def turned(ring: np.ndarray, *, left: bool) -> np.ndarray:
 
 def joined(shadows: Sequence[Shadow]) -> Shadow:
     """The buildings of several maps; their order is the number of a map."""
-    bodies, walls, skies = (
+    bodies, walls = (
         np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64)
-        for sizes in np.array([(each.bodies.shape[1], each.walls.shape[1], each.sky.size) for each in shadows]).T
+        for sizes in np.array([(each.bodies.shape[0], each.walls.shape[1]) for each in shadows]).T
     )
     spans = [each.spans.copy() for each in shadows]
     for own, first in zip(spans, walls, strict=True):
-        own[WALL_FIRST] += first
+        own[:, WALL_FIRST] += first
     return Shadow(
         walls=np.concatenate([each.walls for each in shadows], axis=1),
-        bodies=np.concatenate([each.bodies for each in shadows], axis=1),
-        spans=np.concatenate(spans, axis=1),
+        bodies=np.concatenate([each.bodies for each in shadows]),
+        spans=np.concatenate(spans),
         grid=grid.joined([each.grid for each in shadows], bodies.tolist()),
         tops=np.concatenate([each.tops for each in shadows]),
-        sky_first=skies,
         sky=np.concatenate([each.sky for each in shadows]),
         mass=np.concatenate([each.mass for each in shadows]),
     )
@@ -165,9 +162,9 @@ def is_passed_before(spans, b, column, row, first, low, south, north):
 
     A building lies in a rectangle of cells, and the line leaves that only once.
     """
-    if row > max(first, spans[ROW_LOW, b]):
+    if row > max(first, spans[b, ROW_LOW]):
         return True
-    return column > max(low, spans[COLUMN_LOW, b]) and south <= spans[ROW_HIGH, b] and north >= spans[ROW_LOW, b]
+    return column > max(low, spans[b, COLUMN_LOW]) and south <= spans[b, ROW_HIGH] and north >= spans[b, ROW_LOW]
 
 
 @lean
@@ -177,12 +174,12 @@ def through(shadow, b, x0, y0, z0, x1, y1, z1):
     Along the line, t from 0 to 1, the inside adds up to the sum of t where it is left minus that where it is entered, t held
     within the part of the line that is neither above nor below the building.
     """
-    begin, end = level(z0, z1, shadow.bodies[BASE, b], shadow.bodies[TOP, b])
+    begin, end = level(z0, z1, shadow.bodies[b, BASE], shadow.bodies[b, TOP])
     if begin >= end:
         return 0, 0.0
     dx, dy = x1 - x0, y1 - y0
     crossed, balance, share, starts_inside = 0, 0, 0.0, False
-    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+    for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
         a_x, a_y, b_x, b_y = shadow.walls[0, i] - x0, shadow.walls[1, i] - y0, shadow.walls[2, i] - x0, shadow.walls[3, i] - y0
         if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
             starts_inside = not starts_inside
@@ -220,7 +217,7 @@ def open_sky(shadow, m, x, y):
     if not (0.0 <= east < columns and 0.0 <= north < rows):
         return 1.0
     i, j = int(east), int(north)
-    cell = shadow.sky_first[m] + j * columns + i
+    cell = fine(frame, m, i, j)
     if shadow.sky[cell] == 0.0:
         middle_x, middle_y = frame[WEST, m] + (i + 0.5) * SKY_CELL, frame[SOUTH, m] + (j + 0.5) * SKY_CELL
         shadow.sky[cell] = 1.0 + sky_above(shadow, m, middle_x, middle_y)
@@ -251,7 +248,7 @@ def is_under_roof(shadow, m, x, y):
     at = cell_of(shadow.grid.frame, m, column, row)
     for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]) if at >= 0 else range(0):
         b = shadow.grid.item[k]
-        if shadow.bodies[TOP, b] > EYE and is_within(shadow, b, x, y):
+        if shadow.bodies[b, TOP] > EYE and is_within(shadow, b, x, y):
             return True
     return False
 
@@ -265,7 +262,14 @@ def cell_of(frame, m, column, row):
     return -1
 
 
-@lean
+@inlined
+def fine(frame, m, i, j):
+    """The number of a cell of SKY_CELL by its column and row: those of one cell of the grid stand together, as lines pass them."""
+    cell = int(frame[CELLS, m]) + (j // FINER) * int(frame[COLUMNS, m]) + i // FINER
+    return (cell * FINER + j % FINER) * FINER + i % FINER
+
+
+@inlined
 def steepest(shadow, m, x, y, dx, dy):
     """Greatest rise [1] from an eye at x, y to the top of a building on a line of SKY_REACH (dx, dy) from there.
 
@@ -300,7 +304,7 @@ def steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy):
     """The same with the buildings of one cell that do not reach into the cell before, where they have been looked at."""
     for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
         b = shadow.grid.item[k]
-        height = shadow.bodies[TOP, b] - EYE
+        height = shadow.bodies[b, TOP] - EYE
         is_known = is_over(shadow.spans, b, last_column, last_row)
         if height > 0.0 and not is_known and may_rise(shadow, b, height, rise, x, y, dx, dy):
             rise = max(rise, rise_of(shadow, b, height, x, y, dx, dy))
@@ -310,30 +314,30 @@ def steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy):
 @inlined
 def is_over(spans, b, column, row):
     """Whether building b reaches over a cell."""
-    return spans[COLUMN_LOW, b] <= column <= spans[COLUMN_HIGH, b] and spans[ROW_LOW, b] <= row <= spans[ROW_HIGH, b]
+    return spans[b, COLUMN_LOW] <= column <= spans[b, COLUMN_HIGH] and spans[b, ROW_LOW] <= row <= spans[b, ROW_HIGH]
 
 
 @inlined
 def may_rise(shadow, b, height, rise, x, y, dx, dy):
     """Whether a line from an eye meets the box around building b, and its top could rise higher there than `rise`."""
-    east, north = shadow.bodies[BOX_X, b] - x, shadow.bodies[BOX_Y, b] - y
+    east, north = shadow.bodies[b, BOX_X] - x, shadow.bodies[b, BOX_Y] - y
     if misses(shadow.bodies, b, east, north, dx, dy):
         return False
-    aside, ahead = max(abs(east) - shadow.bodies[HALF_X, b], 0.0), max(abs(north) - shadow.bodies[HALF_Y, b], 0.0)
+    aside, ahead = max(abs(east) - shadow.bodies[b, HALF_X], 0.0), max(abs(north) - shadow.bodies[b, HALF_Y], 0.0)
     return height * height > rise * rise * (aside * aside + ahead * ahead)
 
 
 @inlined
 def misses(bodies, b, east, north, dx, dy):
     """Whether the straight line (dx, dy) misses the box around building b, whose middle is so far [m] from a place on it."""
-    return abs(dx * north - dy * east) > abs(dx) * bodies[HALF_Y, b] + abs(dy) * bodies[HALF_X, b]
+    return abs(dx * north - dy * east) > abs(dx) * bodies[b, HALF_Y] + abs(dy) * bodies[b, HALF_X]
 
 
-@lean
+@inlined
 def rise_of(shadow, b, height, x, y, dx, dy):
     """Rise [1] from an eye to the top of building b, so high [m] above it, over its nearest wall on a line."""
     nearest = inf
-    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+    for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
         a_x, a_y, b_x, b_y = shadow.walls[0, i] - x, shadow.walls[1, i] - y, shadow.walls[2, i] - x, shadow.walls[3, i] - y
         side_a, side_b = dx * a_y - dy * a_x, dx * b_y - dy * b_x
         if (side_a > 0.0) != (side_b > 0.0):
@@ -349,37 +353,37 @@ def rise_of(shadow, b, height, x, y, dx, dy):
 @lean
 def is_at_eye(shadow, b):
     """Whether building b stands at the height of an eye."""
-    return shadow.bodies[BASE, b] < EYE < shadow.bodies[TOP, b]
+    return shadow.bodies[b, BASE] < EYE < shadow.bodies[b, TOP]
 
 
 @lean
 def fill(shadow):
     """Notes of the cells of one map what stands there: first the cells within buildings, then those that walls pass."""
     frame = shadow.grid.frame
-    for b in range(shadow.bodies.shape[1]):
+    for b in range(shadow.bodies.shape[0]):
         if is_at_eye(shadow, b):
-            fill_within(shadow, b, frame[WEST, 0], frame[SOUTH, 0], int(frame[COLUMNS, 0]) * FINER)
-    for b in range(shadow.bodies.shape[1]):
+            fill_within(shadow, b, frame[WEST, 0], frame[SOUTH, 0])
+    for b in range(shadow.bodies.shape[0]):
         if is_at_eye(shadow, b):
-            for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+            for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
                 x0, y0, x1, y1 = shadow.walls[0, i], shadow.walls[1, i], shadow.walls[2, i], shadow.walls[3, i]
-                walk(frame, shadow.sky_first, shadow.mass, 0, x0, y0, x1, y1, True)
+                walk(frame, shadow.mass, 0, x0, y0, x1, y1, True)
 
 
 @lean
-def fill_within(shadow, b, west, south, columns):
+def fill_within(shadow, b, west, south):
     """Marks the cells whose middle lies in building b as full of it."""
-    for j in range(shadow.spans[ROW_LOW, b] * FINER, (shadow.spans[ROW_HIGH, b] + 1) * FINER):
-        for i in range(shadow.spans[COLUMN_LOW, b] * FINER, (shadow.spans[COLUMN_HIGH, b] + 1) * FINER):
+    for j in range(shadow.spans[b, ROW_LOW] * FINER, (shadow.spans[b, ROW_HIGH] + 1) * FINER):
+        for i in range(shadow.spans[b, COLUMN_LOW] * FINER, (shadow.spans[b, COLUMN_HIGH] + 1) * FINER):
             if is_within(shadow, b, west + (i + 0.5) * SKY_CELL, south + (j + 0.5) * SKY_CELL):
-                shadow.mass[j * columns + i] = FULL
+                shadow.mass[fine(shadow.grid.frame, 0, i, j)] = FULL
 
 
-@lean
+@inlined
 def is_within(shadow, b, x, y):
     """Whether a place lies in building b: a line from it to the east crosses an odd number of walls."""
     inside = False
-    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+    for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
         a_x, a_y, b_x, b_y = shadow.walls[0, i] - x, shadow.walls[1, i] - y, shadow.walls[2, i] - x, shadow.walls[3, i] - y
         if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
             inside = not inside
@@ -387,7 +391,7 @@ def is_within(shadow, b, x, y):
 
 
 @lean
-def walk(frame, first, mass, m, x0, y0, x1, y1, marks):
+def walk(frame, mass, m, x0, y0, x1, y1, marks):
     """Goes along a line on map m from cell to cell: what stands in the fullest of them; `marks` them as PARTLY full instead.
 
     From cell to cell as in J. Amanatides, A. Woo, A fast voxel traversal algorithm for ray tracing, Eurographics 1987.
@@ -402,7 +406,7 @@ def walk(frame, first, mass, m, x0, y0, x1, y1, marks):
     most = OPEN
     for k in range(steps + 1):
         if 0 <= i < columns and 0 <= j < rows:
-            cell = first[m] + j * columns + i
+            cell = fine(frame, m, i, j)
             if marks:
                 mass[cell] = PARTLY
             most = max(most, int(mass[cell]))

@@ -268,10 +268,10 @@ def cover_buildings(view, me, i, sight, blocks):
     x0, y0 = of_world(me, distance * cos(sight[LOW, i]), distance * sin(sight[LOW, i]))
     x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
     x2, y2 = of_world(me, sight[SEEN_X, i], sight[SEEN_Y, i])
-    frame, first, mass = view.shadow.grid.frame, view.shadow.sky_first, view.shadow.mass
-    a = walk(frame, first, mass, place, me.eye_x, me.eye_y, x0, y0, False)
-    b = walk(frame, first, mass, place, me.eye_x, me.eye_y, x1, y1, False)
-    c = walk(frame, first, mass, place, me.eye_x, me.eye_y, x2, y2, False)
+    frame, mass = view.shadow.grid.frame, view.shadow.mass
+    a = walk(frame, mass, place, me.eye_x, me.eye_y, x0, y0, False)
+    b = walk(frame, mass, place, me.eye_x, me.eye_y, x1, y1, False)
+    c = walk(frame, mass, place, me.eye_x, me.eye_y, x2, y2, False)
     if max(a, b, c) == OPEN:
         return blocks
     if min(a, b, c) == FULL:
@@ -305,10 +305,10 @@ def cover_walls(shadow, place, me, i, x0, y0, x1, y1, sight, blocks):
             at = int(frame[CELLS, place]) + row * columns + column
             for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
                 b = shadow.grid.item[k]
-                is_new = column == max(first_column, shadow.spans[COLUMN_LOW, b]) and row == max(first_row, shadow.spans[ROW_LOW, b])
+                is_new = column == max(first_column, shadow.spans[b, COLUMN_LOW]) and row == max(first_row, shadow.spans[b, ROW_LOW])
                 if is_new and is_at_eye(shadow, b) and not is_box_beside(shadow.bodies, b, me, wedge):
-                    first = shadow.spans[WALL_FIRST, b]
-                    for w in range(first, first + shadow.spans[WALL_COUNT, b]):
+                    first = shadow.spans[b, WALL_FIRST]
+                    for w in range(first, first + shadow.spans[b, WALL_COUNT]):
                         blocks = cover_wall(shadow.walls, w, me, i, wedge, sight, blocks)
     return blocks
 
@@ -324,8 +324,8 @@ def wedge_of(me, x0, y0, x1, y1, width):
 @inlined
 def is_box_beside(bodies, b, me, wedge):
     """Whether the box around a building lies wholly to the right of the right edge or to the left of the left one."""
-    east, north = bodies[BOX_X, b] - me.eye_x, bodies[BOX_Y, b] - me.eye_y
-    east_half, north_half = bodies[HALF_X, b], bodies[HALF_Y, b]
+    east, north = bodies[b, BOX_X] - me.eye_x, bodies[b, BOX_Y] - me.eye_y
+    east_half, north_half = bodies[b, HALF_X], bodies[b, HALF_Y]
     x0, y0, x1, y1 = wedge
     return (
         x0 * north - y0 * east < -(abs(x0) * north_half + abs(y0) * east_half)
@@ -416,7 +416,7 @@ def glimpse(view, me, half, cones, least, found):
     sight, blocks, near = view.sight, 0, view.sight[NEAR, 0]
     for k in range(found):
         v = view.found[k]
-        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0:
+        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0 and not is_beyond(view, me, v, near):
             put_vehicle(view, me, v, 1)
             blocks = cover_if_nearer(near, sight, blocks)
     first = view.first_object[me.world]
@@ -433,6 +433,14 @@ def glimpse(view, me, half, cones, least, found):
     if has_houses:
         blocks = cover_buildings(view, me, 0, sight, blocks)
     return see(0, half, sight, blocks) and sight[SHARE, 0] >= least
+
+
+@inlined
+def is_beyond(view, me, v, near):
+    """Whether no part of vehicle v can be as near as that [m], by its centre of gravity."""
+    dx, dy = view.state[X, v] - me.eye_x, view.state[Y, v] - me.eye_y
+    reach = near + view.longest + 0.5 * view.parameter[WIDTH, v]
+    return dx * dx + dy * dy > reach * reach
 
 
 @inlined

@@ -51,6 +51,7 @@ SENSOR = Table("sensor", Role.STATE, per="sensor")
 FAILS = SENSOR.row("fails", "1", "1 while it gives nothing: a fault that the script may set")
 NOISE = SENSOR.row("noise", "1", "factor on all of its noise, 1 when it is well: a fault that the script may set")
 MEASURED = SENSOR.row("measured", "s", "true time at which what it gives was measured; -1 while it has given nothing")
+NEXT = SENSOR.row("next", "s", "true time from which on the next measurement is given; infinite while none is under way")
 
 # What a sensor has measured and not given yet stands in a ring, one column per slot; these rows beside what it gives.
 OUTPUT = Table("output", Role.STATE, per="slot of the ring of a sensor")
