@@ -5,7 +5,7 @@ Source: J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, SC 201
 one batch that are to differ by chance have different seeds.
 """
 
-from math import cos, log, pi, sin, sqrt
+from math import cos, log, pi, sqrt
 
 import numpy as np
 
@@ -98,11 +98,3 @@ def quantile(p):
         above = ((0.017337203997 * r + 0.42868294337) * r + 3.0812263860) * r + 6.6579051150
         z = above / ((0.012258202635 * r + 0.24197894225) * r + 1.0)
     return -z if q < 0.0 else z
-
-
-@compiled
-def normal_pair(seed, entity, stream, tick):
-    """Two independent numbers of the standard normal distribution; the first is that of `normal`."""
-    a, b, c, d = philox(tick, entity, stream, 0, np.uint64(seed) & LOW, np.uint64(seed) >> HALF)
-    radius, angle = sqrt(-2.0 * log(unit(a, b))), 2.0 * pi * unit(c, d)
-    return radius * cos(angle), radius * sin(angle)

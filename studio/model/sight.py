@@ -33,19 +33,22 @@ def edges(x, y, c, s, length, width):
 
 @inlined
 def widest(x, y, c, s, length, width):
-    """The same for an outline that is beside or behind the sensor, or around it: corners are told by their angles against its middle."""
+    """The same for an outline that is beside or behind the sensor, or around it: the outermost to each side of its middle."""
     if holds(x, y, c, s, length, width):
         return -pi, pi
-    low, high = 0.0, 0.0
+    low_x, low_y, high_x, high_y = x, y, x, y
     for i in range(4):
         along, aside = (0.5 - i // 2) * length, (0.5 - i % 2) * width
         px, py = x + along * c - aside * s, y + along * s + aside * c
-        angle = atan2(x * py - y * px, x * px + y * py)
-        low, high = min(low, angle), max(high, angle)
-    first = atan2(y, x) + low
+        if x * py - y * px >= 0.0:
+            if high_x * py - high_y * px > 0.0:
+                high_x, high_y = px, py
+        elif low_x * py - low_y * px < 0.0:
+            low_x, low_y = px, py
+    first = atan2(low_y, low_x)
     if first <= -pi:
         first += 2.0 * pi
-    return first, first + (high - low)
+    return first, first + atan2(low_x * high_y - low_y * high_x, low_x * high_x + low_y * high_y)
 
 
 @inlined

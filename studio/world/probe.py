@@ -99,16 +99,15 @@ def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:
             place += 1
 
 
+FIRST, STEP, COUNT, COUNTER, SLOT, WHERE = range(6)  # of a stretch: numbers of an array that follow each other, and where they go
+
+
 class Share(NamedTuple):
-    """What is read from one array in one call: from some columns the same rows, which go to places that follow each other."""
+    """What is read from one array in one call: stretches of it, int64[row, stretch], in the array laid out in one line."""
 
     owner: Any
     field: str
-    first: int  # row
-    count: int  # of rows
-    slot: int
-    columns: np.ndarray
-    where: np.ndarray
+    stretches: np.ndarray
 
 
 @dataclass
@@ -119,24 +118,18 @@ class Reader:
     shares: list[Share] = field(init=False)
 
     def __post_init__(self) -> None:
-        places: dict[tuple, list[tuple[int, int]]] = {}
+        found: dict[tuple, list[tuple[int, ...]]] = {}
         owners = {}
         for start, count in runs(self.probes):
             each = self.probes[start]
             owners[id(each.owner)] = each.owner
-            places.setdefault((id(each.owner), each.field, each.row, count, each.slot), []).append((each.column, start))
-        self.shares = [
-            Share(owners[owner], name, max(row, 0), count, slot, *np.array(some, dtype=np.int64).T.copy())
-            for (owner, name, row, count, slot), some in places.items()
-        ]
+            found.setdefault((id(each.owner), each.field), []).append(stretch(each, count, start))
+        self.shares = [Share(owners[owner], name, np.array(some, dtype=np.int64).T.copy()) for (owner, name), some in found.items()]
 
     def read(self, values: np.ndarray) -> None:
         """All values now, float64[probe]; not a number where there is no target."""
         for each in self.shares:
-            array = getattr(each.owner, each.field)
-            pick(
-                array if array.ndim == 2 else array[None].astype(float), each.first, each.count, each.slot, each.columns, each.where, values
-            )
+            pick(getattr(each.owner, each.field).reshape(-1).astype(float, copy=False), each.stretches, values)
 
 
 def runs(probes: list[Probe]) -> Iterator[tuple[int, int]]:
@@ -154,14 +147,22 @@ def follows(one: Probe, other: Probe) -> bool:
     return same and other.row == one.row + 1
 
 
+def stretch(probe: Probe, count: int, where: int) -> tuple[int, ...]:
+    """So many numbers from a probe's on, which go to a place: what a sensor gives stands together, all else row by row."""
+    array = getattr(probe.owner, probe.field)
+    along, across = (array.shape[1], 1) if probe.field == "out" else (1, array.shape[-1])
+    at = probe.column * along
+    return at + max(probe.row, 0) * across, across, count, at, probe.slot, where
+
+
 @lean
-def pick(array, first, count, slot, columns, where, values):
-    """Some rows of an array whose first row says how many targets there are."""
-    for i in range(columns.size):
-        c, at = columns[i], where[i]
-        there = slot < 0 or array[0, c] > slot
-        for r in range(count):
-            values[at + r] = array[first + r, c] if there else nan
+def pick(numbers, stretches, values):
+    """Some stretches of an array; not a number for those of a target beyond the number of targets."""
+    for i in range(stretches.shape[1]):
+        at, where = stretches[FIRST, i], stretches[WHERE, i]
+        there = stretches[SLOT, i] < 0 or numbers[stretches[COUNTER, i]] > stretches[SLOT, i]
+        for j in range(stretches[COUNT, i]):
+            values[where + j] = numbers[at + j * stretches[STEP, i]] if there else nan
 
 
 # -- for conditions --------------------------------------------------------------------------------------

@@ -429,7 +429,7 @@ class World:
         yield u.now[:, u.world == number]
         for each in u.mounted:
             mine = u.world[each.unit] == number
-            yield from (each.out[:, mine], each.ring[:, mine[each.slots]], each.output[:, mine[each.slots]])
+            yield from (each.out[mine], each.ring[mine[each.slots]], each.output[:, mine[each.slots]])
         for post in u.posts:
             yield post.newest(number, u.world)
             yield from (part[:, u.world[post.link_receiver] == number] for part in (post.inbox, post.memory))

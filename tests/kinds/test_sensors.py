@@ -45,7 +45,7 @@ def targets(each, i=0):
     """What a sensor gives, as Readings."""
     reading = each.kind.module.Reading
     size = len(reading._fields)
-    return [reading(*each.out[1 + k * size : 1 + (k + 1) * size, i].tolist()) for k in range(int(each.out[0, i]))]
+    return [reading(*each.out[i, 1 + k * size : 1 + (k + 1) * size].tolist()) for k in range(int(each.out[i, 0]))]
 
 
 # -- tracks --------------------------------------------------------------------------------------------
@@ -114,8 +114,8 @@ def test_a_file_in_another_order_and_a_batch_give_the_same(tmp_path):
         for _ in range(40):
             tick(world)
     alone, reverse, batch = (world.units.mounted[0].out for world in worlds)
-    assert alone.any() and np.array_equal(alone[:, 0], reverse[:, 0]) and np.array_equal(alone[:, 0], batch[:, 1])
-    assert np.array_equal(batch[:, 0], batch[:, 2]) and not np.array_equal(batch[:, 0], batch[:, 1])
+    assert alone.any() and np.array_equal(alone[0], reverse[0]) and np.array_equal(alone[0], batch[1])
+    assert np.array_equal(batch[0], batch[2]) and not np.array_equal(batch[0], batch[1])
     assert worlds[0].digest(0) == worlds[2].digest(1)
 
 
@@ -178,7 +178,7 @@ def test_receivers_differ_as_their_errors_say():
         run = stage(vehicles={name: {"sensors": receivers} for name in CARS}, seed=seed)
         tick(run.world)
         (each,) = run.world.units.mounted
-        differences.append(each.out[1:3, ::2] - each.out[1:3, 1::2])
+        differences.append((each.out[::2, 1:3] - each.out[1::2, 1:3]).T)
     found = np.array(differences)
     assert np.sqrt(np.mean(found**2)) == pytest.approx(2.163, rel=4.0 / sqrt(2.0 * found.size))
 
@@ -233,7 +233,7 @@ def test_the_bus_has_noise_where_it_is_asked_for():
         now = run.world.units.now[rows]
         errors.append(now[:, own] - state[[V_X, A_X, YAW_RATE, DELTA], own])
         assert np.array_equal(now[:, other], state[[V_X, A_X, YAW_RATE, DELTA], other])
-        assert each.out[2, 1] == pytest.approx(state[V_X, run.world.column("ahead")] - state[V_X, own], abs=1e-3)
+        assert each.out[1, 2] == pytest.approx(state[V_X, run.world.column("ahead")] - state[V_X, own], abs=1e-3)
     np.testing.assert_allclose(np.std(errors, axis=0), [0.1, 0.2, 0.01, 0.02], rtol=4.0 / sqrt(4000))
 
 

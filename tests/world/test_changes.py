@@ -191,7 +191,7 @@ def test_what_is_beyond_sight_is_not_reacted_to(sample):
     clear, fog = (run_for([scenario(sample, {}, alone=False, weather={"visibility": sight})], 0.02) for sight in (200.0, 12.0))
     assert np.nanmax(clear.vehicles.mind[GAP]) > 20.0 and np.nanmax(fog.vehicles.mind[GAP]) <= 12.0
     assert np.isfinite(clear.vehicles.mind[RED_STATION]).sum() > np.isfinite(fog.vehicles.mind[RED_STATION]).sum()
-    assert np.array_equal(clear.units.mounted[0].out, fog.units.mounted[0].out) and clear.units.mounted[0].out[0].any()
+    assert np.array_equal(clear.units.mounted[0].out, fog.units.mounted[0].out) and clear.units.mounted[0].out[:, 0].any()
 
 
 def test_nobody_collides_in_fog(sample):
@@ -320,7 +320,7 @@ def test_a_collision_with_an_object_is_told_by_its_name(sample):
 def test_the_radar_sees_a_barrier_at_rest_and_no_cone(sample):
     for kind, seen in (("barriers", True), ("cones", False)):
         world = run_for([scenario(sample, wall(what=kind))], 0.5)
-        (found, distance, rate, _), state = world.units.mounted[0].out[:, 0], world.vehicles.state[:, 0]
+        (found, distance, rate, _), state = world.units.mounted[0].out[0], world.vehicles.state[:, 0]
         assert found == seen
         if seen:
             assert distance == pytest.approx(450.0 - 0.75 - world.vehicles.mind[STATION, 0] - world.vehicles.parameter[FRONT, 0], abs=0.6)

@@ -109,8 +109,8 @@ def test_the_sensor_sees_the_car_ahead(sample):
         run.advance()
     (radars,), state = run.world.units.mounted, run.world.vehicles.state
     gap = np.hypot(*(state[:2, 0] - state[:2, 1])) - 4.508
-    assert radars.out[0, 1] == 1 and radars.out[1, 1] == pytest.approx(gap, abs=0.5)
-    assert not radars.out[:, 0].any()
+    assert radars.out[1, 0] == 1 and radars.out[1, 1] == pytest.approx(gap, abs=0.5)
+    assert not radars.out[0].any()
 
 
 def test_an_application_cannot_turn_the_wheels_too_far(sample):

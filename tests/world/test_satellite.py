@@ -8,7 +8,6 @@ import pytest
 from studio import job
 from studio.application.contract import Own
 from studio.model import satellite
-from studio.model.random import GPS_NOISE, normal, normal_pair
 from studio.road.network import Building, shadow
 from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
 from studio.world.build import build
@@ -108,16 +107,19 @@ def test_a_car_without_errors_knows_where_it_is():
     assert not wandered(5, n=3, drift=0.0, noise=0.0).any()
 
 
+def test_a_receiver_looks_up_once_a_second():
+    """At instants of its own: within any second each looks once, and no more than a few look at the same tick."""
+    looks = np.array([[satellite.looks_up((k - 1) * TICK, k * TICK, unit) for k in range(1, 501)] for unit in range(200)])
+    assert (looks.reshape(200, 10, 50).sum(axis=2) == 1).all()
+    assert looks.sum(axis=0).max() <= 6
+
+
 def test_errors_do_not_depend_on_the_batch():
     """Three worlds at once have bit for bit the errors that each has alone."""
     together = wandered(20, n=5, seeds=(3, 8, 3), noise=0.3)
     for i, seed in enumerate((3, 8, 3)):
         assert np.array_equal(together[:, :, 5 * i : 5 * i + 5], wandered(20, n=5, seeds=(seed,), noise=0.3))
     assert not np.array_equal(together[:, :, :5], together[:, :, 5:10])
-
-
-def test_the_first_of_a_pair_is_the_single_draw():
-    assert [normal_pair(7, 3, GPS_NOISE, k)[0] for k in range(20)] == [normal(7, 3, GPS_NOISE, k) for k in range(20)]
 
 
 # -- in the world ----------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ def looks(world, ticks, *, closing=10.0, braking=0.0, gap=GAP):
         state[[X, V_X], own], state[[X, V_X], ahead] = (0.0, 20.0), (true + length, 20.0 - closing - braking * t)
         gather(world)
         sense(world)
-        found.append((each.out[0, 0], each.out[1, 0], each.out[2, 0], age(each, t), true))
+        found.append((*each.out[0, :3], age(each, t), true))
     world.clock.k += 1
     return np.array(found).T
 

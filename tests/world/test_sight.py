@@ -187,5 +187,5 @@ def test_the_front_radar_measures_a_crossing_car_where_it_is_nearest():
     near_y = 2.0 - half
     x, y = 10.0 - parameter[WIDTH, other] / 2.0, max(near_y, 0.0)
     assert each.out[0, 0] == 1.0
-    assert each.out[1, 0] == pytest.approx(hypot(x, y), abs=1e-6)
-    assert each.out[2, 0] == pytest.approx((-10.0 * x + 5.0 * y) / hypot(x, y), abs=1e-5)
+    assert each.out[0, 1] == pytest.approx(hypot(x, y), abs=1e-6)
+    assert each.out[0, 2] == pytest.approx((-10.0 * x + 5.0 * y) / hypot(x, y), abs=1e-5)

@@ -24,12 +24,12 @@ from studio.vehicle.state import ACTIVE
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.sight import NEAR, SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, is_thing, put_object, put_vehicle, speed_of
 from studio.world.table.street import OBJECT
-from studio.world.view import around, draw_normal, glimpse, report
+from studio.world.view import around, draw_four, glimpse, report
 
 KIND = "sensor"
 TITLE = "Front radar with one target"
 CAPACITY = 1
-RANGE_NOISE, RATE_NOISE, AZIMUTH_NOISE = range(3)  # draws
+NOISE = 0  # draws
 FIRST_LOOK = 30.0  # [m]
 ASIDE = 1.0  # [m] by which what hides a car in the corridor may stand beside it
 
@@ -167,10 +167,9 @@ def measure(view, me, settings, memory, out):
         beyond = nearest
     x, y = view.sight[SEEN_X, 0], view.sight[SEEN_Y, 0]
     r = far(x, y)
-    seen = r + grown(settings.range_noise, settings.range_growth, r) * draw_normal(view, me, RANGE_NOISE)
-    rate = closing_rate(view, me, other, x, y) + grown(settings.rate_noise, settings.rate_growth, r) * draw_normal(view, me, RATE_NOISE)
-    azimuth, sigma = atan2(y, x), grown(settings.azimuth_noise, settings.azimuth_growth, r)
-    if sigma > 0.0:
-        azimuth += sigma * draw_normal(view, me, AZIMUTH_NOISE)
+    a, b, c, _ = draw_four(view, me, NOISE)
+    seen = r + grown(settings.range_noise, settings.range_growth, r) * a
+    rate = closing_rate(view, me, other, x, y) + grown(settings.rate_noise, settings.rate_growth, r) * b
+    azimuth = atan2(y, x) + grown(settings.azimuth_noise, settings.azimuth_growth, r) * c
     report(out, me, 0, Reading(max(seen, 0.0), rate, azimuth))
     return 1

@@ -9,7 +9,7 @@ phase (RTK) 0.02 m (ION, Navigation; P. D. Groves, Principles of GNSS, Inertial,
 ch. 9 and 10). How much larger errors are between houses, and the delays, are estimated.
 """
 
-from math import atan2, cos, sin
+from math import atan2, sqrt
 from typing import Annotated, NamedTuple
 
 from studio.compiled import inlined
@@ -17,8 +17,7 @@ from studio.kind.preset import Preset
 from studio.kind.sensor import Sensor
 from studio.kind.settings import number
 from studio.model import satellite
-from studio.road.network.grid import COLUMNS
-from studio.road.network.shadow import open_sky
+from studio.world.passes.satellite import sky_over
 from studio.world.view import draw_four, report
 
 KIND = "sensor"
@@ -57,6 +56,7 @@ class Memory(NamedTuple):
     north: Annotated[float, "1"] = 0.0
     time: Annotated[float, "s"] = -1.0
     heading: Annotated[float, "rad"] = 0.0
+    sky: Annotated[float, "1"] = 1.0
 
 
 class Reading(NamedTuple):
@@ -70,16 +70,17 @@ class Reading(NamedTuple):
 
 
 @inlined
-def sky_over(view, me):
-    """Share of the sky that is open."""
-    place = view.place_of[me.world]
-    return open_sky(view.shadow, place, me.x, me.y) if view.shadow.grid.frame[COLUMNS, place] > 0.0 else 1.0
+def sky_of(view, me, memory):
+    """Share of the sky that is open, as it was when it was looked at last."""
+    if memory.time >= 0.0 and not satellite.looks_up(memory.time, view.time, view.entity[me.unit]):
+        return memory.sky
+    return sky_over(view.shadow, view.place_of[me.world], me.x, me.y)
 
 
 @inlined
 def course(memory, east, north):
     """The heading over ground, and the speed."""
-    speed = (east * east + north * north) ** 0.5
+    speed = sqrt(east * east + north * north)
     return (atan2(north, east) if speed > SLOW else memory.heading), speed
 
 
@@ -90,11 +91,12 @@ def measure(view, me, settings, memory, out):
     a, b, c, d = draw_four(view, me, PLACE)
     e, f, _, _ = draw_four(view, me, SPEED)
     z_east, z_north = satellite.drift(memory.east, phi, a), satellite.drift(memory.north, phi, b)
-    sigma = satellite.spread(settings.drift, settings.canyon_factor, sky_over(view, me))
+    sky = sky_of(view, me, memory)
+    sigma = satellite.spread(settings.drift, settings.canyon_factor, sky)
     x = me.x + sigma * z_east + settings.noise * c
     y = me.y + sigma * z_north + settings.noise * d
-    east = me.speed * cos(me.heading) + settings.speed_noise * e
-    north = me.speed * sin(me.heading) + settings.speed_noise * f
+    east = me.speed * me.cosine + settings.speed_noise * e
+    north = me.speed * me.sine + settings.speed_noise * f
     heading, speed = course(memory, east, north)
-    report(out, me, 0, Reading(x, y, heading, speed, (sigma * sigma + settings.noise * settings.noise) ** 0.5))
-    return 1, Memory(z_east, z_north, view.time, heading)
+    report(out, me, 0, Reading(x, y, heading, speed, sqrt(sigma * sigma + settings.noise * settings.noise)))
+    return 1, Memory(z_east, z_north, view.time, heading, sky)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled
+from studio.compiled import lean
 
 WEST, SOUTH, SIZE, COLUMNS, ROWS, CELLS = range(6)
 MARGIN = 0.01  # [m] a line this close to a cell counts as inside: no rounding may lose it
@@ -73,14 +73,14 @@ def joined(grids: Sequence[Grid], bases: Sequence[int]) -> Grid:
     return Grid(np.concatenate(frames, axis=1), np.concatenate([*firsts, [items]]).astype(np.int64), item)
 
 
-@compiled
+@lean
 def place(frame, m, x, y):
     """Column and row of a point [m]; outside the grid they are negative or too large."""
     size = frame[SIZE, m]
     return int(floor((x - frame[WEST, m]) / size)), int(floor((y - frame[SOUTH, m]) / size))
 
 
-@compiled
+@lean
 def columns_passed(frame, m, x0, x1):
     """First and last column of the grid that a line from x0 east to x1 [m] passes; first > last: none."""
     size = frame[SIZE, m]
@@ -89,7 +89,7 @@ def columns_passed(frame, m, x0, x1):
     return max(low, 0), min(high, int(frame[COLUMNS, m]) - 1)
 
 
-@compiled
+@lean
 def rows_passed(frame, m, column, x0, y0, x1, y1):
     """First and last row of the grid that a line, x0 <= x1, passes within a column; first > last: none."""
     size = frame[SIZE, m]
@@ -104,7 +104,7 @@ def rows_passed(frame, m, column, x0, y0, x1, y1):
     return max(first, 0), min(last, int(frame[ROWS, m]) - 1)
 
 
-@compiled
+@lean
 def trace(frame, lines, cell, item):
     """Writes the cells that each line passes, as far as there is room; returns how many there are."""
     found = 0

@@ -1,10 +1,11 @@
 """What buildings hide: how much of a straight line lies in them, and how much of the sky they cover.
 
     walls    float64[4, w]   x0, y0, x1, y1 of all outlines and holes, building after building, the inside on the left
-    bodies   float64[2, b]   base and top [m]
-    spans    int64[6, b]     first wall and count; columns and rows of the grid that the building reaches over
+    bodies   float64[b, 6]   base and top [m]; the middle of the upright box around it, and half its extent to the east and north
+    spans    int64[b, 6]     first wall and count; columns and rows of the grid that the building reaches over
     grid                     which buildings lie in a cell
-    sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within the grid
+    tops     float64[g]      of the cells of the grid, how high [m] the tallest of them rises above an eye
+    sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within those of the grid
     mass     uint8[c]        of the same cells what stands there at the height of an eye: OPEN, PARTLY or wholly FULL of a building
 
 A line is looked at from its western end, so that both directions give the same bits. Several maps are joined like those of
@@ -17,12 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import compiled, lean
+from studio.compiled import inlined, lean
 from studio.road.network import Building, Network, grid
-from studio.road.network.grid import CELLS, COLUMNS, ROWS, SOUTH, WEST, Grid, columns_passed, rows_passed
+from studio.road.network.grid import CELLS, COLUMNS, MARGIN, ROWS, SIZE, SOUTH, WEST, Grid, columns_passed, place, rows_passed
 from studio.road.network.index import once
 
-BASE, TOP = range(2)
+BASE, TOP, BOX_X, BOX_Y, HALF_X, HALF_Y = range(6)
 WALL_FIRST, WALL_COUNT, COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH = range(6)
 
 CELL = 32.0  # [m]
@@ -41,7 +42,7 @@ class Shadow(NamedTuple):
     bodies: np.ndarray
     spans: np.ndarray
     grid: Grid
-    sky_first: np.ndarray  # per map
+    tops: np.ndarray  # per cell
     sky: np.ndarray
     mass: np.ndarray
 
@@ -58,24 +59,40 @@ def shadow(buildings: Sequence[Building]) -> Shadow:
     counts = np.array([own.shape[1] for own in walls], dtype=np.int64)
     flat = np.concatenate([np.empty((4, 0)), *walls], axis=1)
     frame = grid.frame_around(flat[0], flat[1], size=CELL, margin=SKY_REACH)
-    spans = np.zeros((6, len(walls)), dtype=np.int64)
-    spans[WALL_FIRST], spans[WALL_COUNT] = np.cumsum(counts) - counts, counts
+    spans = np.zeros((len(walls), 6), dtype=np.int64)
+    spans[:, WALL_FIRST], spans[:, WALL_COUNT] = np.cumsum(counts) - counts, counts
     for b, own in enumerate(walls):
         low = grid.place(frame, 0, own[0].min() - grid.MARGIN, own[1].min() - grid.MARGIN)
         high = grid.place(frame, 0, own[0].max() + grid.MARGIN, own[1].max() + grid.MARGIN)
-        spans[[COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH], b] = low[0], high[0], low[1], high[1]
+        spans[b, [COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH]] = low[0], high[0], low[1], high[1]
     cells = int(frame[COLUMNS, 0] * frame[ROWS, 0]) * FINER**2
+    bodies = bodies_of(buildings, walls)
+    lists = grid.over_boxes(frame, spans[:, COLUMN_LOW:].T)
     made = Shadow(
         walls=flat,
-        bodies=np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T.copy(),
+        bodies=bodies,
         spans=spans,
-        grid=grid.over_boxes(frame, spans[COLUMN_LOW:]),
-        sky_first=np.zeros(1, dtype=np.int64),
+        grid=lists,
+        tops=tallest(bodies, lists),
         sky=np.zeros(cells),
         mass=np.zeros(cells, dtype=np.uint8),
     )
     fill(made)
     return made
+
+
+def bodies_of(buildings: Sequence[Building], walls: Sequence[np.ndarray]) -> np.ndarray:
+    """Heights and boxes of buildings."""
+    low, high = (np.array([end(own[:2], axis=1) for own in walls]).reshape(-1, 2).T for end in (np.min, np.max))
+    heights = np.array([(each.base, each.height) for each in buildings], dtype=float).reshape(-1, 2).T
+    return np.concatenate([heights, 0.5 * (low + high), 0.5 * (high - low) + grid.MARGIN]).T.copy()
+
+
+def tallest(bodies: np.ndarray, lists: Grid) -> np.ndarray:
+    """How high [m] the tallest building of every cell rises above an eye; 0 where none does."""
+    tops = np.zeros(lists.first.size - 1)
+    np.maximum.at(tops, np.repeat(np.arange(tops.size), np.diff(lists.first)), bodies[lists.item, TOP] - EYE)
+    return tops
 
 
 def walls_of(building: Building) -> np.ndarray:
@@ -93,19 +110,19 @@ def turned(ring: np.ndarray, *, left: bool) -> np.ndarray:
 
 def joined(shadows: Sequence[Shadow]) -> Shadow:
     """The buildings of several maps; their order is the number of a map."""
-    bodies, walls, skies = (
+    bodies, walls = (
         np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64)
-        for sizes in np.array([(each.bodies.shape[1], each.walls.shape[1], each.sky.size) for each in shadows]).T
+        for sizes in np.array([(each.bodies.shape[0], each.walls.shape[1]) for each in shadows]).T
     )
     spans = [each.spans.copy() for each in shadows]
     for own, first in zip(spans, walls, strict=True):
-        own[WALL_FIRST] += first
+        own[:, WALL_FIRST] += first
     return Shadow(
         walls=np.concatenate([each.walls for each in shadows], axis=1),
-        bodies=np.concatenate([each.bodies for each in shadows], axis=1),
-        spans=np.concatenate(spans, axis=1),
+        bodies=np.concatenate([each.bodies for each in shadows]),
+        spans=np.concatenate(spans),
         grid=grid.joined([each.grid for each in shadows], bodies.tolist()),
-        sky_first=skies,
+        tops=np.concatenate([each.tops for each in shadows]),
         sky=np.concatenate([each.sky for each in shadows]),
         mass=np.concatenate([each.mass for each in shadows]),
     )
@@ -114,7 +131,7 @@ def joined(shadows: Sequence[Shadow]) -> Shadow:
 # -- along a line ----------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def walls_between(shadow, m, x0, y0, z0, x1, y1, z1):
     """Walls that a straight line on map m crosses, and the metres of it that lie inside buildings."""
     frame = shadow.grid.frame
@@ -139,30 +156,30 @@ def walls_between(shadow, m, x0, y0, z0, x1, y1, z1):
     return walls, inside * length
 
 
-@compiled
+@lean
 def is_passed_before(spans, b, column, row, first, low, south, north):
     """Whether a line has met building b before this cell, in this column or in the one before, where it passed rows south to north.
 
     A building lies in a rectangle of cells, and the line leaves that only once.
     """
-    if row > max(first, spans[ROW_LOW, b]):
+    if row > max(first, spans[b, ROW_LOW]):
         return True
-    return column > max(low, spans[COLUMN_LOW, b]) and south <= spans[ROW_HIGH, b] and north >= spans[ROW_LOW, b]
+    return column > max(low, spans[b, COLUMN_LOW]) and south <= spans[b, ROW_HIGH] and north >= spans[b, ROW_LOW]
 
 
-@compiled
+@lean
 def through(shadow, b, x0, y0, z0, x1, y1, z1):
     """Walls of building b that a line crosses, and the share of the line that lies inside it.
 
     Along the line, t from 0 to 1, the inside adds up to the sum of t where it is left minus that where it is entered, t held
     within the part of the line that is neither above nor below the building.
     """
-    begin, end = level(z0, z1, shadow.bodies[BASE, b], shadow.bodies[TOP, b])
+    begin, end = level(z0, z1, shadow.bodies[b, BASE], shadow.bodies[b, TOP])
     if begin >= end:
         return 0, 0.0
     dx, dy = x1 - x0, y1 - y0
     crossed, balance, share, starts_inside = 0, 0, 0.0, False
-    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+    for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
         a_x, a_y, b_x, b_y = shadow.walls[0, i] - x0, shadow.walls[1, i] - y0, shadow.walls[2, i] - x0, shadow.walls[3, i] - y0
         if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
             starts_inside = not starts_inside
@@ -179,7 +196,7 @@ def through(shadow, b, x0, y0, z0, x1, y1, z1):
     return crossed, max(share + (inside_before - balance) * end - inside_before * begin, 0.0)
 
 
-@compiled
+@lean
 def level(z0, z1, base, top):
     """The part of a line from z0 to z1, as two shares of it, that lies between two heights [m]; begin >= end: none."""
     if z0 == z1:
@@ -191,7 +208,7 @@ def level(z0, z1, base, top):
 # -- the sky ---------------------------------------------------------------------------------------
 
 
-@compiled
+@lean
 def open_sky(shadow, m, x, y):
     """Share of the sky that is open above a place on map m, to the size of a cell; worked out when first asked for."""
     frame = shadow.grid.frame
@@ -200,68 +217,133 @@ def open_sky(shadow, m, x, y):
     if not (0.0 <= east < columns and 0.0 <= north < rows):
         return 1.0
     i, j = int(east), int(north)
-    cell = shadow.sky_first[m] + j * columns + i
+    cell = fine(frame, m, i, j)
     if shadow.sky[cell] == 0.0:
         middle_x, middle_y = frame[WEST, m] + (i + 0.5) * SKY_CELL, frame[SOUTH, m] + (j + 0.5) * SKY_CELL
         shadow.sky[cell] = 1.0 + sky_above(shadow, m, middle_x, middle_y)
     return shadow.sky[cell] - 1.0
 
 
-@compiled
+@lean
 def sky_above(shadow, m, x, y):
     """Share of the hemisphere above a place that no building hides: the mean of 1 - sin(horizon) over all azimuths.
 
     Above the elevation e lies the share 1 - sin(e) of a sector of the hemisphere. Under a building there is no sky, and below
     one that hangs in the air none is counted.
     """
+    if is_under_roof(shadow, m, x, y):
+        return 0.0
     hidden = 0.0
     for k in range(AZIMUTHS):
         angle = 2.0 * pi * (k + 0.5) / AZIMUTHS
-        rise = steepest(shadow, m, x, y, x + SKY_REACH * cos(angle), y + SKY_REACH * sin(angle))
-        hidden += rise / sqrt(1.0 + rise * rise) if rise < inf else 1.0
+        rise = steepest(shadow, m, x, y, SKY_REACH * cos(angle), SKY_REACH * sin(angle))
+        hidden += rise / sqrt(1.0 + rise * rise)
     return 1.0 - hidden / AZIMUTHS
 
 
-@compiled
-def steepest(shadow, m, x0, y0, x1, y1):
-    """Greatest rise [1] from the eye at the start of a line to the top of a building on it; infinite inside one."""
-    frame = shadow.grid.frame
-    rise = 0.0
-    low, high = columns_passed(frame, m, min(x0, x1), max(x0, x1))
-    south, north = 0, -1
-    for column in range(low, high + 1):
-        if x0 <= x1:
-            first, last = rows_passed(frame, m, column, x0, y0, x1, y1)
+@lean
+def is_under_roof(shadow, m, x, y):
+    """Whether a place lies in a building, or below one, that is higher than an eye."""
+    column, row = place(shadow.grid.frame, m, x, y)
+    at = cell_of(shadow.grid.frame, m, column, row)
+    for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]) if at >= 0 else range(0):
+        b = shadow.grid.item[k]
+        if shadow.bodies[b, TOP] > EYE and is_within(shadow, b, x, y):
+            return True
+    return False
+
+
+@inlined
+def cell_of(frame, m, column, row):
+    """The number of a cell; -1 for one that is not in the grid."""
+    columns = int(frame[COLUMNS, m])
+    if 0 <= column < columns and 0 <= row < int(frame[ROWS, m]):
+        return int(frame[CELLS, m]) + row * columns + column
+    return -1
+
+
+@inlined
+def fine(frame, m, i, j):
+    """The number of a cell of SKY_CELL by its column and row: those of one cell of the grid stand together, as lines pass them."""
+    cell = int(frame[CELLS, m]) + (j // FINER) * int(frame[COLUMNS, m]) + i // FINER
+    return (cell * FINER + j % FINER) * FINER + i % FINER
+
+
+@inlined
+def steepest(shadow, m, x, y, dx, dy):
+    """Greatest rise [1] from an eye at x, y to the top of a building on a line of SKY_REACH (dx, dy) from there.
+
+    The line is walked outwards from cell to cell, as in `walk`: where the tallest building is too low to rise over what is nearer, none is
+    looked at.
+    """
+    frame, rise, far = shadow.grid.frame, 0.0, 0.0
+    size = frame[SIZE, m]
+    column, row = place(frame, m, x, y)
+    last_column, last_row = -1, -1
+    along_x, along_y = passing(x - frame[WEST, m], column, dx, size), passing(y - frame[SOUTH, m], row, dy, size)
+    while far <= 1.0:
+        at = cell_of(frame, m, column, row)
+        if at >= 0 and shadow.tops[at] > rise * (far * SKY_REACH - MARGIN):
+            rise = steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy)
+        far, last_column, last_row = min(along_x, along_y), column, row
+        if along_x < along_y:
+            column, along_x = column + (1 if dx > 0.0 else -1), along_x + size / abs(dx)
         else:
-            first, last = rows_passed(frame, m, column, x1, y1, x0, y0)
-        for row in range(first, last + 1):
-            cell = int(frame[CELLS, m]) + row * int(frame[COLUMNS, m]) + column
-            for k in range(shadow.grid.first[cell], shadow.grid.first[cell + 1]):
-                b = shadow.grid.item[k]
-                if not is_passed_before(shadow.spans, b, column, row, first, low, south, north):
-                    rise = max(rise, rise_of(shadow, b, x0, y0, x1, y1))
-        south, north = first, last
+            row, along_y = row + (1 if dy > 0.0 else -1), along_y + size / abs(dy)
     return rise
 
 
-@compiled
-def rise_of(shadow, b, x0, y0, x1, y1):
-    """Rise [1] from the eye to the top of building b over its nearest wall on a line; infinite from inside."""
-    height = shadow.bodies[TOP, b] - EYE
-    if height <= 0.0:
-        return 0.0
-    dx, dy, nearest, starts_inside = x1 - x0, y1 - y0, inf, False
-    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
-        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x0, shadow.walls[1, i] - y0, shadow.walls[2, i] - x0, shadow.walls[3, i] - y0
-        if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
-            starts_inside = not starts_inside
+@inlined
+def passing(begin, at, step, size):
+    """The share of a line at which it leaves its first cell; `begin` [m] from the first edge of all, `step` [m] its length that way."""
+    return ((at + 1 if step > 0.0 else at) * size - begin) / step if step != 0.0 else inf
+
+
+@inlined
+def steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy):
+    """The same with the buildings of one cell that do not reach into the cell before, where they have been looked at."""
+    for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
+        b = shadow.grid.item[k]
+        height = shadow.bodies[b, TOP] - EYE
+        is_known = is_over(shadow.spans, b, last_column, last_row)
+        if height > 0.0 and not is_known and may_rise(shadow, b, height, rise, x, y, dx, dy):
+            rise = max(rise, rise_of(shadow, b, height, x, y, dx, dy))
+    return rise
+
+
+@inlined
+def is_over(spans, b, column, row):
+    """Whether building b reaches over a cell."""
+    return spans[b, COLUMN_LOW] <= column <= spans[b, COLUMN_HIGH] and spans[b, ROW_LOW] <= row <= spans[b, ROW_HIGH]
+
+
+@inlined
+def may_rise(shadow, b, height, rise, x, y, dx, dy):
+    """Whether a line from an eye meets the box around building b, and its top could rise higher there than `rise`."""
+    east, north = shadow.bodies[b, BOX_X] - x, shadow.bodies[b, BOX_Y] - y
+    if misses(shadow.bodies, b, east, north, dx, dy):
+        return False
+    aside, ahead = max(abs(east) - shadow.bodies[b, HALF_X], 0.0), max(abs(north) - shadow.bodies[b, HALF_Y], 0.0)
+    return height * height > rise * rise * (aside * aside + ahead * ahead)
+
+
+@inlined
+def misses(bodies, b, east, north, dx, dy):
+    """Whether the straight line (dx, dy) misses the box around building b, whose middle is so far [m] from a place on it."""
+    return abs(dx * north - dy * east) > abs(dx) * bodies[b, HALF_Y] + abs(dy) * bodies[b, HALF_X]
+
+
+@inlined
+def rise_of(shadow, b, height, x, y, dx, dy):
+    """Rise [1] from an eye to the top of building b, so high [m] above it, over its nearest wall on a line."""
+    nearest = inf
+    for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
+        a_x, a_y, b_x, b_y = shadow.walls[0, i] - x, shadow.walls[1, i] - y, shadow.walls[2, i] - x, shadow.walls[3, i] - y
         side_a, side_b = dx * a_y - dy * a_x, dx * b_y - dy * b_x
         if (side_a > 0.0) != (side_b > 0.0):
             t = (a_x * (b_y - a_y) - a_y * (b_x - a_x)) / (side_b - side_a)
             if 0.0 <= t < nearest:
                 nearest = t
-    if starts_inside:
-        return inf
     return height / max(nearest * SKY_REACH, 1e-9) if nearest < 1.0 else 0.0
 
 
@@ -271,37 +353,37 @@ def rise_of(shadow, b, x0, y0, x1, y1):
 @lean
 def is_at_eye(shadow, b):
     """Whether building b stands at the height of an eye."""
-    return shadow.bodies[BASE, b] < EYE < shadow.bodies[TOP, b]
+    return shadow.bodies[b, BASE] < EYE < shadow.bodies[b, TOP]
 
 
 @lean
 def fill(shadow):
     """Notes of the cells of one map what stands there: first the cells within buildings, then those that walls pass."""
     frame = shadow.grid.frame
-    for b in range(shadow.bodies.shape[1]):
+    for b in range(shadow.bodies.shape[0]):
         if is_at_eye(shadow, b):
-            fill_within(shadow, b, frame[WEST, 0], frame[SOUTH, 0], int(frame[COLUMNS, 0]) * FINER)
-    for b in range(shadow.bodies.shape[1]):
+            fill_within(shadow, b, frame[WEST, 0], frame[SOUTH, 0])
+    for b in range(shadow.bodies.shape[0]):
         if is_at_eye(shadow, b):
-            for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+            for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
                 x0, y0, x1, y1 = shadow.walls[0, i], shadow.walls[1, i], shadow.walls[2, i], shadow.walls[3, i]
-                walk(frame, shadow.sky_first, shadow.mass, 0, x0, y0, x1, y1, True)
+                walk(frame, shadow.mass, 0, x0, y0, x1, y1, True)
 
 
 @lean
-def fill_within(shadow, b, west, south, columns):
+def fill_within(shadow, b, west, south):
     """Marks the cells whose middle lies in building b as full of it."""
-    for j in range(shadow.spans[ROW_LOW, b] * FINER, (shadow.spans[ROW_HIGH, b] + 1) * FINER):
-        for i in range(shadow.spans[COLUMN_LOW, b] * FINER, (shadow.spans[COLUMN_HIGH, b] + 1) * FINER):
+    for j in range(shadow.spans[b, ROW_LOW] * FINER, (shadow.spans[b, ROW_HIGH] + 1) * FINER):
+        for i in range(shadow.spans[b, COLUMN_LOW] * FINER, (shadow.spans[b, COLUMN_HIGH] + 1) * FINER):
             if is_within(shadow, b, west + (i + 0.5) * SKY_CELL, south + (j + 0.5) * SKY_CELL):
-                shadow.mass[j * columns + i] = FULL
+                shadow.mass[fine(shadow.grid.frame, 0, i, j)] = FULL
 
 
-@lean
+@inlined
 def is_within(shadow, b, x, y):
     """Whether a place lies in building b: a line from it to the east crosses an odd number of walls."""
     inside = False
-    for i in range(shadow.spans[WALL_FIRST, b], shadow.spans[WALL_FIRST, b] + shadow.spans[WALL_COUNT, b]):
+    for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
         a_x, a_y, b_x, b_y = shadow.walls[0, i] - x, shadow.walls[1, i] - y, shadow.walls[2, i] - x, shadow.walls[3, i] - y
         if (a_y > 0.0) != (b_y > 0.0) and (a_x * b_y - b_x * a_y > 0.0) == (b_y > a_y):
             inside = not inside
@@ -309,7 +391,7 @@ def is_within(shadow, b, x, y):
 
 
 @lean
-def walk(frame, first, mass, m, x0, y0, x1, y1, marks):
+def walk(frame, mass, m, x0, y0, x1, y1, marks):
     """Goes along a line on map m from cell to cell: what stands in the fullest of them; `marks` them as PARTLY full instead.
 
     From cell to cell as in J. Amanatides, A. Woo, A fast voxel traversal algorithm for ray tracing, Eurographics 1987.
@@ -324,7 +406,7 @@ def walk(frame, first, mass, m, x0, y0, x1, y1, marks):
     most = OPEN
     for k in range(steps + 1):
         if 0 <= i < columns and 0 <= j < rows:
-            cell = first[m] + j * columns + i
+            cell = fine(frame, m, i, j)
             if marks:
                 mass[cell] = PARTLY
             most = max(most, int(mass[cell]))

@@ -53,13 +53,13 @@ def looks(current: Simulation, found: dict[str, str | None]) -> None:
 def asked(current: Simulation, each: Mounted, i: int, measure) -> tuple[int, np.ndarray]:
     """What one sensor answers now: how many targets, and its column."""
     module = each.kind.module
-    out = np.zeros_like(each.out)
+    out = np.zeros_like(each.out).T
     seen = View(current.world.clock.k, current.world.clock.time, *current.world.view)
     chosen = current.cases[0].setting.scenario.vehicles["own"].sensors[each.names[i]].model_dump(exclude={"kind", FIELD})
     settings = draw.settings_tuple(module, module.Settings.model_validate(chosen))
     who = about(seen, each.unit[i], i, each.stream[i], sum(one.size for one in each.reading), 1.0)
     me = (looking if issubclass(module.Settings, Looking) else placed)(who, i, settings)
-    memory = remembered(module, each.memory[:, i]) if hasattr(module, "Memory") else 0
+    memory = remembered(module, each.memory[i]) if hasattr(module, "Memory") else 0
     answer = measure(seen, me, settings, memory, out)
     if out[0, i] == MISSHAPEN:
         raise ValueError(f"report() was given something that is no whole Reading: {', '.join(one.name for one in each.reading)} are meant")

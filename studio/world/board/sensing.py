@@ -21,35 +21,39 @@ from studio.kind.number import numbers, row_of, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
 from studio.kind.registry import Kind, stream
 from studio.kind.sensor import LONGEST, Looking
-from studio.model.random import normal, uniform
+from studio.model.random import normals, uniform
 from studio.rows import Moving
-from studio.world.table.unit import DUE, MEASURED, NOISE, OUTPUT, SENSOR, TAKEN
+from studio.world.table.unit import DUE, MEASURED, NEXT, NOISE, OUTPUT, SENSOR, TAKEN
 from studio.world.view import LATE, LOST, MISSHAPEN, OF_THE_STUDIO, View
 
 TEMPLATE = '''"""Asks all sensors of the kind {name}."""
 
 from studio.compiled import lean
-from studio.world.table.unit import FAILS, MEASURED, NOISE, PRESENT
-from studio.world.board.sensing import comes, fails, forget, give, put, unfit
+from studio.world.table.unit import FAILS, MEASURED, NEXT, NOISE, PRESENT
+from studio.world.board.sensing import ROUNDING, comes, fails, forget, give, put, unfit
 from studio.world.view import View, about, {eye}
 from {module} import {imports}
 
 
 @lean
 def run({seen}, mounted_on, stream, settings, memory, health, first, ring, output, out, fault, k, time):
-    view, faults = View(k, time, {seen}), 0
+    view, faults, period, is_turn = View(k, time, {seen}), 0, -1.0, False
+    settings, memory, ring, out = settings.T, memory.T, ring.T, out.T
     for i in range(mounted_on.size):
         fault[i] = 0
         if view.unit[PRESENT, mounted_on[i]] == 0.0 or health[FAILS, i] > 0.0:
-            forget(i, first, output, out)
+            forget(i, first, output, health, out)
             continue
-        if comes(view, settings[{period}, i]):
+        if settings[{period}, i] != period:  # most sensors of a kind are alike
+            period = settings[{period}, i]
+            is_turn = comes(view, period)
+        if is_turn:
             chosen = SettingsTuple({settings})
             me = about(view, mounted_on[i], i, stream[i], {width}, health[NOISE, i])
             if not fails(view, me, chosen.drop_out):
                 place, column = out, i
                 if first[i + 1] > first[i]:
-                    place, column = ring, put(view, me, chosen, first, output)
+                    place, column = ring, put(view, me, chosen, first, output, health)
                 place[0, column] = 0.0
                 {found} = measure(view, {eye}(me, column, chosen), chosen, {memory}, place)
                 fault[i] = unfit(found, {capacity}, {width}, column, place)
@@ -57,7 +61,7 @@ def run({seen}, mounted_on, stream, settings, memory, health, first, ring, outpu
                 place[0, column] = min(max(found, 0), {capacity})
                 if first[i + 1] == first[i]:
                     health[MEASURED, i] = time
-{store}        if first[i + 1] > first[i]:
+{store}        if health[NEXT, i] <= time + ROUNDING:
             give(i, {width}, time, first, ring, output, health, out)
     return faults
 '''
@@ -91,39 +95,43 @@ def fails(view, me, drop_out):
 
 
 @inlined
-def put(view, me, settings, first, output):
+def put(view, me, settings, first, output, health):
     """The slot for what is measured now, with the time at which it is due."""
     delay, i = settings.delay, me.sensor
     if settings.delay_variation > 0.0:
-        w = normal(view.seed[me.world], view.entity[me.unit], me.stream + LATE, view.k, OF_THE_STUDIO)
+        w, _, _, _ = normals(view.seed[me.world], view.entity[me.unit], me.stream + LATE, view.k, OF_THE_STUDIO)
         delay = max(delay + settings.delay_variation * min(max(w, -LONGEST), LONGEST), 0.0)
     number = view.k if settings.period <= view.tick else turn(view.time, settings.period)
     slot = first[i] + number % (first[i + 1] - first[i])
     output[DUE, slot], output[TAKEN, slot] = view.time + delay, view.time
+    health[NEXT, i] = min(health[NEXT, i], view.time + delay)
     return slot
 
 
 @inlined
 def give(i, width, time, first, ring, output, health, out):
     """Of what is due the newest is given; what is older than what was given before is not."""
-    best = -1
+    best, soonest = -1, inf
     for slot in range(first[i], first[i + 1]):
         if output[DUE, slot] <= time + ROUNDING:
             output[DUE, slot] = inf
             if output[TAKEN, slot] > health[MEASURED, i]:
                 best, health[MEASURED, i] = slot, output[TAKEN, slot]
+        soonest = min(soonest, output[DUE, slot])
+    health[NEXT, i] = soonest
     if best >= 0:
         for row in range(1 + int(ring[0, best]) * width):
             out[row, i] = ring[row, best]
 
 
 @inlined
-def forget(i, first, output, out):
+def forget(i, first, output, health, out):
     """A sensor that is not there, or fails, gives nothing, and loses what is under way."""
     if out[0, i] > 0.0:
         out[:, i] = 0.0
     for slot in range(first[i], first[i + 1]):
         output[DUE, slot] = inf
+    health[NEXT, i] = inf
 
 
 @inlined
@@ -152,20 +160,21 @@ class Sensor(NamedTuple):
 
 @dataclass
 class Mounted:
-    """All sensors of one kind. `out` holds how many targets each has, then target after target; [row, sensor].
+    """All sensors of one kind. `out` holds how many targets each has, then target after target; [sensor, row].
 
-    What sensor i has measured and not given yet stands in the columns first[i] to first[i + 1] of `ring`, with the same rows.
+    What sensor i has measured and not given yet stands in first[i] to first[i + 1] of `ring`, in the same order. What belongs to one sensor
+    stands together, as a look reads and writes all of it; the loop turns these arrays, so that kinds see [row, sensor] as everywhere.
     """
 
     kind: Kind
     names: tuple[str, ...]
     unit: np.ndarray
     stream: np.ndarray
-    settings: np.ndarray
-    memory: Moving
+    settings: np.ndarray  # [sensor, row]
+    memory: Moving  # [sensor, row]
     health: Moving  # [row, sensor]
     first: np.ndarray
-    ring: Moving
+    ring: Moving  # [slot, row]
     output: Moving  # [row, slot]
     out: Moving
     fault: np.ndarray  # scratch: what is wrong with the answer of each, as WRONG numbers it
@@ -228,20 +237,20 @@ def mounted(kind: Kind, sensors: Sequence[Sensor], tick: float) -> Mounted:
     remembered = first_values(module.Memory) if hasattr(module, "Memory") else []
     first = np.cumsum([0, *(depth(each.settings, tick) for each in sensors)])
     health, output = np.zeros((len(SENSOR), len(sensors))), np.zeros((len(OUTPUT), first[-1]))
-    health[NOISE], health[MEASURED], output[DUE] = 1.0, -1.0, inf
+    health[NOISE], health[MEASURED], health[NEXT], output[DUE] = 1.0, -1.0, inf, inf
     rows = 1 + capacity(kind) * width(module.Reading)
     return Mounted(
         kind=kind,
         names=tuple(each.name for each in sensors),
         unit=np.array([each.unit for each in sensors], dtype=np.int64),
         stream=np.array([stream(f"sensor.{kind.name}.{each.name}") for each in sensors], dtype=np.int64),
-        settings=np.array([numbers(each.settings) for each in sensors]).reshape(len(sensors), -1).T.copy(),
-        memory=np.tile(np.array(remembered, dtype=float)[:, None], len(sensors)),
+        settings=np.array([numbers(each.settings) for each in sensors]).reshape(len(sensors), -1),
+        memory=np.tile(np.array(remembered, dtype=float), (len(sensors), 1)),
         health=health,
         first=first,
-        ring=np.zeros((rows, first[-1])),
+        ring=np.zeros((first[-1], rows)),
         output=output,
-        out=np.zeros((rows, len(sensors))),
+        out=np.zeros((len(sensors), rows)),
         fault=np.zeros(len(sensors), dtype=np.int64),
         run=loop(kind),
     )

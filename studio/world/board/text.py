@@ -210,7 +210,7 @@ def part(i: int, each: Port) -> str:
     """The function that reads one target or message."""
     if each.what == TARGETS:
         of = quantities(kind_of(each).module.Reading)
-        targets = ", ".join(f"Reading{i}({values(of, 'out', 's', 1 + k * total(of))})" for k in range(each.most))
+        targets = ", ".join(f"Reading{i}({values(of, 'out.T', 's', 1 + k * total(of))})" for k in range(each.most))
         none = ", ".join(f"Reading{i}({blanks(of)})" for _ in range(each.most))
         return TARGET.format(i=i, targets=targets, none=none, measured=MEASURED)
     of = quantities(kind_of(each).module.Payload)
@@ -223,7 +223,7 @@ TARGET = """
 def read{i}(out, health, s, most, time, offset, rate):
     if s < 0 or health[{measured}, s] < 0.0:
         return Targets(0, ({none},), time * rate + offset)
-    return Targets(min(int(out[0, s]), most), ({targets},), (time - health[{measured}, s]) * rate)
+    return Targets(min(int(out[s, 0]), most), ({targets},), (time - health[{measured}, s]) * rate)
 """
 MESSAGE = """
 

@@ -11,7 +11,7 @@ from math import cos, sin
 
 import numpy as np
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
 from studio.road.ways.path import (
     PATH_HEADING,
     PATH_HEIGHT,
@@ -44,33 +44,41 @@ NEAR = 12.0  # [m] a piece farther from the centre of gravity is under no wheel
 MOST_NEAR = 1000  # pieces that are looked at for one vehicle
 
 
-@lean
-def touch(w, s, points, first, count, ground):
-    """Lays the plane under one wheel that touches a path at station s [m]: z = height + slope_x x + slope_y y."""
+@inlined
+def plane(s, points, first, count):
+    """The plane that touches a path at station s [m], z = height + slope_x x + slope_y y: height, slope_x, slope_y."""
     at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
     slope, heading = interpolate(points, first, PATH_SLOPE, at), interpolate(points, first, PATH_HEADING, at)
     g_x, g_y = slope * cos(heading), slope * sin(heading)
     level = g_x * interpolate(points, first, PATH_X, at) + g_y * interpolate(points, first, PATH_Y, at)
-    ground[SLOPE_X, w], ground[SLOPE_Y, w] = g_x, g_y
-    ground[HEIGHT, w] = interpolate(points, first, PATH_HEIGHT, at) - level
+    return interpolate(points, first, PATH_HEIGHT, at) - level, g_x, g_y
+
+
+@inlined
+def put(w, found, ground):
+    """Lays a plane under one wheel."""
+    ground[HEIGHT, w], ground[SLOPE_X, w], ground[SLOPE_Y, w] = found
 
 
 @lean
 def touch_all(v, n, s, points, first, count, ground):
     """The same plane under all wheels of one vehicle."""
+    found = plane(s, points, first, count)
     for corner in range(4):
-        touch(corner * n + v, s, points, first, count, ground)
+        put(corner * n + v, found, ground)
 
 
 @lean
 def rise(state, parameter, station, points, path_first, path_count, raised, ground):
-    """First pass: height and slope under all wheels of vehicles whose path is `raised`; the others' ground stays level."""
+    """First pass: height and slope of vehicles whose path is `raised`, one plane under an axle; the others' ground stays level."""
     n = state.shape[1]
     for v in range(n):
         if raised[v] != 0:
-            for corner in range(4):
-                ahead = parameter[L_F, v] if corner < 2 else -parameter[L_R, v]
-                touch(corner * n + v, station[v] + ahead, points, path_first[v], path_count[v], ground)
+            front = plane(station[v] + parameter[L_F, v], points, path_first[v], path_count[v])
+            rear = plane(station[v] - parameter[L_R, v], points, path_first[v], path_count[v])
+            for side in range(2):
+                put(side * n + v, front, ground)
+                put((2 + side) * n + v, rear, ground)
 
 
 def is_raised(path: RoadPath) -> bool:

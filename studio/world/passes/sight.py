@@ -12,7 +12,21 @@ from studio.compiled import inlined, lean
 from studio.model.sensor import turned
 from studio.model.sight import edges, far, met, nearest
 from studio.road.network.grid import CELLS, COLUMNS, ROWS, SIZE, SOUTH, WEST
-from studio.road.network.shadow import FULL, OPEN, WALL_COUNT, WALL_FIRST, is_at_eye, level, walk
+from studio.road.network.shadow import (
+    BOX_X,
+    BOX_Y,
+    COLUMN_LOW,
+    FULL,
+    HALF_X,
+    HALF_Y,
+    OPEN,
+    ROW_LOW,
+    WALL_COUNT,
+    WALL_FIRST,
+    is_at_eye,
+    level,
+    walk,
+)
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, V_X, X, Y
@@ -254,10 +268,10 @@ def cover_buildings(view, me, i, sight, blocks):
     x0, y0 = of_world(me, distance * cos(sight[LOW, i]), distance * sin(sight[LOW, i]))
     x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
     x2, y2 = of_world(me, sight[SEEN_X, i], sight[SEEN_Y, i])
-    frame, first, mass = view.shadow.grid.frame, view.shadow.sky_first, view.shadow.mass
-    a = walk(frame, first, mass, place, me.eye_x, me.eye_y, x0, y0, False)
-    b = walk(frame, first, mass, place, me.eye_x, me.eye_y, x1, y1, False)
-    c = walk(frame, first, mass, place, me.eye_x, me.eye_y, x2, y2, False)
+    frame, mass = view.shadow.grid.frame, view.shadow.mass
+    a = walk(frame, mass, place, me.eye_x, me.eye_y, x0, y0, False)
+    b = walk(frame, mass, place, me.eye_x, me.eye_y, x1, y1, False)
+    c = walk(frame, mass, place, me.eye_x, me.eye_y, x2, y2, False)
     if max(a, b, c) == OPEN:
         return blocks
     if min(a, b, c) == FULL:
@@ -284,16 +298,46 @@ def cover_walls(shadow, place, me, i, x0, y0, x1, y1, sight, blocks):
     columns, rows = int(frame[COLUMNS, place]), int(frame[ROWS, place])
     west, east = min(me.eye_x, x0, x1), max(me.eye_x, x0, x1)
     south, north = min(me.eye_y, y0, y1), max(me.eye_y, y0, y1)
-    for column in range(max(cell(west, frame[WEST, place], frame), 0), min(cell(east, frame[WEST, place], frame), columns - 1) + 1):
-        for row in range(max(cell(south, frame[SOUTH, place], frame), 0), min(cell(north, frame[SOUTH, place], frame), rows - 1) + 1):
+    first_column, first_row = max(cell(west, frame[WEST, place], frame), 0), max(cell(south, frame[SOUTH, place], frame), 0)
+    wedge = wedge_of(me, x0, y0, x1, y1, sight[HIGH, i] - sight[LOW, i])
+    for column in range(first_column, min(cell(east, frame[WEST, place], frame), columns - 1) + 1):
+        for row in range(first_row, min(cell(north, frame[SOUTH, place], frame), rows - 1) + 1):
             at = int(frame[CELLS, place]) + row * columns + column
             for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
                 b = shadow.grid.item[k]
-                if is_at_eye(shadow, b):
-                    first = shadow.spans[WALL_FIRST, b]
-                    for w in range(first, first + shadow.spans[WALL_COUNT, b]):
-                        blocks = cover_wall(shadow.walls, w, me, i, sight, blocks)
+                is_new = column == max(first_column, shadow.spans[b, COLUMN_LOW]) and row == max(first_row, shadow.spans[b, ROW_LOW])
+                if is_new and is_at_eye(shadow, b) and not is_box_beside(shadow.bodies, b, me, wedge):
+                    first = shadow.spans[b, WALL_FIRST]
+                    for w in range(first, first + shadow.spans[b, WALL_COUNT]):
+                        blocks = cover_wall(shadow.walls, w, me, i, wedge, sight, blocks)
     return blocks
+
+
+@inlined
+def wedge_of(me, x0, y0, x1, y1, width):
+    """The directions in the world of a body's edges, right and left; of one that is half around the sensor nothing that excludes any."""
+    if width >= 3.0:
+        return 0.0, 0.0, 0.0, 0.0
+    return x0 - me.eye_x, y0 - me.eye_y, x1 - me.eye_x, y1 - me.eye_y
+
+
+@inlined
+def is_box_beside(bodies, b, me, wedge):
+    """Whether the box around a building lies wholly to the right of the right edge or to the left of the left one."""
+    east, north = bodies[b, BOX_X] - me.eye_x, bodies[b, BOX_Y] - me.eye_y
+    east_half, north_half = bodies[b, HALF_X], bodies[b, HALF_Y]
+    x0, y0, x1, y1 = wedge
+    return (
+        x0 * north - y0 * east < -(abs(x0) * north_half + abs(y0) * east_half)
+        or x1 * north - y1 * east > abs(x1) * north_half + abs(y1) * east_half
+    )
+
+
+@inlined
+def is_wall_beside(ax, ay, bx, by, wedge):
+    """The same of a wall from a to b, as seen from the sensor along the axes of the world."""
+    x0, y0, x1, y1 = wedge
+    return (x0 * ay < y0 * ax and x0 * by < y0 * bx) or (x1 * ay > y1 * ax and x1 * by > y1 * bx)
 
 
 @inlined
@@ -303,10 +347,13 @@ def cell(place, edge, frame):
 
 
 @inlined
-def cover_wall(walls, w, me, i, sight, blocks):
+def cover_wall(walls, w, me, i, wedge, sight, blocks):
     """Covers the part of a wall that is nearer than the body in column i and before it."""
-    ax, ay = turned(walls[0, w] - me.eye_x, walls[1, w] - me.eye_y, me.eye_cosine, me.eye_sine)
-    bx, by = turned(walls[2, w] - me.eye_x, walls[3, w] - me.eye_y, me.eye_cosine, me.eye_sine)
+    from_x, from_y, to_x, to_y = walls[0, w] - me.eye_x, walls[1, w] - me.eye_y, walls[2, w] - me.eye_x, walls[3, w] - me.eye_y
+    if is_wall_beside(from_x, from_y, to_x, to_y, wedge):
+        return blocks
+    ax, ay = turned(from_x, from_y, me.eye_cosine, me.eye_sine)
+    bx, by = turned(to_x, to_y, me.eye_cosine, me.eye_sine)
     x, y, near = sight[SEEN_X, i], sight[SEEN_Y, i], max(sight[NEAR, i], 1e-6)
     one, other = (ax * x + ay * y) / near, (bx * x + by * y) / near  # along the line to the body's nearest point
     begin, end = level(one, other, 0.01, near)
@@ -369,7 +416,7 @@ def glimpse(view, me, half, cones, least, found):
     sight, blocks, near = view.sight, 0, view.sight[NEAR, 0]
     for k in range(found):
         v = view.found[k]
-        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0:
+        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0 and not is_beyond(view, me, v, near):
             put_vehicle(view, me, v, 1)
             blocks = cover_if_nearer(near, sight, blocks)
     first = view.first_object[me.world]
@@ -386,6 +433,14 @@ def glimpse(view, me, half, cones, least, found):
     if has_houses:
         blocks = cover_buildings(view, me, 0, sight, blocks)
     return see(0, half, sight, blocks) and sight[SHARE, 0] >= least
+
+
+@inlined
+def is_beyond(view, me, v, near):
+    """Whether no part of vehicle v can be as near as that [m], by its centre of gravity."""
+    dx, dy = view.state[X, v] - me.eye_x, view.state[Y, v] - me.eye_y
+    reach = near + view.longest + 0.5 * view.parameter[WIDTH, v]
+    return dx * dx + dy * dy > reach * reach
 
 
 @inlined

@@ -37,6 +37,7 @@ ADDED = TROUBLE.row("added_delay", "s", "added to the delay of what it sends")
 SATELLITE = Table("satellite", Role.DERIVED, per="vehicle")
 DRIFT_EAST = SATELLITE.row("drift_east", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
 DRIFT_NORTH = SATELLITE.row("drift_north", "1", "slow error of the satellite position, over its standard deviation", role=Role.STATE)
+SKY = SATELLITE.row("sky", "1", "share of the sky that was open when the receiver looked up last", role=Role.STATE)
 GPS_EAST = SATELLITE.row("gps_error_east", "m", "measured minus true position", label="Error of the satellite position to the east")
 GPS_NORTH = SATELLITE.row("gps_error_north", "m", "measured minus true position", label="Error of the satellite position to the north")
 
@@ -50,6 +51,7 @@ SENSOR = Table("sensor", Role.STATE, per="sensor")
 FAILS = SENSOR.row("fails", "1", "1 while it gives nothing: a fault that the script may set")
 NOISE = SENSOR.row("noise", "1", "factor on all of its noise, 1 when it is well: a fault that the script may set")
 MEASURED = SENSOR.row("measured", "s", "true time at which what it gives was measured; -1 while it has given nothing")
+NEXT = SENSOR.row("next", "s", "true time from which on the next measurement is given; infinite while none is under way")
 
 # What a sensor has measured and not given yet stands in a ring, one column per slot; these rows beside what it gives.
 OUTPUT = Table("output", Role.STATE, per="slot of the ring of a sensor")
