@@ -17,7 +17,7 @@ from studio.road.network import Network
 from studio.road.ways.path import path
 from studio.road.ways.route import all_routes
 from studio.scenario import setup
-from studio.world.setting import Setting, position, setting
+from studio.world.setting import USUAL_RADIUS, Setting, position, setting
 
 PLATOON, GAP, EVERY = 5, 25.0, 200.0  # cars of a platoon, [m] from one to the next, [m] from platoon to platoon
 LANES, MARGIN = 3, 1000.0  # of each direction; [m] of road before the last car and ahead of the first
@@ -90,7 +90,7 @@ class Start(NamedTuple):
 
 def town_crowd(map_file: Path, count: int) -> Setting:
     """`count` cars with four sensors each and a real radio, over which all hear all, on the map of a town; raises MapError."""
-    starts = list(starts_in(load(map_file), count, map_file))
+    starts = list(starts_in(load(map_file, radius=USUAL_RADIUS), count, map_file))
     return setting(setup.complete(town_document(map_file.name, starts), "the town"), map_file.parent, "the town")
 
 
