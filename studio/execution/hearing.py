@@ -23,6 +23,7 @@ class Hearing:
 
     sender: np.ndarray  # units at the ends of every link
     receiver: np.ndarray
+    looked: np.ndarray  # per sender, how often its links had taken a message when it was looked last
     newest: np.ndarray  # [s] float64[link], when the newest message was sent; NEVER while none has come
     link: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))  # room for changes that are being written
     sent: np.ndarray = field(default_factory=lambda: np.zeros(0))
@@ -36,7 +37,7 @@ class Hearing:
         """The next sample."""
         if self.newest.size:
             self.make_room()
-            channel.newly_heard(world, self.newest, self.link, self.sent, self.count)
+            channel.newly_heard(world, self.looked, self.newest, self.link, self.sent, self.count)
             self.until.append(self.written + int(self.count[0]))
             self.look(channel.present(world))
 
@@ -88,4 +89,5 @@ def hearing(posts: Sequence[Post]) -> Hearing:
     """Of all links, which have heard nothing."""
     sender = np.concatenate([np.zeros(0, np.int64), *(post.sender[post.link_sender] for post in posts)])
     receiver = np.concatenate([np.zeros(0, np.int64), *(post.link_receiver for post in posts)])
-    return Hearing(sender, receiver, np.full(sender.size, NEVER))
+    looked = np.zeros(sum(post.sender.size for post in posts), dtype=np.int64)
+    return Hearing(sender, receiver, looked, np.full(sender.size, NEVER))

@@ -96,20 +96,27 @@ def present(world: World) -> np.ndarray:
     return world.units.now[PRESENT] > 0.0
 
 
-def newly_heard(world: World, newest: np.ndarray, link: np.ndarray, sent: np.ndarray, count: np.ndarray) -> None:
-    """Writes down the links, of all posts, that have heard something newer than `newest` [s], and when that was sent [s]."""
-    first = 0
+def newly_heard(world: World, looked: np.ndarray, newest: np.ndarray, link: np.ndarray, sent: np.ndarray, count: np.ndarray) -> None:
+    """Writes down the links, of all posts, that have heard something newer than `newest` [s], and when that was sent [s].
+
+    `looked` is how often links of every sender had taken a message when it was looked last.
+    """
+    first = sender = 0
     for post in world.units.posts:
-        last = first + post.link_receiver.size
-        note(first, post.inbox, newest[first:last], link, sent, count)
-        first = last
+        own = looked[sender : sender + post.sender.size]
+        note(first, post.link_first, post.taken, post.inbox, own, newest[first : first + post.link_receiver.size], link, sent, count)
+        first, sender = first + post.link_receiver.size, sender + post.sender.size
 
 
 @lean
-def note(first, inbox, newest, link, sent, count):
+def note(first, link_first, taken, inbox, looked, newest, link, sent, count):
     """Those of one post, whose links are numbered from `first` on."""
-    for i in range(newest.size):
-        if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
-            newest[i] = inbox[H_TIME, i]
-            link[count[0]], sent[count[0]] = first + i, newest[i]
-            count[0] += 1
+    for s in range(taken.size):
+        if looked[s] == taken[s]:
+            continue
+        looked[s] = taken[s]
+        for i in range(link_first[s], link_first[s + 1]):
+            if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
+                newest[i] = inbox[H_TIME, i]
+                link[count[0]], sent[count[0]] = first + i, newest[i]
+                count[0] += 1

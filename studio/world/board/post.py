@@ -114,10 +114,10 @@ def dispatch({given}):
 
 
 @lean
-def exchange(period, settings, kept, inbox, came, came_count, gap, {given}, k, now_time):
+def exchange(period, settings, kept, inbox, taken, came, came_count, gap, {given}, k, now_time):
 {beacons}
     dispatch({given})
-    receive(now_time, last, ring, link_first, arrival, inbox, came, came_count)
+    receive(now_time, last, ring, link_first, arrival, inbox, taken, came, came_count)
 '''
 GIVEN = (
     "stream, common, air, reach, within, minds_walls, table, felt, around, busy, load, cell, world_of, unit_first, entity, seed, place_of, "
@@ -184,6 +184,7 @@ class Post:
     arrival: Moving  # [s] float64[slot, link], infinite for a message that is lost
     memory: Moving  # what the radio remembers, [row, link]
     inbox: Moving  # [row, link]
+    taken: np.ndarray  # int64[sender], how often links have taken a message of it, for those who look for what is new
     came: np.ndarray  # int64[link], the links that have taken a message when it was looked last
     came_count: np.ndarray  # int64[1], how many they are
     log: Log
@@ -193,7 +194,11 @@ class Post:
 
     def exchanged(self, k: int, time: float, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
-        own = () if "exchange" in self.ready else (self.period, self.settings, self.kept, self.inbox, self.came, self.came_count, air.gap)
+        own = (
+            ()
+            if "exchange" in self.ready
+            else (self.period, self.settings, self.kept, self.inbox, self.taken, self.came, self.came_count, air.gap)
+        )
         return self.called("exchange", own, air, around, (k, time))
 
     def dispatched(self, air: Air, around: tuple) -> Iterable[Fault]:
@@ -241,7 +246,7 @@ class Post:
 
     def received(self, time: float) -> None:
         """What has come in between two ticks is taken."""
-        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox, self.came, self.came_count)
+        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox, self.taken, self.came, self.came_count)
 
     @property
     def stream(self) -> int:
@@ -353,6 +358,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         arrival=np.full((slots, links.shape[1]), inf),
         memory=remembered(radio.module, "Memory", links.shape[1]),
         inbox=inbox,
+        taken=np.zeros(sender.size, dtype=np.int64),
         came=np.zeros(links.shape[1], dtype=np.int64),
         came_count=np.zeros(1, dtype=np.int64),
         log=Log((most * sender.size, most * links.shape[1])),
@@ -547,14 +553,16 @@ def settle(slot, link, time, cause, delay, distance, arrival, links, causes, del
 
 
 @lean
-def receive(time, last, ring, link_first, arrival, inbox, came, came_count):
+def receive(time, last, ring, link_first, arrival, inbox, taken, came, came_count):
     """Every link takes the newest of the messages that have come in; one that has not come to anybody since then is passed over."""
     came_count[0] = 0
     for i in range(last.size):
         for number in range(last[i], max(last[i] - arrival.shape[0], -1), -1):
             column = column_of(number, i, last, ring)
             if ring[S_NUMBER, column] == number and ring[S_NEXT, column] - EARLY <= time:
+                before = came_count[0]
                 deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count)
+                taken[i] += came_count[0] - before
 
 
 @inlined
