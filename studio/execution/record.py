@@ -1,7 +1,7 @@
 """The record of a run: channels of the recorded vehicles over time, and what happened."""
 
 import traceback
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
@@ -13,11 +13,11 @@ from studio.errors import UnknownError, nearest
 from studio.execution.happening import Happening
 from studio.execution.hearing import Hearing
 from studio.execution.message import Messages, none
+from studio.execution.trail import Trail
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
 from studio.world.channel import CHANNELS, catalogue
-from studio.world.probe import Reader
 from studio.world.world import World
 
 ROW = {each.name: row for row, each in enumerate(CHANNELS)}
@@ -219,11 +219,10 @@ class Derived:
 
 @dataclass(frozen=True)
 class Chunk:
-    """Room for some samples: their times, values [sample, channel, vehicle], and probes."""
+    """Room for some samples: their times, and values [sample, channel, vehicle]."""
 
     time: np.ndarray
     values: np.ndarray
-    probes: np.ndarray
 
 
 @dataclass
@@ -237,7 +236,7 @@ class Recorder:
     every: int
     vehicle_share: list[slice]
     hearing: Hearing
-    reader: Reader
+    trail: Trail
     probe_share: list[slice]
     count: int = 0
     chunks: list[Chunk] = field(default_factory=list)
@@ -252,7 +251,7 @@ class Recorder:
             chunk.time[place] = world.clock.time
             channel.sample(world, self.columns, k, chunk.values[place])
             self.hearing.take(world)
-            self.reader.read(chunk.probes[place])
+            self.trail.take()
             self.count += 1
 
     @cached_property
@@ -261,15 +260,14 @@ class Recorder:
         return max(CHUNK // (8 * sum(self.widths)), 1)
 
     @cached_property
-    def widths(self) -> tuple[int, ...]:
-        """How many numbers of a sample are its time, values and probes."""
-        return 1, len(CHANNELS) * self.columns.size, len(self.reader.probes)
+    def widths(self) -> tuple[int, int]:
+        """How many numbers of a sample are its time and its values."""
+        return 1, len(CHANNELS) * self.columns.size
 
     def chunk(self) -> Chunk:
         """An empty one: a sample lies in one piece."""
         block = np.empty((self.room, sum(self.widths)))
-        time, values, probes = np.split(block, np.cumsum(self.widths)[:-1], axis=1)
-        return Chunk(time[:, 0], values.reshape(self.room, len(CHANNELS), self.columns.size), probes)
+        return Chunk(block[:, 0], block[:, 1:].reshape(self.room, len(CHANNELS), self.columns.size))
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -287,20 +285,14 @@ class Recorder:
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)
 
-    def traced(self, world: int, count: int) -> dict[str, Traced]:
-        """What the probes of one world have read, by name; its first samples."""
+    def traced(self, world: int, samples: Sequence[int]) -> dict[str, Traced]:
+        """What the probes of one world have read at some samples, by name."""
         share = self.probe_share[world]
-        none = np.zeros((0, share.stop - share.start))
-        return self.named(share, self.joined([chunk.probes[:, share] for chunk in self.chunks], none, count))
-
-    def traced_samples(self, world: int, numbers: list[int]) -> dict[str, Traced]:
-        """The same of some samples, by their numbers."""
-        share = self.probe_share[world]
-        return self.named(share, np.array([self.chunks[i // self.room].probes[i % self.room, share] for i in numbers]))
+        return self.named(share, self.trail.at(np.asarray(samples, dtype=np.int64), share))
 
     def named(self, share: slice, values: np.ndarray) -> dict[str, Traced]:
         """What some probes have read, float64[sample, probe], by their names."""
-        return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.reader.probes[share])}
+        return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.trail.reader.probes[share])}
 
     def ages(self, links: list[int], count: int) -> np.ndarray:
         """Ages [s] of the newest message on some links, float64[link, sample]; the first samples."""

@@ -11,6 +11,7 @@ from studio.execution.happening import Happening, happening
 from studio.execution.hearing import hearing
 from studio.execution.message import messages
 from studio.execution.record import Body, Mount, Record, Recorder
+from studio.execution.trail import Trail
 from studio.kind.sensor import Looking
 from studio.scenario.schema import Scenario
 from studio.vehicle import broken
@@ -190,7 +191,7 @@ class Simulation:
             chains=chains(case.setting),
             links=tuple(links.values()),
             ages=recorder.ages(list(links), count),
-            probes=recorder.traced(number, count),
+            probes=recorder.traced(number, range(count)),
             messages=messages(self.world, number),
             bodies=self.bodies(number),
             called=self.called(number),
@@ -207,7 +208,7 @@ class Simulation:
         """A record of some samples of the first world only, by their numbers."""
         time, values = self.recorder.samples(samples)
         shown = values[:, self.recorder.vehicle_share[0]]
-        probes = self.recorder.traced_samples(0, samples)
+        probes = self.recorder.traced(0, samples)
         return Record(time=time, values=shown, vehicles=self.recorded(), happenings=(), probes=probes)
 
     def links(self, number: int) -> dict[int, str]:
@@ -275,7 +276,7 @@ def recorder(settings: tuple[Setting, ...], world: World) -> Recorder:
         every=round(recording.period / world.clock.tick),
         vehicle_share=shares(counts),
         hearing=hearing(world.units.posts),
-        reader=Reader([probe for each in found for probe in each]),
+        trail=Trail(Reader([probe for each in found for probe in each])),
         probe_share=shares([len(each) for each in found]),
     )
 

@@ -176,7 +176,7 @@ class Live:
     def channels(self) -> list[tuple[str, str, str]]:
         """Name, unit and label of what the live charts may show: some channels, and what sensors and applications give."""
         some = [(f"{vehicle}.{name}", catalogue()[name]) for vehicle in self.simulation.recorded() for name in LIVE_CHANNELS]
-        probes = self.simulation.recorder.reader.probes[self.simulation.recorder.probe_share[0]]
+        probes = self.simulation.recorder.trail.reader.probes[self.simulation.recorder.probe_share[0]]
         return [(name, each.unit, each.label) for name, each in (*some, *((probe.name, probe) for probe in probes))]
 
     def send_samples(self) -> None:

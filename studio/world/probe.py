@@ -109,6 +109,11 @@ class Share(NamedTuple):
     field: str
     stretches: np.ndarray
 
+    @property
+    def numbers(self) -> np.ndarray:
+        """The array as it is now, laid out in one line."""
+        return getattr(self.owner, self.field).reshape(-1).astype(float, copy=False)
+
 
 @dataclass
 class Reader:
@@ -129,7 +134,7 @@ class Reader:
     def read(self, values: np.ndarray) -> None:
         """All values now, float64[probe]; not a number where there is no target."""
         for each in self.shares:
-            pick(getattr(each.owner, each.field).reshape(-1).astype(float, copy=False), each.stretches, values)
+            pick(each.numbers, each.stretches, values)
 
 
 def runs(probes: list[Probe]) -> Iterator[tuple[int, int]]:

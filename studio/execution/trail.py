@@ -1,0 +1,112 @@
+"""What probes have read, sample by sample, kept as what has changed: a sensor measures every few samples, and most see few targets.
+
+trail.take()              the next sample
+trail.at(samples, probes) →   float64[sample, probe], what some probes had read at some samples
+
+Numbers that a probe's owner writes together are a stretch (studio/world/probe.py). A stretch that differs from what was written of it
+last is written behind everything else; every sample says of every stretch where it stands.
+"""
+
+from dataclasses import dataclass, field
+from math import nan
+
+import numpy as np
+
+from studio.compiled import lean
+from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader
+
+NUMBERS = 1 << 20  # that a part holds at least
+SAMPLES = 1024  # that a part holds at most
+NOTHING = 0  # where a stretch stands that has nothing to tell
+
+
+@dataclass(frozen=True)
+class Part:
+    """Some samples that follow each other: from which on, where each stretch stands, int32[sample, stretch], and the numbers."""
+
+    first: int
+    place: np.ndarray
+    numbers: np.ndarray
+
+
+@dataclass
+class Trail:
+    """All parts; the last one is being written."""
+
+    reader: Reader
+    stretch: np.ndarray = field(init=False)  # of every probe
+    within: np.ndarray = field(init=False)  # the place of every probe within its stretch
+    newest: np.ndarray = field(init=False)  # where every stretch stands now
+    longest: int = field(init=False)
+    used: int = 0
+    count: int = 0  # samples so far
+    parts: list[Part] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        shares = [each.stretches for each in self.reader.shares] or [np.zeros((6, 0), np.int64)]
+        count, where = (np.concatenate([each[row] for each in shares]) for row in (COUNT, WHERE))
+        self.stretch, self.within = np.zeros((2, int(count.sum())), np.int64)
+        for number, (first, length) in enumerate(zip(where.tolist(), count.tolist(), strict=True)):
+            self.stretch[first : first + length], self.within[first : first + length] = number, np.arange(length)
+        self.newest = np.full(count.size, NOTHING, np.int32)
+        self.longest = int(count.max(initial=1))
+
+    def take(self) -> None:
+        """The next sample."""
+        if not self.parts or self.is_full(self.parts[-1]):
+            self.begin()
+        part, first = self.parts[-1], 0
+        for each in self.reader.shares:
+            own = self.newest[first : first + each.stretches.shape[1]]
+            self.used = keep(each.numbers, each.stretches, own, part.numbers, self.used)
+            first += own.size
+        part.place[self.count - part.first] = self.newest
+        self.count += 1
+
+    def is_full(self, part: Part) -> bool:
+        """Whether a part may not take one more sample."""
+        return self.count - part.first == SAMPLES or self.used + self.stretch.size > part.numbers.size
+
+    def begin(self) -> None:
+        """A part, into which everything is written anew."""
+        numbers = np.empty(max(NUMBERS, self.longest + 2 * self.stretch.size))
+        numbers[: self.longest] = nan
+        self.parts.append(Part(self.count, np.empty((SAMPLES, self.newest.size), np.int32), numbers))
+        self.newest[:], self.used = NOTHING, self.longest
+
+    def at(self, samples: np.ndarray, probes: slice) -> np.ndarray:
+        """What some probes had read at some samples, float64[sample, probe]; not a number where there was no target."""
+        found = np.empty((samples.size, self.stretch[probes].size))
+        number = np.searchsorted([part.first for part in self.parts], samples, side="right") - 1
+        for i in np.unique(number):
+            part, here = self.parts[i], number == i
+            found[here] = part.numbers[part.place[samples[here] - part.first][:, self.stretch[probes]] + self.within[probes]]
+        return found
+
+
+@lean
+def keep(numbers, stretches, newest, kept, used):
+    """Writes stretches of an array that have changed behind the first `used` of `kept`; how many are used then."""
+    for i in range(stretches.shape[1]):
+        slot = stretches[SLOT, i]
+        if slot >= 0 and numbers[stretches[COUNTER, i]] <= slot:
+            newest[i] = NOTHING
+            continue
+        first, step, count = stretches[FIRST, i], stretches[STEP, i], stretches[COUNT, i]
+        if newest[i] != NOTHING and is_same(numbers, first, step, count, kept, newest[i]):
+            continue
+        for j in range(count):
+            kept[used + j] = numbers[first + j * step]
+        newest[i] = used
+        used += count
+    return used
+
+
+@lean
+def is_same(numbers, first, step, count, kept, at):
+    """Whether a stretch is what was written of it at a place."""
+    for j in range(count):
+        now, before = numbers[first + j * step], kept[at + j]
+        if now != before and (now == now or before == before):
+            return False
+    return True
