@@ -7,12 +7,13 @@ Numbers that a probe's owner writes together are a stretch (studio/world/probe.p
 last is written behind everything else; every sample says of every stretch where it stands.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import nan
 
 import numpy as np
 
-from studio.compiled import lean
+from studio.compiled import bound, lean
 from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader
 
 NUMBERS = 1 << 20  # that a part holds at least
@@ -41,6 +42,7 @@ class Trail:
     used: int = 0
     count: int = 0  # samples so far
     parts: list[Part] = field(default_factory=list)
+    ready: list[Callable] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         shares = [each.stretches for each in self.reader.shares] or [np.zeros((6, 0), np.int64)]
@@ -55,13 +57,19 @@ class Trail:
         """The next sample."""
         if not self.parts or self.is_full(self.parts[-1]):
             self.begin()
-        part, first = self.parts[-1], 0
-        for each in self.reader.shares:
-            own = self.newest[first : first + each.stretches.shape[1]]
-            self.used = keep(each.numbers, each.stretches, own, part.numbers, self.used)
-            first += own.size
+        part = self.parts[-1]
+        for keep_share in self.shares(part.numbers):
+            self.used = keep_share(part.numbers, self.used)
         part.place[self.count - part.first] = self.newest
         self.count += 1
+
+    def shares(self, numbers: np.ndarray) -> list[Callable]:
+        """What keeps the stretches of each array; arrays stay where they are, so that all but the last two arguments are given once."""
+        if not self.ready:
+            own = np.split(self.newest, np.cumsum([each.stretches.shape[1] for each in self.reader.shares])[:-1])
+            for each, newest in zip(self.reader.shares, own, strict=False):
+                self.ready.append(bound(keep, each.numbers, each.stretches, newest, then=(numbers, self.used)))
+        return self.ready
 
     def is_full(self, part: Part) -> bool:
         """Whether a part may not take one more sample."""

@@ -111,8 +111,10 @@ class Share(NamedTuple):
 
     @property
     def numbers(self) -> np.ndarray:
-        """The array as it is now, laid out in one line."""
-        return getattr(self.owner, self.field).reshape(-1).astype(float, copy=False)
+        """The array, laid out in one line."""
+        array = getattr(self.owner, self.field)
+        assert array.flags.c_contiguous, "what is laid out is the array itself and no copy"
+        return array.reshape(-1)
 
 
 @dataclass
