@@ -31,6 +31,7 @@ SCRATCH = {
     "world.script.mail",
     "world.script.values",
     "world.units.sight",
+    *(f"world.units.posts[{i}].{name}" for i in range(3) for name in ("came", "came_count")),  # from the post to the inboxes
     *SORTED,
 }
 KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and kept: zones of pairs of lines, open sky
@@ -38,7 +39,8 @@ KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and 
 
 def leaves(owner, path="world"):
     """Everything that a world holds, down to arrays, numbers and texts, with its path."""
-    if path in KNOWN or path.endswith((".owner", ".log")):  # what a port is wired to stands with the units; a log is a record
+    # What a port is wired to stands with the units; a log is a record, and `taken` counts for one what has ever come.
+    if path in KNOWN or path.endswith((".owner", ".log", ".taken")):
         return
     if isinstance(owner, np.ndarray):
         yield path, (owner.dtype, owner.shape, owner.tobytes())
