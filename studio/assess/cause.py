@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from studio.assess.adhesion import WHEELS, used
+from studio.assess.danger import HARD, stretches
 from studio.assess.known import Known, known
 from studio.execution.happening import Happening
 from studio.execution.record import Record
@@ -97,7 +98,7 @@ def explained(record: Record, event: Happening) -> Explanation:
         event=event,
         known=tuple(each for one, other in pairs for each in known(record, one, other, sample)),
         commanded_by={each: commanded(record, each, sample) for each in vehicles},
-        tyre_at_limit=tuple(each for vehicle in vehicles for each in at_limit(record, vehicle, sample)),
+        tyre_at_limit=tuple(each for vehicle in vehicles for each in at_limit(record, vehicle, sample, last_of(record, event, sample))),
     )
 
 
@@ -111,9 +112,17 @@ def commanded(record: Record, vehicle: str, sample: int) -> dict[str, str]:
     return found
 
 
-def at_limit(record: Record, vehicle: str, sample: int) -> Iterator[Wheel]:
-    """Wheels of a vehicle whose tyres were at their limits in the second before a sample, or then."""
+def last_of(record: Record, event: Happening, sample: int) -> int:
+    """The last sample of what an event tells: a hard brake is told when it begins, with its strongest deceleration."""
+    if event.kind != EVENTS[HARD_BRAKE].name or event.vehicle not in record.vehicles:
+        return sample
+    hard = -record.channel("acceleration")[record.vehicles.index(event.vehicle)] > HARD
+    return next((part.stop - 1 for part in stretches(hard, record.time) if part.start <= sample < part.stop), sample)
+
+
+def at_limit(record: Record, vehicle: str, sample: int, last: int) -> Iterator[Wheel]:
+    """Wheels of a vehicle whose tyres were at their limits from a second before a sample up to the last one of the event."""
     row = record.vehicles.index(vehicle)
     first = int(np.searchsorted(record.time, record.time[sample] - BEFORE))
-    most = np.nan_to_num(used(record)[:, row, first : sample + 1]).max(axis=1, initial=0.0)
+    most = np.nan_to_num(used(record)[:, row, first : last + 1]).max(axis=1, initial=0.0)
     yield from (Wheel(vehicle, wheel, round(float(use), 4)) for wheel, use in zip(WHEELS, most, strict=True) if use >= LIMIT)

@@ -27,10 +27,13 @@ def sample(fleet: Fleet, columns: np.ndarray, values: np.ndarray) -> None:
 
 @lean
 def use(columns, n, tyres, tyres_of, wheels, ground, values):
-    """The pass behind it; tyres_of int64[2, n] are those of the front and the rear axle."""
+    """The pass behind it; tyres_of int64[2, n] are those of the front and the rear axle.
+
+    Forces are those that have just acted. Where the ground has become slippery since, they are more than it gives now: all of it is used.
+    """
     for i in range(columns.size):
         for corner in range(4):
             w = corner * n + columns[i]
             t = tyre_at(tyres, tyres_of[corner // 2, columns[i]])
             F = min(wheels[F_Z, w], OVERLOAD * t.LFZO * t.FNOMIN)
-            values[corner, i] = adhesion.used(t, wheels[F_X, w], wheels[F_Y, w], F, ground[MU, w])
+            values[corner, i] = min(adhesion.used(t, wheels[F_X, w], wheels[F_Y, w], F, ground[MU, w]), 1.0)

@@ -177,3 +177,15 @@ def test_adhesion_is_that_of_the_tyres(sample):
     most = use.channel("adhesion_rear_left")[0]
     before, braking_hard = use.time < 19.5, (use.time > 20.6) & (use.channel("acceleration")[0] < -7.5)
     assert most[before].max() < 0.35 and braking_hard.any() and 0.75 < most[braking_hard].min() <= most[braking_hard].max() < 1.02
+
+
+def test_a_tyre_at_its_limit_while_a_hard_brake_lasts_is_told(drive):
+    """The event is told when the brake begins, its strongest moment comes later; what comes after it does not count."""
+    hard = -drive.channel("acceleration")[1] > 5.0
+    first, last = (int(each) for each in np.flatnonzero(hard)[[0, -1]])
+    assert last - first > 50
+    for at, is_told in ((first + 40, True), (last, True), (last + 60, False)):
+        use = np.where(np.arange(TIME.size) == at, 0.99, 0.1)
+        made = with_dangers(replace(drive, values=with_channel(drive, "adhesion_rear_left", np.stack([0.1 * use, use]))))
+        (brake,) = explain(made, ("hard_brake",))
+        assert [each.wheel for each in brake.tyre_at_limit] == (["rear_left"] if is_told else [])
