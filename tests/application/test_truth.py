@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from studio import job
-from studio.kind import registry
 from tests.conftest import ROOT
 
 SAMPLE = ROOT / "scenarios" / "motorway_platoon.yaml"
@@ -54,13 +53,11 @@ SILENT = {"kind": "ad_hoc", "loss": 1.0}
 
 
 @pytest.fixture
-def spy(tmp_path):
-    """The application that writes down all it is given; afterwards it is forgotten."""
-    before = list(registry.every())
+def spy(tmp_path, own_kinds):
+    """The application that writes down all it is given."""
     log = "\n".join(f'    v{i}: Annotated[float, "1"] = 0.0' for i in range(COUNT))
     (tmp_path / "spy.py").write_text(SPY.format(log=log, count=COUNT))
-    yield registry.load_file(tmp_path / "spy.py")
-    registry.restore(before)
+    own_kinds(tmp_path)
 
 
 def given(where, speed, drives):
