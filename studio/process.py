@@ -8,27 +8,34 @@ child.end()                              kindly first, then by force, with every
 In the process, `line` is the other end of the pipe: line.send(words), line.recv(), line.poll(seconds). Orders and news are
 tuples that begin with a word.
 
-Nobody outlives anybody: a process and what it starts are one group, and the group ends as soon as the process that began it is
-gone, however it went. A process that takes no orders costs its own run only: the orders wait in a queue of bounded length, and
-one too many is refused.
+Nobody outlives anybody. What `begin` starts is a guard, which does nothing but watch over the process that works, its child: no code
+of a user's runs in it, so nothing can hold it up. When the one who began it is gone, however that went, or when it is told to, it ends
+the worker; when the worker has ended, it ends whatever that has started, in groups and sessions of their own too, and ends like it.
+
+A process that takes no orders costs its own run only: the orders wait in a queue of bounded length, and one too many is refused.
 """
 
+import ctypes
 import multiprocessing
 import os
 import queue
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from multiprocessing.connection import Connection
-from typing import Any
+from multiprocessing.reduction import ForkingPickler
+from typing import Any, NoReturn
 
 import psutil
 
 MOST_ORDERS = 64  # that wait for a process to take them
 END_PATIENCE = 3.0  # [s] for a process to end by itself
 LAST_WORDS = 2.0  # [s] for a process to put down that it was left alone
+NOW = "now"  # said over the lifeline: no last words
+PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # of Linux, prctl(2)
 spawn = multiprocessing.get_context("spawn")
 
 
@@ -61,7 +68,8 @@ class Child:
         ours, line = spawn.Pipe()
         watched, lifeline = spawn.Pipe(duplex=False)
         try:
-            process = spawn.Process(target=live, args=(work, line, watched, arguments), daemon=True)
+            task = bytes(ForkingPickler.dumps((work, arguments)))
+            process = spawn.Process(target=live, args=(line, watched, task), daemon=True)
             process.start()
         except BaseException:
             ours.close()
@@ -115,10 +123,10 @@ class Child:
         return self.code if self.is_over else self.process.exitcode
 
     def kill(self) -> None:
-        """Ends it at once, with everything that it has started."""
-        with self.ending:
-            if not self.is_over and self.process.is_alive():
-                kill_group(self.process.pid)
+        """Ends it at once, with everything that it has started; does not wait for that."""
+        with self.ending, suppress(OSError):
+            if not self.is_over:
+                self.lifeline.send(NOW)
 
     def end(self, patience: float = END_PATIENCE) -> None:
         """Waits a little for its end, then kills it; afterwards nothing of it is left here, no descriptor and no thread."""
@@ -130,6 +138,8 @@ class Child:
         with self.ending:
             if self.is_over:
                 return
+            self.process.join(END_PATIENCE + LAST_WORDS)
+            self.process.kill()  # a guard that never came so far as to watch
             self.process.join()
             self.code, self.is_over = self.process.exitcode, True
             self.process.close()
@@ -141,36 +151,85 @@ class Child:
         self.orders.put(None)
 
 
-def kill_group(pid: int) -> None:
-    """Kills a process that `live` began, its group, and what it has started in other groups."""
-    with suppress(psutil.NoSuchProcess):
-        others = psutil.Process(pid).children(recursive=True)
-        if hasattr(os, "killpg"):
-            with suppress(ProcessLookupError, PermissionError):
-                if os.getpgid(pid) == pid:
-                    os.killpg(pid, signal.SIGKILL)
-        for each in [psutil.Process(pid), *others]:
-            with suppress(psutil.NoSuchProcess):
-                each.kill()
+# -- the guard ---------------------------------------------------------------------------------------
 
 
-# -- in the process ----------------------------------------------------------------------------------
+def live(line: Connection, lifeline: Connection, task: bytes) -> None:
+    """What the process does: its work, for as long as somebody holds the other end of the lifeline.
 
-
-def live(work: Callable[..., None], line: Connection, lifeline: Connection, arguments: tuple[Any, ...]) -> None:
-    """What the process does: its work, for as long as somebody holds the other end of the lifeline."""
+    The work is unpacked, with all the imports that this takes, in the process that does it.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever began it decides when it ends
-    if hasattr(os, "setpgrp"):
-        os.setpgrp()
-    threading.Thread(target=perish, args=(lifeline,), name="lifeline", daemon=True).start()
+    if hasattr(os, "fork"):
+        split_off(line, lifeline)
+    else:
+        threading.Thread(target=cut_off, args=(lifeline, lambda: os._exit(1)), daemon=True).start()
+    work, arguments = ForkingPickler.loads(task)
     work(line, *arguments)
 
 
-def perish(lifeline: Connection) -> None:
-    """Waits for the end of the lifeline, on which nothing ever comes, and soon ends the process and its group with it."""
-    with suppress(EOFError, OSError):
+def split_off(line: Connection, lifeline: Connection) -> None:
+    """Splits the worker off, in which this returns, and watches over it."""
+    os.setpgrp()
+    control(PR_SET_CHILD_SUBREAPER, 1)  # orphans of the worker come to this process
+    guard = os.getpid()
+    if worker := os.fork():
+        line.close()
+        watch(worker, lifeline)
+    os.setpgrp()
+    control(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != guard:
+        os._exit(1)  # gone before it could be noticed
+    lifeline.close()
+
+
+def control(option: int, value: int) -> None:
+    """Sets what only Linux knows about a process."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
+
+
+def watch(worker: int, lifeline: Connection) -> NoReturn:
+    """Until the worker has ended; then ends what is left of it, and ends like it."""
+    threading.Thread(target=cut_off, args=(lifeline, lambda: os.kill(worker, signal.SIGKILL)), daemon=True).start()
+    ended, status = 0, 0
+    while ended != worker:
+        ended, status = os.wait()
+    end_others(worker)
+    end_like(os.waitstatus_to_exitcode(status))
+
+
+def cut_off(lifeline: Connection, end: Callable[[], None]) -> None:
+    """Waits for the end of the lifeline, and for the last words of who depends on it, or for the word that it be now."""
+    try:
         lifeline.recv()
-    time.sleep(LAST_WORDS)
-    if hasattr(os, "killpg"):
-        os.killpg(os.getpgrp(), signal.SIGKILL)
-    os._exit(1)
+    except (EOFError, OSError):
+        time.sleep(LAST_WORDS)
+    end()
+
+
+def end_others(worker: int) -> None:
+    """Ends all that the worker has started and that still goes on: its group, and what has come to the guard."""
+    until = time.monotonic() + LAST_WORDS
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(worker, signal.SIGKILL)
+    while (others := psutil.Process().children(recursive=True)) and time.monotonic() < until:
+        for each in others:
+            with suppress(psutil.Error):
+                each.kill()
+        with suppress(ChildProcessError):
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        time.sleep(0.01)
+
+
+def end_like(code: int) -> NoReturn:
+    """Ends this process with the code of another, or by the signal that ended that one, without a second dump of memory."""
+    if code < 0:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        if code not in (-signal.SIGKILL, -signal.SIGSTOP):
+            signal.signal(-code, signal.SIG_DFL)
+        os.kill(os.getpid(), -code)
+    os._exit(code)

@@ -28,13 +28,13 @@ def decide(parameters, memory, sees):
     return memory, Does(leave())
 '''
 
-# Leaves a sign beside itself before it hangs.
+# Leaves a sign beside itself before it hangs, and never lets go of the interpreter.
 HANGING = BROKEN.replace("Raises", "Hangs").replace(
     'raise RuntimeError("the idea was not so good")',
-    """from pathlib import Path
+    """import re
+        from pathlib import Path
         Path(__file__).with_suffix(".sign").touch()
-        while True:
-            pass""",
+        re.match("(a*)*b", 100 * "a")""",
 )
 
 TORN = """'''A driver that nobody has finished.'''

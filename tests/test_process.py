@@ -1,6 +1,7 @@
 """Processes of ours: orders never hold anybody up, and nobody outlives anybody."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -21,12 +22,27 @@ def answer(line, *words):
         line.send(("heard", *order))
 
 
+IDLE = f"import time; time.sleep({PATIENCE})"
+ORPHAN = f"""
+import subprocess, sys
+print(subprocess.Popen([sys.executable, "-c", {IDLE!r}], stdout=subprocess.DEVNULL, start_new_session=True).pid)
+"""
+
+
 def hang(line):
-    """Takes no order, and starts a process of its own which does nothing either."""
-    other = subprocess.Popen([sys.executable, "-c", f"import time; time.sleep({PATIENCE})"])
-    line.send(("has", other.pid))
-    while True:
-        pass
+    """Takes no order and never lets go of the interpreter; has started processes which do nothing either: one as usual, one in a
+    session of its own, and one whose parent has ended."""
+    command = [sys.executable, "-c", IDLE]
+    others = [subprocess.Popen(command).pid, subprocess.Popen(command, start_new_session=True).pid]
+    others.append(int(subprocess.run([sys.executable, "-c", ORPHAN], stdout=subprocess.PIPE, check=True).stdout))
+    line.send(("has", os.getpid(), *others))
+    re.match("(a*)*b", 100 * "a")
+
+
+def stray(line):
+    """Ends by a signal, without an end to what it has started in a session of its own."""
+    line.send(("has", subprocess.Popen([sys.executable, "-c", IDLE], start_new_session=True).pid))
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def crash(line):
@@ -67,7 +83,7 @@ def test_a_crash_is_told_with_its_code():
 def test_a_process_that_takes_no_orders_holds_nobody_up():
     """However many orders, however long: one too many is refused, and the end comes all the same, with what it has started."""
     child = Child.begin(hang)
-    _, other = child.hear()
+    _, *pids = child.hear()
     long, refused = "x" * 10_000, 0
     for _ in range(10 * MOST_ORDERS):
         try:
@@ -77,7 +93,16 @@ def test_a_process_that_takes_no_orders_holds_nobody_up():
     assert refused >= 8 * MOST_ORDERS
     child.end(0.0)
     assert child.exit_code() == -signal.SIGKILL
-    until(lambda: is_gone(other), "the end of what it had started")
+    assert all(map(is_gone, pids))
+
+
+def test_a_process_that_dies_leaves_nobody_behind():
+    child = Child.begin(stray)
+    _, pid = child.hear()
+    with pytest.raises(Gone) as gone:
+        child.hear()
+    assert gone.value.code == -signal.SIGKILL and is_gone(pid)
+    child.end()
 
 
 def test_nothing_is_left_of_a_process_that_has_ended():
@@ -97,13 +122,13 @@ from tests.test_process import hang
 
 if __name__ == "__main__":
     child = Child.begin(hang)
-    print(child.process.pid, child.hear()[1], flush=True)
+    print(child.process.pid, *child.hear()[1:], flush=True)
     time.sleep({patience})
 """
 
 
 def test_nobody_outlives_the_one_who_began_it(tmp_path):
-    """Not even when that one is killed; nor do the processes that it has started."""
+    """Not even when that one is killed, and nothing but a signal reaches the process; nor does what it has started."""
     (tmp_path / "master.py").write_text(MASTER.format(patience=PATIENCE))
     root = str(Path(__file__).parents[1])
     master = subprocess.Popen(
@@ -114,7 +139,7 @@ def test_nobody_outlives_the_one_who_began_it(tmp_path):
         cwd=tmp_path,
     )
     pids = [int(pid) for pid in master.stdout.readline().split()]
-    assert len(pids) == 2 and not any(map(is_gone, pids))
+    assert len(pids) == 5 and not any(map(is_gone, pids))
     master.kill()
     master.wait()
     until(lambda: all(map(is_gone, pids)), "the end of its processes")

@@ -13,8 +13,10 @@ from websockets.sync.client import connect
 from studio.process import Child
 from studio.server import live
 from studio.server.news import News
+from tests.broken import HANGING
 from tests.patience import PATIENCE
 from tests.patience import until as wait_until
+from tests.server.server import served
 
 SCENARIO = "grosser_stern_platoon"
 LONG = {"clock.duration": 600}  # no run that is looked at ends before that
@@ -129,7 +131,7 @@ def test_a_process_that_is_killed_ends_its_run_only(client, server):
     run = start(client, set=LONG)
     with news(client, run) as socket:
         until(socket, lambda m: m["type"] == "state" and m["time"] > 0.5)
-        for child in psutil.Process(server[2].pid).children():
+        for child in psutil.Process(server[2].pid).children(recursive=True):
             if any(each.path.endswith("runs.db") for each in child.open_files()):
                 os.kill(child.pid, signal.SIGKILL)
         end = until(socket, lambda m: m["type"] == "end")[-1]
@@ -194,6 +196,25 @@ def test_an_application_that_hangs_can_be_stopped(client, server):
         end = until(socket, lambda m: m["type"] == "end")[-1]
     assert end["status"] == "stopped" and "did not react" in end["error"]
     assert client.get(f"/api/runs/{run}").json()["status"] == "stopped"
+
+
+def test_an_application_that_hangs_holds_up_nobody_and_ends_with_the_server(tmp_path, sample):
+    """However many orders it gets; and when the server is killed, the next one finds its row."""
+    folder = tmp_path / "kinds"
+    folder.mkdir()
+    (folder / "hanging.py").write_text(HANGING)
+    options = ("--kinds", folder, "--scenarios", sample.parent)
+    with served(tmp_path, *options) as (client, _, process):
+        run = start(client, set={"applications.platoon.application": "hanging"})
+        wait_until((folder / "hanging.sign").exists, "the application that hangs")
+        steps = [client.post(f"/api/live/{run}/step") for _ in range(600)]
+        assert {each.status_code for each in steps} == {200, 422} and "does not react" in steps[-1].text
+        assert client.get("/api/kinds").status_code == 200
+        left = psutil.Process(process.pid).children(recursive=True)
+        process.kill()
+        wait_until(lambda: not any(each.is_running() and each.status() != psutil.STATUS_ZOMBIE for each in left), "the end of all")
+    with served(tmp_path, *options) as (client, _, _):
+        assert client.get(f"/api/runs/{run}").json()["status"] == "killed"
 
 
 @pytest.mark.parametrize("says", ["running", "stopped"])
