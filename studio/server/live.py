@@ -28,6 +28,7 @@ from studio.store.runs import reopen_runs
 
 START_PATIENCE = 600.0  # [s] the first start compiles; the page tells how far it is
 MOST_LIVE = 8  # processes at a time
+MOST_OVER = 8  # runs that are over, whose news are kept for who comes late
 END_PATIENCE = 3.0  # [s] for a process to save and end
 STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang
 LOG = logging.getLogger(__name__)
@@ -251,10 +252,18 @@ class Lives:
         with self.place():
             process, number, duration = self.begin(order)
             live = LiveRun(number, scenario, duration, process, self.on_frame, loaded, self.db, pace=order.pace)
-            self.runs[number] = live
+            self.keep(live)
         threading.Thread(target=live.listen, name=f"run {number}", daemon=True).start()
         threading.Timer(1.0, self.make_ready).start()  # not while the new run draws its first breath
         return live
+
+    def keep(self, live: LiveRun) -> None:
+        """Takes a run in, and forgets those that have been over for longest: their rows tell all of them."""
+        with self.lock:
+            over = [number for number, each in self.runs.items() if each.is_over]
+            for number in over[: max(0, len(over) - MOST_OVER)]:
+                del self.runs[number]
+            self.runs[live.run] = live
 
     @contextmanager
     def place(self) -> Generator[None]:
@@ -288,18 +297,24 @@ class Lives:
 
     def find(self, run: int) -> LiveRun:
         """A live run; raises UnknownError."""
-        if run not in self.runs:
-            known = ", ".join(map(str, sorted(self.runs))) or "there is none"
-            raise UnknownError(f"Run {run} is not a live run of this server.", [Problem("run", "is not live", str(run), known)])
-        return self.runs[run]
+        with self.lock:
+            if run not in self.runs:
+                known = ", ".join(map(str, sorted(self.runs))) or "there is none"
+                raise UnknownError(f"Run {run} is not a live run of this server.", [Problem("run", "is not live", str(run), known)])
+            return self.runs[run]
+
+    def all(self) -> list[LiveRun]:
+        """All of them, newest first."""
+        with self.lock:
+            return [live for _, live in sorted(self.runs.items(), reverse=True)]
 
     def close(self) -> None:
         """Stops all runs and ends all processes."""
-        for live in self.runs.values():
+        for live in self.all():
             with suppress(ServerError):
                 live.stop()
         deadline = time.monotonic() + END_PATIENCE
-        while any(not live.is_over for live in self.runs.values()) and time.monotonic() < deadline:
+        while any(not live.is_over for live in self.all()) and time.monotonic() < deadline:
             time.sleep(0.02)
         with self.lock:
             for process in (*(live.process for live in self.runs.values()), *([self.spare] if self.spare else [])):

@@ -195,7 +195,7 @@ def compare(a: int, b: int, desk: AtDesk) -> answer.Comparison:
 @router.get("/live")
 def live_runs(desk: AtDesk) -> list[answer.Live]:
     """Live runs of this server, newest first."""
-    return [live.row() for _, live in sorted(desk.lives.runs.items(), reverse=True)]
+    return [live.row() for live in desk.lives.all()]
 
 
 @router.post("/live", status_code=201)

@@ -253,6 +253,21 @@ def test_a_spare_process_that_died_is_replaced(client, server):
         assert until(socket, lambda m: m["type"] == "end")[-1]["status"] == "done"
 
 
+def test_nothing_is_left_of_runs_that_are_over(client, server):
+    """Neither descriptors nor threads in the server, nor more than some of their news."""
+    own = psutil.Process(server[2].pid)
+    left = []
+    for _ in range(live.MOST_OVER + 2):
+        run = start(client, set={"clock.duration": 0.02}, pace="fast")
+        with news(client, run) as socket:
+            until(socket, lambda m: m["type"] == "end")
+        wait_until(lambda: len(workers(server)) == 1, "the process that waits for the next run")
+        left.append((own.num_fds(), own.num_threads()))
+    wait_until(lambda: own.num_fds() <= left[0][0] and own.num_threads() <= left[0][1], f"what was there before: {left}")
+    assert len(client.get("/api/live").json()) <= live.MOST_OVER + 1
+    assert client.get(f"/api/live/{run}").status_code == 200
+
+
 def workers(server):
     """The processes of live runs, and the one that waits."""
     return [each for each in psutil.Process(server[2].pid).children() if "spawn_main" in command(each)]
