@@ -11,6 +11,7 @@ The command line, Python, REST and live runs all go through these functions; the
 import hashlib
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ import numpy as np
 from studio.assess.danger import with_dangers
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
-from studio.errors import Problem, ScenarioError, UnknownError, nearest
+from studio.errors import Problem, ScenarioError, StoreError, UnknownError, nearest
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
@@ -259,6 +260,7 @@ def run(
         row = save(number, result, runs) if runs and number else None
     except BaseException as error:
         if runs and number:
-            runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
+            with suppress(StoreError):  # what went wrong first is told
+                runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
         raise
     return replace(result, row=row)

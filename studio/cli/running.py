@@ -184,14 +184,14 @@ def schema(kinds: Kinds = None) -> None:
 
 def existing(db: Path):
     """The runs of a database that must exist; reading makes no file."""
-    from studio.store.runs import open_runs
+    from studio.store.runs import read_runs
 
     if not db.exists():
         raise UnknownError(
             f"There is no run database {db}.",
             [Problem("--db", "does not exist", str(db), remedy="run a scenario first, or name another file")],
         )
-    return open_runs(db)
+    return read_runs(db)
 
 
 def run_json(row) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from studio.errors import Problem, ServerError
 from studio.server import page
 from studio.server.door import Door
 from studio.server.origin import SameOrigin
-from studio.store.tables import open_database
+from studio.store.runs import open_runs
 
 FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent in one piece
 PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
@@ -24,7 +24,7 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list
     """Serves until it is interrupted. Raises StoreError or ServerError before it starts."""
     listening = listen(host, port)
     try:
-        open_database(db).conn.close()
+        open_runs(db).close()
         folder = scenario_folder(scenarios)
         app = application(db, folder, kinds, host)
     except BaseException:

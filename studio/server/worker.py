@@ -11,6 +11,7 @@ It runs one run and ends; whatever goes wrong in it ends that run and nothing el
 
 import time
 import traceback
+from contextlib import suppress
 from dataclasses import dataclass, field
 from math import inf
 from multiprocessing.connection import Connection
@@ -20,13 +21,13 @@ from typing import Any
 import numpy as np
 
 from studio import job
-from studio.errors import StudioError
+from studio.errors import StoreError, StudioError
 from studio.execution.loop import Pace
 from studio.execution.simulation import Case, Simulation, simulation
 from studio.kind.registry import load_folder
 from studio.server import answer
 from studio.server.frame import blend, frame, poses
-from studio.store.runs import open_runs
+from studio.store.runs import Runs, open_runs
 from studio.world.channel import catalogue
 
 FRAME_PERIOD = 0.02  # [s] of real time between two frames for the eye
@@ -230,13 +231,21 @@ def start(pipe: Connection, order: Order) -> None:
     try:
         current = simulation(prepared)
         Live(current, pipe, Pace(order.pace), order.paused).run()
-        job.save(number, job.outcome(loaded, current), runs)
-        pipe.send(("end", current.cases[0].status, current.cases[0].error))
+        row = job.save(number, job.outcome(loaded, current), runs)
+        pipe.send(("end", row.status, row.error))
     except (EOFError, OSError):
-        runs.end(number, "killed", "The server ended before the run did.")
+        ended(runs, number, "killed", "The server ended before the run did.")
+    except StoreError as error:
+        pipe.send(("end", ended(runs, number, "failed", str(error)), str(error)))
     except Exception:
-        runs.end(number, "failed", traceback.format_exc())
-        pipe.send(("end", "failed", traceback.format_exc()))
+        pipe.send(("end", ended(runs, number, "failed", traceback.format_exc()), traceback.format_exc()))
+
+
+def ended(runs: Runs, number: int, status: str, why: str) -> str:
+    """Puts down how a run ended that brought nothing, if the database takes it; returns how."""
+    with suppress(StoreError):
+        runs.end(number, status, why)
+    return status
 
 
 def pace_factor(pace: float | str) -> float:

@@ -1,7 +1,8 @@
 """Runs in the database: begin, finish, find, compare their inputs.
 
 A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
-says "running", the run was killed; the row says so as soon as somebody looks.
+says "running", the run was killed; whoever looks is told so, and nothing is written by looking. A result that cannot go in, for want of
+room or because somebody holds the file, waits beside it (waiting.py) and goes in later.
 
 What only traces need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
@@ -11,19 +12,19 @@ import json
 import os
 import sqlite3
 from collections.abc import Generator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import psutil
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
-from studio.errors import UnknownError
+from studio.errors import StoreError, UnknownError
 from studio.execution.happening import Happening, Number
-from studio.store.tables import open_database, reopen_database, unusable
+from studio.store import owner, waiting
+from studio.store.tables import open_database, read_database, reopen_database, unusable
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,7 +35,8 @@ if TYPE_CHECKING:
     from studio.provenance import Provenance
 
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
-CLOCK_SLACK = 2.0  # [s] start times of processes are compared with this tolerance
+WAITS = "The result waits in {} and is taken in by the next run, as soon as the database takes it."
+KILLED = "The process that ran it ended before the run did."
 
 
 @dataclass(frozen=True)
@@ -81,7 +83,6 @@ class Runs:
         """A new row that says "running"; returns its number."""
         if parent is not None:
             self.find(parent)
-        process = psutil.Process()
         row = {
             "scenario": scenario,
             "scenario_hash": scenario_hash,
@@ -95,8 +96,8 @@ class Runs:
             "created": datetime.now(UTC).isoformat(timespec="milliseconds"),
             "parameters": json.dumps(parameters, ensure_ascii=False),
             "unmet": "[]",
-            "process": process.pid,
-            "process_started": process.create_time(),
+            "process": os.getpid(),
+            "process_mark": owner.mark(os.getpid()),
         }
         with self.writing():
             kept = {"hash": scenario_hash, "title": title, "map_digest": map_digest}
@@ -126,7 +127,10 @@ class Runs:
 
     def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
                wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
-        """Writes everything a run has brought, in one transaction: all of it or nothing."""
+        """Writes everything a run has brought, in one transaction: all of it or nothing. What cannot go in waits beside the database.
+
+        Raises StoreError when it can be kept nowhere.
+        """
         from studio.store import message, trace
 
         ending = {
@@ -138,12 +142,38 @@ class Runs:
             "unmet": json.dumps(unmet, ensure_ascii=False),
         }
         parquet, (sent, entries) = trace.write(record, channels), message.write(record.messages)
+        result = {
+            "runs": [{"run": run} | ending],
+            "metrics": metric_rows(run, metrics),
+            "events": [event_row(run, each) for each in record.happenings],
+            "traces": [{"run": run, "parquet": parquet}],
+            "messages": [{"run": run, "sent": sent, "entries": entries}],
+        }
+        try:
+            self.put(result)
+        except StoreError as refused:
+            known = self.rows(f"select {', '.join(waiting.OWNER)} from runs where run = ?", [run])[0]
+            waiting.keep(self.path, result | {"runs": [{"run": run} | ending | known]}, refused)
+
+    def put(self, result: waiting.Result) -> None:
+        """Puts the rows of a run that is over in their tables: all of them or none."""
+        (row,) = result["runs"]
         with self.writing():
-            self.database.table("runs").update(run, ending)
-            self.database.table("metrics").insert_all(metric_rows(run, metrics), pk=("run", "name"), replace=True)
-            self.database.table("events").insert_all(event_row(run, each) for each in record.happenings)
-            self.database.table("traces").insert({"run": run, "parquet": parquet}, pk="run", replace=True)
-            self.database.table("messages").insert({"run": run, "sent": sent, "entries": entries}, pk="run", replace=True)
+            self.database.table("runs").update(row["run"], {key: value for key, value in row.items() if key != "run"})
+            self.database.table("metrics").insert_all(result["metrics"], pk=("run", "name"), replace=True)
+            self.database.table("events").insert_all(result["events"])
+            for name in ("traces", "messages"):
+                self.database.table(name).insert_all(result[name], pk="run", replace=True)
+
+    def take_in(self) -> None:
+        """Takes in the results that wait beside the database; what still cannot go in waits on."""
+        for file in waiting.found(self.path):
+            with suppress(StoreError):
+                result = waiting.read(file)
+                (row,) = result["runs"]
+                if any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]])):
+                    self.put({"metrics": [], "events": []} | result)
+                    file.unlink()
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
@@ -177,9 +207,8 @@ class Runs:
 
     def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
-        self.mark_killed()
         query = f"select * from runs where {where} order by run desc limit ?"
-        rows = [dict(row) for row in self.rows(query, (*values, limit))]
+        rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
         metrics = self.metrics_of([row["run"] for row in rows])
         return [row_of(row, metrics.get(row["run"], {})) for row in rows]
 
@@ -198,12 +227,13 @@ class Runs:
             found.setdefault(row["run"], {})[row["name"]] = measured_of(row)
         return found
 
-    def mark_killed(self) -> None:
-        """Rows that still say "running" although their process is gone."""
-        query = "select run, process, process_started from runs where status = 'running'"
-        for row in self.rows(query):
-            if not is_alive(row["process"], row["process_started"]):
-                self.end(row["run"], "killed", "The process that ran it ended before the run did.")
+    def seen(self, row: dict[str, Any]) -> dict[str, Any]:
+        """A row as it is now: one that says "running" although its process has gone was killed, unless its result waits."""
+        if row["status"] != "running":
+            return row
+        if found := waiting.of(self.path, row):
+            return row | found[1] | {"error": f"{WAITS.format(found[0])} {found[1]['error'] or ''}".strip()}
+        return row | {"status": "killed", "error": KILLED} if owner.is_gone(row["process"], row["process_mark"]) else row
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
@@ -268,9 +298,16 @@ class Runs:
 
 
 def open_runs(path: str | os.PathLike) -> Runs:
-    """The runs of a database file, made when there is none. Raises StoreError when it cannot be used."""
+    """The runs of a database file, made when there is none; results that wait are taken in. Raises StoreError when it cannot be used."""
     path = Path(path)
-    return Runs(path, open_database(path))
+    runs = Runs(path, open_database(path))
+    runs.take_in()
+    return runs
+
+
+def read_runs(path: Path) -> Runs:
+    """The runs of a database file that is there, for who only reads. Raises StoreError when it cannot be used."""
+    return Runs(path, read_database(path))
 
 
 def reopen_runs(path: Path) -> Runs:
@@ -306,20 +343,12 @@ def event_of(row: dict[str, Any]) -> Happening:
     return Happening(**plain, kind=row["kind"] or "", units=units, numbers=numbers, words=words)
 
 
+OF_PROCESS = ("process", "process_started", "process_mark")
 STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}
 
 
 def row_of(row: dict[str, Any], metrics: dict[str, Measured]) -> Row:
     """A Row from the database's row."""
-    plain = {key: row[key] for key in row if key not in ("process", "process_started", *STRUCTURED)}
+    plain = {key: row[key] for key in row if key not in (*OF_PROCESS, *STRUCTURED)}
     structured: dict[str, Any] = {key: json.loads(row[key]) if row[key] else empty() for key, empty in STRUCTURED.items()}
     return Row(**plain, **structured, metrics=metrics)
-
-
-def is_alive(process: int, started: float) -> bool:
-    """Whether the process that began a run still lives; a number can be given to another process later."""
-    try:
-        found = psutil.Process(process)
-        return found.status() != psutil.STATUS_ZOMBIE and abs(found.create_time() - started) < CLOCK_SLACK
-    except psutil.NoSuchProcess:
-        return False

@@ -21,7 +21,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 3
+LAYOUT = 4
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -44,6 +44,7 @@ TABLES = {
             "unmet": str,
             "process": int,
             "process_started": float,
+            "process_mark": str,
             "kinds": str,
             "host": str,
             "versions": str,
@@ -91,12 +92,24 @@ TABLES = {
 
 
 def open_database(path: Path) -> Database:
-    """The database in a file, made when there is none. Raises StoreError when it cannot be used."""
-    if path.is_dir():
-        raise StoreError(f"{path} is a folder, not a run database; name a file with --db")
+    """The database in a file, made when there is none, to be written. Raises StoreError when it cannot be used."""
+    refuse_folder(path)
     try:
         connection = sqlite3.connect(path, timeout=PATIENCE, check_same_thread=False)
         return prepared(Database(connection), path)
+    except sqlite3.Error as error:
+        raise unusable(path, error) from None
+
+
+def read_database(path: Path) -> Database:
+    """The database in a file that is there, for who only reads: nothing is written, and nobody waits for writers.
+
+    Only a file of an older layout gets what is new first. Raises StoreError when it cannot be used.
+    """
+    refuse_folder(path)
+    try:
+        database = reopen_database(path)
+        return database if checked_layout(database, path) == LAYOUT else prepared(database, path)
     except sqlite3.Error as error:
         raise unusable(path, error) from None
 
@@ -111,8 +124,25 @@ def reopen_database(path: Path) -> Database:
         raise unusable(path, error) from None
 
 
+def refuse_folder(path: Path) -> None:
+    """Raises StoreError for a folder."""
+    if path.is_dir():
+        raise StoreError(f"{path} is a folder, not a run database.", [Problem(str(path), "is a folder", remedy="name a file with --db")])
+
+
 def prepared(database: Database, path: Path) -> Database:
     """With its tables, in WAL mode, writable."""
+    layout = checked_layout(database, path)
+    if layout < LAYOUT:
+        make_tables(database)
+    database.execute("pragma foreign_keys = on")
+    database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
+    database.execute("commit")
+    return database
+
+
+def checked_layout(database: Database, path: Path) -> int:
+    """The layout of a file; raises StoreError for one that is too new, or not ours."""
     layout = database.execute("pragma user_version").fetchone()[0]
     if layout > LAYOUT:
         raise StoreError(
@@ -121,12 +151,7 @@ def prepared(database: Database, path: Path) -> Database:
         )
     if layout == 0:
         refuse_foreign(database, path)
-    if layout < LAYOUT:
-        make_tables(database)
-    database.execute("pragma foreign_keys = on")
-    database.execute("begin immediate")  # notices a read-only file now, not after an hour's run
-    database.execute("commit")
-    return database
+    return layout
 
 
 def refuse_foreign(database: Database, path: Path) -> None:
@@ -177,6 +202,11 @@ def unusable(path: Path, error: sqlite3.Error) -> StoreError:
         return StoreError(f"{path} is not a database.", [Problem(str(path), "is no SQLite file", remedy=remedy)])
     if "readonly" in text:
         return StoreError(f"{path} is read-only.", [Problem(str(path), "cannot be written", remedy=f"make it writable, or {remedy}")])
+    if "full" in text:
+        return StoreError(f"There is no room left for {path}.", [Problem(str(path), "does not fit on the disk", remedy="make room")])
+    if "locked" in text or "busy" in text:
+        what = f"is held by another program for more than {PATIENCE:g} s"
+        return StoreError(f"{path} cannot be written now.", [Problem(str(path), what, remedy="end that program, or wait")])
     if "unable to open" in text:
         return StoreError(f"{path} cannot be opened.", [Problem(str(path), text, remedy="make its folder, or " + remedy)])
     return StoreError(f"{path} cannot be used.", [Problem(str(path), text, remedy=remedy)])
