@@ -117,11 +117,26 @@ def read_database(path: Path) -> Database:
 def reopen_database(path: Path) -> Database:
     """Another connection to a file that has been opened before: no look at its layout, no waiting for writers."""
     try:
-        connection = sqlite3.connect(path, timeout=PATIENCE, check_same_thread=False)
+        connection = connected(path)
         connection.execute("pragma foreign_keys = on")
         return Database(connection)
     except sqlite3.Error as error:
         raise unusable(path, error) from None
+
+
+def connected(path: Path) -> sqlite3.Connection:
+    """A connection. SQLite keeps a file beside one that it reads; where there is no room or right for that, and nothing waits to be
+    written into the database, it is read as it stands."""
+    connection = sqlite3.connect(path, timeout=PATIENCE, check_same_thread=False)
+    try:
+        connection.execute("pragma schema_version").fetchone()
+        return connection
+    except sqlite3.OperationalError:
+        log = path.with_name(f"{path.name}-wal")
+        if not path.is_file() or (log.exists() and log.stat().st_size):
+            raise
+        connection.close()
+        return sqlite3.connect(f"{path.absolute().as_uri()}?immutable=1", uri=True, check_same_thread=False)
 
 
 def refuse_folder(path: Path) -> None:

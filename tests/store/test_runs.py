@@ -158,18 +158,28 @@ def test_a_folder_and_a_missing_folder(tmp_path):
         open_runs(tmp_path / "no" / "runs.db")
 
 
-def test_a_read_only_database():
-    """As a user who may not write: a process that gives up root, if it has it, once everything is imported."""
+def as_one_who_may_not_write(code, path):
+    """What a process says that gives up root, if it has it, once everything is imported; neither file nor folder can be written."""
+    path.chmod(0o444)
+    path.parent.chmod(0o555)
+    imports = "import importlib.metadata, os, pathlib, sqlite_utils; from studio.store.runs import open_runs, read_runs"
+    code = f"{imports}; os.getuid() or os.setuid(65534); path = pathlib.Path({str(path)!r}); {code}"
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    path.parent.chmod(0o755)
+    return told
+
+
+def test_a_read_only_database(sample):
+    """It can be read all the same."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "runs.db"
-        open_runs(path).close()
-        path.chmod(0o444)
-        Path(folder).chmod(0o555)
-        imports = "import importlib.metadata, os, sqlite_utils; from studio.store.runs import open_runs"
-        code = f"{imports}; os.getuid() or os.setuid(65534); open_runs({str(path)!r})"
-        told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-        Path(folder).chmod(0o755)
-    assert "StoreError" in told.stderr and "read-only" in told.stderr, told.stderr
+        runs = open_runs(path)
+        job.run(job.load(sample, {"clock.duration": 0.1}), runs=runs)
+        runs.close()
+        written = as_one_who_may_not_write("open_runs(path)", path)
+        read = as_one_who_may_not_write("print([row.status for row in read_runs(path).select()])", path)
+    assert "StoreError" in written.stderr and "read-only" in written.stderr, written.stderr
+    assert read.stdout == "['done']\n", read.stderr
 
 
 def test_a_killed_run_says_so(sample, tmp_path):
