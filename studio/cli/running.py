@@ -174,9 +174,9 @@ def tell_migrated(loaded) -> None:
 def schema(kinds: Kinds = None) -> None:
     """Prints the JSON schema of scenario files."""
     load_kinds(kinds)
-    from studio.scenario.schema import Scenario
+    from studio.scenario.schema import Scenario, json_schema
 
-    print_json(Scenario.model_json_schema())
+    print_json(json_schema(Scenario))
 
 
 # -- the runs, and how they are shown ----------------------------------------------------------------

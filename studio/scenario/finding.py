@@ -6,17 +6,21 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from studio.errors import Problem, nearest
-from studio.scenario.schema import located
+from studio.scenario.schema import json_schema, located
+
+MOST_TOLD = 100  # problems of one document
 
 
 def problems(error: ValidationError, where: str, model: type, *, under: str = "") -> list[Problem]:
-    """Pydantic's findings as ours; `under` is the path of the model within its document, with a dot."""
-    return [problem(finding, where, model, under) for finding in error.errors(include_url=False)]
+    """Pydantic's findings as ours, the first of very many; `under` is the path of the model within its document, with a dot."""
+    found = [problem(finding, where, model, under) for finding in error.errors(include_url=False)[:MOST_TOLD]]
+    more = error.error_count() - MOST_TOLD
+    return [*found, Problem(where, f"has {more} more problems", remedy="mend these first")] if more > 0 else found
 
 
 def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Problem:
     """One finding: the path of the field, what is wrong, what is allowed, the nearest right name."""
-    path, node = located(model.model_json_schema(), finding["loc"])
+    path, node = located(json_schema(model), finding["loc"])
     path = under + path or "the scenario"
     if finding["type"] in ("unknown_kind", "union_tag_not_found"):
         return kind_problem(finding, f"{where}: {path}.kind", list(node["discriminator"]["mapping"]))
@@ -57,4 +61,4 @@ def allowed(finding: ErrorDetails) -> str:
 
 def fields_at(model: type, path: tuple) -> list[str]:
     """Names of the fields that the schema has at a path."""
-    return sorted(located(model.model_json_schema(), path)[1].get("properties", {}))
+    return sorted(located(json_schema(model), path)[1].get("properties", {}))

@@ -6,6 +6,7 @@ are the names that `--set`, the page and the run database use.
 
 import re
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
@@ -384,13 +385,19 @@ def make_anew() -> None:
             model.model_rebuild(force=True)
 
 
+@cache
+def json_schema(model: type[BaseModel]) -> dict[str, Any]:
+    """The JSON schema of a model, made once as long as no kind comes in: it takes a while, and is asked for at every problem."""
+    return model.model_json_schema()
+
+
 registry.listen(make_anew)
+registry.listen(json_schema.cache_clear)
 
 
 def unit_at(model: type[BaseModel], path: str) -> str:
     """Unit of the field at a path, empty when it has none here (parameters of applications know their own)."""
-    schema = model.model_json_schema()
-    return node_at(schema, path.split(".")).get("unit", "")
+    return node_at(json_schema(model), path.split(".")).get("unit", "")
 
 
 def node_at(schema: dict, path: Sequence[str | int]) -> dict:

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from studio.errors import Problem, ScenarioError, UnknownError
 from studio.kind import preset, registry
 from studio.scenario import edit, file, finding
-from studio.scenario.schema import Application, Scenario, sort_at
+from studio.scenario.schema import Application, Scenario, json_schema, sort_at
 from studio.scenario.text.patch import operation, patched
 
 
@@ -78,7 +78,7 @@ def exchanged_sort(full: dict[str, Any], path: str) -> str:
         return ""
     if last == "application" and len(place) == 2 and place[0] == "applications":
         return "application"
-    return sort_at(Scenario.model_json_schema(), place) if last == "kind" and place else ""
+    return sort_at(json_schema(Scenario), place) if last == "kind" and place else ""
 
 
 def exchanged(document: dict[str, Any], full: dict[str, Any], sort: str, path: str, rest: dict[str, Any]) -> dict[str, Any]:

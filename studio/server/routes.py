@@ -10,7 +10,7 @@ from studio import job
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
 from studio.kind import registry
 from studio.kind.registry import Kind
-from studio.scenario.schema import Scenario
+from studio.scenario.schema import Scenario, json_schema
 from studio.scenario.text.document import digest
 from studio.scenario.text.patch import Operation, operations
 from studio.scenario.text.source import Source
@@ -76,7 +76,7 @@ def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
         scenario_hash=job.scenario_hash(loaded, prepared),
         document=loaded.document,
         given=loaded.given,
-        schema=Scenario.model_json_schema(),
+        schema=json_schema(Scenario),
     )
 
 

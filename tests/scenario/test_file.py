@@ -238,3 +238,10 @@ def test_files_that_are_no_scenario(tmp_path, content, words):
 def test_a_missing_file_names_its_neighbour(sample):
     with pytest.raises(ScenarioError, match=r"did you mean 'grosser_stern_platoon\.yaml'"):
         file.read(sample.with_name("grosser_stern_platon.yaml"))
+
+
+def test_of_very_many_problems_the_first_are_told(document):
+    """And their number; nobody waits for what nobody reads."""
+    wrong = {f"car_{i}": {"x": i} for i in range(5000)}
+    told = refusal(document | {"vehicles": wrong})
+    assert "vehicles.car_0.x" in told and "more problems" in told and len(told) < 100_000

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 
 from studio import job
 from studio.errors import StoreError, UnknownError
 from studio.execution.happening import Happening, happening
+from studio.scenario.schema import json_schema
 from studio.store import trace
 from studio.store.comparison import compare
 from studio.store.runs import event_of, event_row, open_runs
@@ -63,6 +65,18 @@ def test_comparison(kept):
     assert "clock.duration" not in differing
     gap = next(each for each in result["metrics"] if each["name"] == "min_gap")
     assert gap["difference"] == pytest.approx(gap["b"] - gap["a"]) and gap["unit"] == "m"
+
+
+def test_the_schema_is_not_made_again_for_every_difference(sample, tmp_path, monkeypatch):
+    """Two scenarios differ in hundreds of places; the schema of each model is made once."""
+    runs = open_runs(tmp_path / "runs.db")
+    for path in (sample, sample.with_name("stepping_out.yaml")):
+        job.run(job.load(path, {"clock.duration": 0.1}), runs=runs)
+    made, make = [], BaseModel.model_json_schema.__func__
+    monkeypatch.setattr(BaseModel, "model_json_schema", classmethod(lambda model: made.append(model) or make(model)))
+    json_schema.cache_clear()
+    assert len(compare(runs, 1, 2)["parameters"]) > 100
+    assert made and len(made) == len(set(made))
 
 
 @pytest.mark.parametrize("wrong", [99, -1])
