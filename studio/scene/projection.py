@@ -1,14 +1,20 @@
 """The projection of a map, its signals and its vehicles onto a viser server on this machine."""
 
+import hmac
+import secrets
 import socket
 import threading
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
+from http import HTTPStatus
 
 import numpy as np
 import rich
 import shapely
 import viser
+import websockets.asyncio.server
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
 
 from studio.road.network import Network
 from studio.scene import city
@@ -23,6 +29,8 @@ COMPACT = 700.0  # [m] half extent of a map that can be seen as a whole
 CLOSER = 150.0  # [m] the same of the part of a larger one that is seen first
 FROM = np.array([0.24, -0.80, 0.36])  # the overview's place over its half extent: in the south
 SIGHT = 20.0  # [m] to both sides of the line of sight
+KEY = "x-studio-key"  # header of who may talk to the viser server
+CLOSED = "This port is the studio's own. Open the studio at the address that it printed.\n"
 TURNS = np.radians([0, 45, -45, 90, -90, 135, -135, 180])  # of this place, where houses stand in the way
 
 
@@ -34,7 +42,8 @@ class Scene:
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
-        self._server = _server()
+        self._key = secrets.token_urlsafe()
+        self._server = _server(self._key)
         self._city: list[viser.SceneNodeHandle] = []
         self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
@@ -44,9 +53,9 @@ class Scene:
         self._look_at(np.zeros(2), 150.0, 150.0 * FROM)
 
     @property
-    def port(self) -> int:
-        """The port of the viser server, for the relay."""
-        return self._server.get_port()
+    def door(self) -> tuple[int, dict[str, str]]:
+        """The port of the viser server, and the headers without which it lets nobody in; for the relay."""
+        return self._server.get_port(), {KEY: self._key}
 
     def show_city(self, network: Network, around: np.ndarray | None = None) -> None:
         """Show this map instead of the one before; a large one is first seen `around` these places, float64[2, n] [m]."""
@@ -121,14 +130,39 @@ class Scene:
             self._server.stop()
 
 
-def _server() -> viser.ViserServer:
-    with _quiet():
+def _server(key: str) -> viser.ViserServer:
+    with _quiet(), _locked(key):
         server = viser.ViserServer(host="127.0.0.1", port=_free_port(), verbose=False)
     # any client may ask for a public tunnel, with or without the button
     server.request_share_url = lambda *args, **options: None
     server.gui.configure_theme(show_logo=False, show_share_button=False)
     server.scene.world_axes.visible = False
     return server
+
+
+@contextmanager
+def _locked(key: str) -> Generator[None]:
+    """Servers that are made in it answer nobody but who has the key: viser asks nobody who they are, and any page of any browser on this
+    machine may call its port. It has no place for that, so the function that it serves with is another meanwhile."""
+    usual = websockets.asyncio.server.serve
+
+    class Locked(usual):
+        """The same, behind the question for the key."""
+
+        def __init__(self, handler, *places, process_request=None, **options):
+            def look(connection: ServerConnection, request: Request) -> Response | None:
+                given = request.headers.get_all(KEY)
+                if len(given) != 1 or not hmac.compare_digest(given[0].encode(), key.encode()):
+                    return connection.respond(HTTPStatus.FORBIDDEN, CLOSED)
+                return process_request(connection, request) if process_request else None
+
+            super().__init__(handler, *places, process_request=look, **options)
+
+    websockets.asyncio.server.serve = Locked
+    try:
+        yield
+    finally:
+        websockets.asyncio.server.serve = usual
 
 
 @contextmanager

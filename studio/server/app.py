@@ -28,7 +28,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.exception_handler(RequestValidationError)(misread)
     app.include_router(routes.router)
     app.include_router(map_routes.router)
-    app.include_router(relay.router(lambda: desk.stage.scene.port))
+    app.include_router(relay.router(lambda: desk.stage.scene.door))
     app.add_route("/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE"], include_in_schema=False)
     return app
 

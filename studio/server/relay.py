@@ -1,6 +1,6 @@
 """The scene on our own origin: the client's page at /scene/, and its WebSocket relayed to the viser server.
 
-The viser server listens on 127.0.0.1 only and asks nobody who they are: browsers never talk to it directly.
+The viser server listens on 127.0.0.1 only and lets in nobody who has not its key: browsers never talk to it directly.
 """
 
 import asyncio
@@ -21,8 +21,8 @@ UNSENDABLE = {1005, 1006, 1015}
 GOING_AWAY, TRY_AGAIN_LATER = 1001, 1013
 
 
-def router(port: Callable[[], int]) -> APIRouter:
-    """Routes of the scene; `port` tells where the viser server listens on 127.0.0.1."""
+def router(door: Callable[[], tuple[int, dict[str, str]]]) -> APIRouter:
+    """Routes of the scene; `door` tells where the viser server listens on 127.0.0.1, and the headers that it wants."""
     routes = APIRouter(include_in_schema=False)
 
     @routes.get("/scene")
@@ -36,16 +36,18 @@ def router(port: Callable[[], int]) -> APIRouter:
     @routes.websocket("/scene")
     @routes.websocket("/scene/")
     async def socket(browser: WebSocket) -> None:
-        await relay(browser, f"ws://127.0.0.1:{port()}")
+        port, headers = door()
+        await relay(browser, f"ws://127.0.0.1:{port}", headers)
 
     return routes
 
 
-async def relay(browser: WebSocket, url: str) -> None:
-    """Join a browser's WebSocket with the one at `url` until either side goes."""
+async def relay(browser: WebSocket, url: str, headers: dict[str, str]) -> None:
+    """Join a browser's WebSocket with the one at `url`, asked for with headers, until either side goes."""
     try:
         upstream = await websockets.connect(
             url,
+            additional_headers=headers,
             subprotocols=browser.scope["subprotocols"] or None,
             max_size=None,
             compression=None,

@@ -78,7 +78,7 @@ def page(drive):
     found = next((path for name in BROWSERS if (path := shutil.which(name))), None)
     if found is None:
         pytest.skip("no browser: install one with `apt install chromium`, or put google-chrome on the PATH")
-    with served(lambda: drive.scene.port) as port, sync_playwright() as playwright:
+    with served(lambda: drive.scene.door) as port, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS)
         shown = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
         shown.errors = []

@@ -25,7 +25,7 @@ def scene():
 
 @pytest.fixture(scope="module")
 def port(scene):
-    with served(lambda: scene.port) as own:
+    with served(lambda: scene.door) as own:
         yield own
 
 
@@ -119,7 +119,7 @@ def test_another_version_of_the_client_is_told_so(port):
 
 def test_when_viser_stops_the_browser_is_told():
     scene = Scene()
-    with served(lambda: scene.port) as port:
+    with served(lambda: scene.door) as port:
 
         async def visit() -> int:
             async with connect(port) as client:
@@ -143,7 +143,7 @@ def test_without_viser_the_socket_is_refused():
                 pass
         return refused.value.response.status_code
 
-    with served(lambda: nobody) as port:
+    with served(lambda: (nobody, {})) as port:
         assert asyncio.run(visit(port)) == 403
 
 
@@ -163,3 +163,21 @@ def test_the_page_is_visers_client_with_our_bridge(port):
     assert answer.status_code == 200 and answer.url.path == "/scene/"
     assert "text/html" in answer.headers["content-type"]
     assert "__studioBridge" in answer.text and '<div id="root">' in answer.text
+
+
+def test_visers_own_port_lets_nobody_in(scene):
+    """Whatever their origin: no page, no socket, and no key but its own."""
+    own, headers = scene.door
+
+    async def visit(**options) -> int:
+        with pytest.raises(websockets.InvalidStatus) as refused:
+            async with websockets.connect(f"ws://127.0.0.1:{own}", subprotocols=[PROTOCOL], proxy=None, open_timeout=PATIENCE, **options):
+                pass
+        return refused.value.response.status_code
+
+    (name,) = headers
+    assert asyncio.run(visit(origin="http://evil.example")) == 403
+    assert asyncio.run(visit()) == 403
+    assert asyncio.run(visit(additional_headers={name: "guessed"})) == 403
+    assert asyncio.run(visit(additional_headers=[*headers.items(), (name, "guessed")])) == 403
+    assert httpx.get(f"http://127.0.0.1:{own}/").status_code == 403
