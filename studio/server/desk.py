@@ -11,7 +11,7 @@ from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road.library import place
 from studio.server.answer import Pace
-from studio.server.documents import Documents
+from studio.server.documents import Documents, check_inside
 from studio.server.frame import Frame
 from studio.server.live import LiveRun, Lives
 from studio.server.maps import Maps
@@ -92,8 +92,11 @@ class Desk:
         return files[scenario]
 
     def load(self, scenario: str, changes: dict[str, Any] | None = None) -> Loaded:
-        """A scenario with changes."""
-        return job.load(self.file(scenario), changes)
+        """A scenario with changes, which may name files of its folder only; raises UnknownError or ScenarioError."""
+        found = job.load(self.file(scenario), changes)
+        if changes:
+            check_inside(found, found.source)
+        return found
 
     def row(self, scenario: str) -> dict[str, Any]:
         """A scenario for the list; one that cannot be read says why."""

@@ -3,11 +3,12 @@
 import threading
 from collections import OrderedDict
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import studio
 from studio import job
 from studio.errors import Problem, ScenarioError, SealedError, StaleError
+from studio.job import Loaded
 from studio.scenario import edit, file
 from studio.scenario.finding import short
 from studio.scenario.schema import VERSION
@@ -15,6 +16,7 @@ from studio.scenario.text.document import applied, digest
 from studio.scenario.text.migration import version_of
 from studio.scenario.text.patch import Operation
 from studio.scenario.text.source import Source
+from studio.world.setting import named_files
 
 KEPT = 64  # texts that were given out lately, so that it can be told what has changed since
 TOLD = 20  # differences that are told
@@ -49,7 +51,9 @@ class Documents:
             if expected is not None and expected != digest(before.text):
                 raise self.stale(path, before, expected)
             after, inverse = applied(before, patch)
-            job.check(job.loaded(file.checked(after, "scenario"), path))
+            found = job.loaded(file.checked(after, "scenario"), path)
+            check_inside(found, before)
+            job.check(found)
             if after.text != before.text:
                 file.write(path, after.text)
             return self.read(path), inverse
@@ -67,6 +71,28 @@ class Documents:
         found = differences(before, now) if before else []
         problems = found or [Problem(path.name, "is not as it was when you read it", remedy="read it again, then change it")]
         return StaleError(f"{path.name} has changed meanwhile.", problems)
+
+
+def check_inside(found: Loaded, before: Source) -> None:
+    """What comes over REST names files of the scenario's own folder only: others are not even looked for. Raises ScenarioError.
+
+    What stands in the file already was written by its owner, and stays.
+    """
+    outside = {path: name for path, name in named_files(found.scenario).items() if leads_out(name)}
+    if outside:
+        own = set(named_files(job.loaded(before, found.path).scenario).values())
+        name = found.path.name
+        problems = [Problem(f"{name}: {path}", OUTSIDE, short(each), INSIDE) for path, each in outside.items() if each not in own]
+        if problems:
+            raise ScenarioError(f"{name} would name files of other folders.", problems)
+
+
+OUTSIDE, INSIDE = "leads out of the folder of this scenario", "a path within it, without .. and from no root"
+
+
+def leads_out(name: str) -> bool:
+    """Whether a path leads out of the folder that it starts from, of whatever system it is."""
+    return any(each.is_absolute() or each.anchor or ".." in each.parts for each in (PurePosixPath(name), PureWindowsPath(name)))
 
 
 def check_version(found: Source) -> None:

@@ -194,6 +194,13 @@ def models_named(scenario: Scenario) -> Iterator[tuple[str, str]]:
     yield from ((path, model) for path, model in [*named.items(), ("traffic.model", scenario.traffic.model)] if not is_file(model))
 
 
+def named_files(scenario: Scenario) -> dict[str, str]:
+    """The files that a scenario names, by path: its map, and vehicles that are no names of the catalogue."""
+    models = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
+    files = {path: model for path, model in (models | {"traffic.model": scenario.traffic.model}).items() if is_file(model)}
+    return {"map.file": scenario.map.file} | files
+
+
 def is_file(model: str) -> bool:
     """Whether a model is a vehicle file, and no name of the catalogue."""
     return catalogue.is_path(model, ".yaml", ".yml")

@@ -1,6 +1,7 @@
 """REST: the same functions as the command line, the same runs, refusals that say what is wrong."""
 
 import json
+import os
 
 import pytest
 
@@ -201,6 +202,34 @@ def test_half_characters_and_zero_bytes(client):
         422,
     )
     assert client.get("/%00").status_code == client.get("/assets/%00").status_code == 404
+
+
+OUTSIDE = ["/etc/passwd", "../../nowhere.osm", "maps/../../x.osm", "C:\\x.osm", "..\\x.osm", "//server/x.osm", "/etc", "/dev/stdin"]
+
+
+@pytest.mark.parametrize("path", OUTSIDE)
+@pytest.mark.parametrize("field", ["map.file", "vehicles.leader.model", "traffic.model"])
+def test_rest_looks_at_no_other_folders(client, path, field):
+    """Nor does it tell what is there: the same answer whether it exists or not."""
+    name = path if field == "map.file" else f"{path}.yaml"
+    for ask, key in (("runs", "problems"), ("live", "problems"), ("scene", "problems"), (f"scenarios/{SCENARIO}/check", "problems")):
+        body = {"set": {field: name}} | ({} if "check" in ask else {"scenario": SCENARIO})
+        (problem,) = client.post(f"/api/{ask}", json=body).json()[key]
+        assert field in problem["where"] and "leads out" in problem["what"] and not problem["remedy"]
+    assert client.patch(f"/api/scenarios/{SCENARIO}", json=[{"op": "add", "path": "/map/file", "value": path}]).status_code == 422
+
+
+def test_what_is_no_file_blocks_nobody(client, server):
+    """A pipe into which nobody writes, as a map, a scenario or a vehicle."""
+    folder = server[1].parent / "scenarios"
+    for name in ("pipe.osm", "pipe.yaml"):
+        os.mkfifo(folder / name)
+    changes = {"map.file": "pipe.osm"}, {"vehicles.leader.model": "./pipe.yaml"}
+    answers = [client.post("/api/scene", json={"scenario": SCENARIO, "set": each}) for each in changes]
+    answers.append(client.get("/api/scenarios/pipe"))
+    for name in ("pipe.osm", "pipe.yaml"):
+        (folder / name).unlink()
+    assert [each.status_code for each in answers] == [422, 422, 422]
 
 
 def test_a_check_knows_the_names(client):

@@ -33,6 +33,8 @@ def ending_of(path: Path) -> str:
 
 
 def reader_of(path: Path) -> Any:
-    """The reader of a map's kind; raises MapError."""
+    """The reader of a map's kind; raises MapError, also for what is no file, like a pipe that nobody writes into."""
+    if path.exists() and not path.is_file():
+        raise MapError(f"{path}: the map file cannot be read (it is no file)")
     ending = ending_of(path)
     return next(reader for reader in READERS if ending in reader.ENDINGS)
