@@ -59,8 +59,10 @@ class StudioError(Exception):
         return type(self), (self.message, self.problems)
 
     def as_json(self) -> dict:
-        """The body of a REST error."""
-        return {"message": self.message, "problems": [asdict(problem) for problem in self.problems]}
+        """The body of a REST error; it has a problem at least, as much as is known of it."""
+        where, colon, what = self.message.partition(": ")
+        problems = self.problems or [Problem(where, what) if colon else Problem("", self.message)]
+        return {"message": self.message, "problems": [asdict(problem) for problem in problems]}
 
 
 class ScenarioError(StudioError):

@@ -28,6 +28,7 @@ from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
 from studio.provenance import provenance
 from studio.scenario import file, setup
+from studio.scenario.finding import short
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source
@@ -159,7 +160,7 @@ def seeded(loaded: Loaded, seed: int | None) -> Loaded:
     if seed is None:
         return loaded
     if not 0 <= seed <= LARGEST_SEED:
-        raise ScenarioError("The seed is out of range.", [Problem("seed", "is out of range", str(seed), f"0 to {LARGEST_SEED}")])
+        raise ScenarioError("The seed is out of range.", [Problem("seed", "is out of range", short(seed), f"0 to {LARGEST_SEED}")])
     return replace(loaded, scenario=loaded.scenario.model_copy(update={"seed": seed}))
 
 

@@ -47,8 +47,11 @@ def lower(text: str) -> str:
 
 
 def short(value: Any, limit: int = 60) -> str:
-    """A value that fits into a message."""
-    text = repr(value)
+    """A value that fits into a message; of a whole number with more digits than Python writes, the length."""
+    try:
+        text = repr(value)
+    except ValueError:
+        text = "a number of thousands of digits"
     return text if len(text) <= limit else text[: limit - 1] + "…"
 
 

@@ -56,6 +56,20 @@ class Refusal(BaseModel):
     problems: list[Problem]
 
 
+REFUSALS: dict[int | str, dict[str, Any]] = {
+    400: {"model": Refusal, "description": "The body is no JSON."},
+    403: {"model": Refusal, "description": "Another origin or name, or something that may be read only."},
+    404: {"model": Refusal, "description": "There is no such thing."},
+    405: {"model": Refusal, "description": "The address has no such method."},
+    409: {"model": Refusal, "description": "It is over, or not as the request expects it."},
+    412: {"model": Refusal, "description": "It has changed meanwhile."},
+    413: {"model": Refusal, "description": "It is too much."},
+    422: {"model": Refusal, "description": "Something in it is wrong."},
+    500: {"model": Refusal, "description": "A mistake of the studio."},
+    503: {"model": Refusal, "description": "The database cannot be used now, or is damaged."},
+}
+
+
 class ScenarioRow(BaseModel):
     """A scenario in the list; `problem` says why it cannot be run."""
 

@@ -10,26 +10,36 @@ from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
 from studio.errors import ConflictError, Problem, SealedError, ServerError, SizeError, StaleError, StoreError, StudioError, UnknownError
+from studio.scenario.finding import MOST_TOLD, allowed, short
 from studio.server import relay, routes
 from studio.server.desk import Desk
 from studio.server.maps import routes as map_routes
 
 TITLE = "Cooperative ADAS Studio"
+METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
+SEE = "see /openapi.json"
 
 
 def create_app(desk: Desk) -> FastAPI:
     """REST and scene of one desk."""
-    app = FastAPI(title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan, docs_url=None, redoc_url=None)
+    app = FastAPI(
+        title=TITLE, version=version("cooperative-adas-studio"), lifespan=lifespan, docs_url=None, redoc_url=None, redirect_slashes=False
+    )
     app.state.desk = desk
     app.exception_handler(StudioError)(refused)
     app.exception_handler(RequestValidationError)(misread)
+    app.exception_handler(HTTPException)(unanswered)
+    app.exception_handler(Exception)(mistaken)
     app.include_router(routes.router)
     app.include_router(map_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.door))
-    app.add_route("/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE"], include_in_schema=False)
+    app.add_route(
+        "/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE"], include_in_schema=False
+    )
     return app
 
 
@@ -53,7 +63,7 @@ def make_ready(desk: Desk) -> None:
     desk.stage  # noqa: B018 - made by being looked at
 
 
-STATUS = {UnknownError: 404, StaleError: 412, ConflictError: 409, SealedError: 403, StoreError: 500, SizeError: 413}
+STATUS = {UnknownError: 404, StaleError: 412, ConflictError: 409, SealedError: 403, StoreError: 503, SizeError: 413}
 
 
 def status_of(error: StudioError) -> int:
@@ -75,15 +85,28 @@ async def refused(request: Request, error: StudioError) -> Response:
 
 async def no_such_route(request: Request) -> Response:
     """An address under /api that does not exist."""
-    path = request.url.path
-    problem = Problem(path, "does not exist", allowed="see /openapi.json")
-    return refusal(UnknownError(f"There is no {path}.", [problem]), 404)
+    path = short(request.url.path)
+    return refusal(UnknownError(f"There is no {path}.", [Problem("address", "does not exist", path, remedy=SEE)]), 404)
 
 
 async def misread(request: Request, error: RequestValidationError) -> Response:
     """FastAPI's findings about a request, in the same form."""
-    problems = [Problem(".".join(map(str, each["loc"])), each["msg"], str(each.get("input", ""))[:80]) for each in error.errors()]
+    found = list(error.errors())[:MOST_TOLD]
+    problems = [Problem(".".join(map(str, each["loc"])), each["msg"], short(each.get("input", "")), allowed(each), SEE) for each in found]
     return refusal(StudioError("The request cannot be read.", problems), 422)
+
+
+async def unanswered(request: Request, error: HTTPException) -> Response:
+    """What the framework refuses: a method that an address does not have, a body that is no JSON."""
+    where = "body" if error.status_code == 400 else f"{request.method} {short(request.url.path)}"
+    problem = Problem(where, error.detail, allowed=(error.headers or {}).get("Allow", ""), remedy=SEE)
+    return refusal(StudioError("The request cannot be answered.", [problem]), error.status_code)
+
+
+async def mistaken(request: Request, error: Exception) -> Response:
+    """A mistake of ours; the server's log has the traceback."""
+    problem = Problem(f"{request.method} {short(request.url.path)}", f"{type(error).__name__}", remedy="tell us, with the server's log")
+    return refusal(StudioError("The studio has made a mistake.", [problem]), 500)
 
 
 def description() -> dict[str, Any]:

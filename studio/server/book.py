@@ -79,16 +79,25 @@ def answer(path: str) -> Response:
     wrong = press.visit() if not path or path.endswith("/") else ""
     if not (SITE / "index.html").is_file():
         return without(wrong)
-    if "\0" in path:
+    if (wanted := found(SITE, path)) is None:
         return framed(UNKNOWN, status=404)
-    wanted = (SITE / path).resolve()
     if wanted.is_dir() and path and not path.endswith("/"):
         return RedirectResponse(f"/docs/{path}/")
     if wanted.is_dir():
         wanted /= "index.html"
-    if not wanted.is_file() or not wanted.is_relative_to(SITE):
+    if not wanted.is_file():
         return framed(UNKNOWN, status=404)
     return FileResponse(wanted, headers=headers())
+
+
+def found(folder: Path, path: str) -> Path | None:
+    """What an address means in a folder, whether it is there or not; nothing when it means no file of it."""
+    try:
+        wanted = (folder / path).resolve()
+        wanted.exists()
+    except (OSError, ValueError):  # too long, or with a character that no name has
+        return None
+    return wanted if wanted.is_relative_to(folder) else None
 
 
 def without(wrong: str) -> Response:

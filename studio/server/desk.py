@@ -10,6 +10,7 @@ from studio.errors import Problem, ServerError, StudioError, UnknownError, neare
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road.library import place
+from studio.scenario.finding import short
 from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
 from studio.server.frame import Frame
@@ -86,8 +87,8 @@ class Desk:
         files = self.files()
         if scenario not in files:
             raise UnknownError(
-                f"There is no scenario {scenario!r}.",
-                [Problem("scenario", "does not exist", scenario, remedy=nearest(scenario, files))],
+                f"There is no scenario {short(scenario)}.",
+                [Problem("scenario", "does not exist", short(scenario), remedy=nearest(scenario, files))],
             )
         return files[scenario]
 
@@ -134,5 +135,5 @@ def check_pace(pace: Pace) -> None:
     if pace != "fast" and not SLOWEST <= pace <= FASTEST:
         raise ServerError(
             "The pace is out of range.",
-            [Problem("pace", "is out of range", str(pace), f'{SLOWEST} to {FASTEST} times real time, or "fast"')],
+            [Problem("pace", "is out of range", short(pace), f'{SLOWEST} to {FASTEST} times real time, or "fast"')],
         )

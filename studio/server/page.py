@@ -21,12 +21,10 @@ app.include_router(book.router)
 @app.get("/{path:path}")
 def answer(path: str) -> Response:
     """A file of the bundle, or the page itself: it finds its place by its address."""
-    if "\0" in path:
-        return HTMLResponse("not found", status_code=404)
-    wanted = (BUNDLE / path).resolve()
-    if path and wanted.is_file() and wanted.is_relative_to(BUNDLE):
+    wanted = book.found(BUNDLE, path)
+    if path and wanted and wanted.is_file():
         return FileResponse(wanted, headers=FOREVER if path.startswith("assets/") else ALWAYS_ASK)
-    if path.startswith("assets/"):
+    if path.startswith("assets/") or wanted is None:
         return HTMLResponse("not found", status_code=404)
     index = BUNDLE / "index.html"
     if not index.is_file():

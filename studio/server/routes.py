@@ -25,15 +25,13 @@ from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
 from studio.world import channel
 
-REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 422)}
 YAML: dict[int | str, dict[str, Any]] = {
     200: {"description": "YAML (RFC 9512)", "content": {"application/yaml": {"schema": {"type": "string"}}}}
 }
 SOCKET: dict[int | str, dict[str, Any]] = {
     "1XX": {"model": News, "description": "101: a WebSocket from here on; each message is one of the news"}
 }
-CHANGED: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (403, 412)}
-router = APIRouter(prefix="/api", responses=REFUSALS)
+router = APIRouter(prefix="/api", responses=answer.REFUSALS)
 
 
 def desk_of(request: Request) -> Desk:
@@ -99,7 +97,7 @@ def text(scenario: str, desk: AtDesk) -> Response:
     return Response(found.text, media_type="application/yaml", headers={"ETag": etag(found)})
 
 
-@router.patch("/scenarios/{scenario}", responses=CHANGED, response_model_exclude_unset=True)
+@router.patch("/scenarios/{scenario}", response_model_exclude_unset=True)
 def patch_scenario(
     scenario: str,
     patch: Annotated[list[Operation], Body(media_type="application/json-patch+json")],

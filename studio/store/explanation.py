@@ -5,9 +5,11 @@ import numpy as np
 from studio.assess.cause import EXPLAINED, Explanation, explain
 from studio.errors import UnknownError, nearest
 from studio.execution.record import Record
+from studio.scenario.finding import short
 from studio.store.runs import Runs
 
 NEEDED = ("x", "y", "heading", "commands_brake", "adhesion_front_left")  # channels without which there is nothing to tell
+LONGEST = 9  # digits of the number of an event
 
 
 def explanation(runs: Runs, run: int, event: str = "") -> list[Explanation]:
@@ -16,13 +18,13 @@ def explanation(runs: Runs, run: int, event: str = "") -> list[Explanation]:
     Raises UnknownError for a run without record, for a kind that is not explained, and for a number that there is not.
     """
     if event and not event.isdecimal() and event not in EXPLAINED:
-        raise UnknownError(f"Events {event!r} are not explained; {nearest(event, EXPLAINED)} (explained: {', '.join(EXPLAINED)})")
+        raise UnknownError(f"Events {short(event)} are not explained; {nearest(event, EXPLAINED)} (explained: {', '.join(EXPLAINED)})")
     found = explain(whole(runs, run), (event,) if event in EXPLAINED else EXPLAINED)
     if not event.isdecimal():
         return found
-    if not 1 <= int(event) <= len(found):
+    if len(event) > LONGEST or not 1 <= int(event) <= len(found):
         count = f"1 to {len(found)}" if found else "none: no collision, near miss or hard brake"
-        raise UnknownError(f"Run {run} has no event {event} to explain; there is {count}.")
+        raise UnknownError(f"Run {run} has no event {short(event)} to explain; there is {count}.")
     return [found[int(event) - 1]]
 
 

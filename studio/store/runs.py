@@ -21,8 +21,9 @@ from typing import TYPE_CHECKING, Any
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
-from studio.errors import StoreError, UnknownError
+from studio.errors import Problem, StoreError, UnknownError
 from studio.execution.happening import Happening, Number
+from studio.scenario.finding import short
 from studio.store import owner, waiting
 from studio.store.tables import open_database, read_database, reopen_database, unusable
 
@@ -196,13 +197,24 @@ class Runs:
         except sqlite3.Error as error:
             raise unusable(self.path, error) from None
 
+    @contextmanager
+    def intact(self, run: int, what: str) -> Generator[None]:
+        """Reading of what was kept of a run; when that is not as it was written, raises StoreError."""
+        try:
+            yield
+        except (ValueError, LookupError, TypeError, OSError, RuntimeError, AttributeError) as error:
+            why = f"cannot be read ({type(error).__name__}: {short(str(error))})"
+            problem = Problem(f"{what} of run {run}", why, remedy="run it again, or take a copy of the database")
+            raise StoreError(f"Run {run} is damaged in {self.path}.", [problem]) from None
+
     def find(self, run: int) -> Row:
         """One run; raises UnknownError that says which there are."""
         rows = self.select(where="run = ?", values=[run]) if 0 < run <= LARGEST_RUN else []
         if not rows:
-            last = self.database.execute("select max(run) from runs").fetchone()[0]
+            last = self.rows("select max(run) as last from runs")[0]["last"]
             have = f"the newest is {last}" if last else "there is none yet"
-            raise UnknownError(f"There is no run {run} in {self.path}; {have}")
+            problem = Problem("run", "does not exist", short(run), f"1 to {last}" if last else "", "list the runs")
+            raise UnknownError(f"There is no run {short(run)} in {self.path}; {have}", [problem])
         return rows[0]
 
     def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
@@ -224,7 +236,8 @@ class Runs:
         found: dict[int, dict[str, Measured]] = {}
         marks = ", ".join("?" * len(runs))
         for row in self.rows(f"select * from metrics where run in ({marks}) order by rowid", runs):
-            found.setdefault(row["run"], {})[row["name"]] = measured_of(row)
+            with self.intact(row["run"], "metrics"):
+                found.setdefault(row["run"], {})[row["name"]] = measured_of(row)
         return found
 
     def seen(self, row: dict[str, Any]) -> dict[str, Any]:
@@ -237,19 +250,23 @@ class Runs:
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
-        return json.loads(self.database.table("scenarios").get(row.scenario_hash)["document"]) | {"seed": row.seed}
+        with self.intact(row.run, "scenario"):
+            (found,) = self.rows("select document from scenarios where hash = ?", [row.scenario_hash])
+            return json.loads(found["document"]) | {"seed": row.seed}
 
     def sources(self, row: Row) -> dict[str, dict[str, str]]:
         """The texts of every kind that a run used, file by file, its own first."""
         found = {}
         for name, digest in row.kinds.items():
-            files = json.loads(self.database.table("kinds").get(digest)["files"])
-            found[name] = {file: self.text(text) for file, text in files.items()}
+            with self.intact(row.run, "kinds"):
+                (kept,) = self.rows("select files from kinds where digest = ?", [digest])
+                found[name] = {file: self.text(text) for file, text in json.loads(kept["files"]).items()}
         return found
 
     def text(self, digest: str) -> str:
         """A text by its digest."""
-        return self.database.table("texts").get(digest)["text"] if digest else ""
+        found = self.rows("select text from texts where digest = ?", [digest])
+        return found[0]["text"] if found else ""
 
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
@@ -263,7 +280,9 @@ class Runs:
         """All that is kept of a run in one piece, but for the ages of links; raises UnknownError when there is none."""
         from studio.store import trace
 
-        return trace.record_of(self.parquet(run), self.events(run), self.messages(run))
+        parquet, events, messages = self.parquet(run), self.events(run), self.messages(run)
+        with self.intact(run, "record"):
+            return trace.record_of(parquet, events, messages)
 
     def messages(self, run: int) -> "Messages":
         """What was sent in a run, and what became of it; raises UnknownError when that was not kept."""
@@ -273,24 +292,31 @@ class Runs:
         found = self.rows("select sent, entries from messages where run = ?", [run])
         if not found:
             raise UnknownError(f"Run {run} has no log of messages: it did not come to its end, or an older studio ran it.")
-        return message.read(found[0]["sent"], found[0]["entries"])
+        with self.intact(run, "messages"):
+            return message.read(found[0]["sent"], found[0]["entries"])
 
     def channels(self, run: int) -> list[dict[str, str]]:
         """Recorded channels of a run; none when it has no traces."""
         from studio.store import trace
 
+        self.find(run)
         found = self.rows("select parquet from traces where run = ?", [run])
-        return trace.channels(found[0]["parquet"]) if found else []
+        with self.intact(run, "traces"):
+            return trace.channels(found[0]["parquet"]) if found else []
 
     def trace(self, run: int, names: list[str]) -> dict[str, "np.ndarray"]:
         """Time and channels of a run."""
         from studio.store import trace
 
-        return trace.read(self.parquet(run), names)
+        parquet = self.parquet(run)
+        with self.intact(run, "traces"):
+            return trace.read(parquet, names)
 
     def events(self, run: int) -> list[Happening]:
         """What happened in a run."""
-        return [event_of(row) for row in self.rows("select * from events where run = ? order by time, rowid", [run])]
+        found = self.rows("select * from events where run = ? order by time, rowid", [run])
+        with self.intact(run, "events"):
+            return [event_of(row) for row in found]
 
     def close(self) -> None:
         """Closes the file."""
@@ -347,8 +373,21 @@ OF_PROCESS = ("process", "process_started", "process_mark")
 STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}
 
 
+def unpacked(text: str | None, kind: type) -> Any:
+    """A value that is kept as JSON, an empty one where an older studio has kept none; None when it is damaged."""
+    try:
+        value = json.loads(text) if text else kind()
+        return value if isinstance(value, kind) else None
+    except ValueError:
+        return None
+
+
 def row_of(row: dict[str, Any], metrics: dict[str, Measured]) -> Row:
     """A Row from the database's row."""
     plain = {key: row[key] for key in row if key not in (*OF_PROCESS, *STRUCTURED)}
-    structured: dict[str, Any] = {key: json.loads(row[key]) if row[key] else empty() for key, empty in STRUCTURED.items()}
-    return Row(**plain, **structured, metrics=metrics)
+    structured = {key: unpacked(row[key], empty) for key, empty in STRUCTURED.items()}
+    damaged = ", ".join(key for key, value in structured.items() if value is None)
+    if damaged:
+        plain["error"] = f"Damaged in the database: {damaged}. {plain['error'] or ''}".strip()
+    whole: dict[str, Any] = {key: STRUCTURED[key]() if value is None else value for key, value in structured.items()}
+    return Row(**plain, **whole, metrics=metrics)

@@ -10,10 +10,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from tsdownsample import MinMaxDownsampler
 
-from studio.errors import UnknownError, nearest
+from studio.errors import Problem, UnknownError, nearest
 from studio.execution.happening import Happening
 from studio.execution.message import Messages
 from studio.execution.record import Body, Chain, Mount, Record, Traced
+from studio.scenario.finding import short
 from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
@@ -99,8 +100,9 @@ def read(parquet: bytes, names: list[str]) -> dict[str, np.ndarray]:
     present = {each["name"] for each in channels(parquet)}
     for name in names:
         if name not in present:
-            raise UnknownError(f"This run has no channel {name!r}; {nearest(name, present)}")
-    table = pq.read_table(io.BytesIO(parquet), columns=["time", *names])
+            problem = Problem("channel", "was not recorded", short(name), "a channel of the run, vehicle.quantity", nearest(name, present))
+            raise UnknownError(f"This run has no channel {short(name)}; {problem.remedy}", [problem])
+    table = pq.read_table(io.BytesIO(parquet), columns=["time", *dict.fromkeys(names)])
     return {name: table[name].to_numpy() for name in table.column_names}
 
 

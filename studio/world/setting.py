@@ -142,7 +142,13 @@ def place(scenario: Scenario, folder: FilePath, where: str) -> Network:
             [Problem(f"{where}: map.file", "does not exist", scenario.map.file, remedy=nearest(file.name, others))],
         )
     usual = None if file.is_dir() else USUAL_RADIUS
-    return road.load(file, radius=scenario.map.radius or usual, parking_aisles=scenario.map.parking_aisles)
+    try:
+        return road.load(file, radius=scenario.map.radius or usual, parking_aisles=scenario.map.parking_aisles)
+    except MapError as error:
+        if error.problems:
+            raise
+        problem = Problem(f"{where}: map.file", error.message, scenario.map.file, "a map file, or the folder of an import")
+        raise MapError(f"The map of {where} cannot be used.", [problem]) from None
 
 
 def check_names(scenario: Scenario, where: str) -> None:

@@ -3,7 +3,7 @@
 Imports are answered at once with a job; whoever asked looks at it until it is over.
 """
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Depends, Query, Request
 
@@ -11,12 +11,11 @@ from studio.server import answer
 from studio.server.desk import Desk
 from studio.server.routes import AtDesk
 
-REFUSALS: dict[int | str, dict[str, Any]] = {status: {"model": answer.Refusal} for status in (404, 409, 413, 422)}
 BODY = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
 Name = Annotated[str, Query(description="name of the file; its ending tells the kind: .osm, .osm.gz, .osm.pbf, .json", max_length=300)]
 Box = Annotated[str | None, Query(description="the part to keep, west,south,east,north [deg]")]
 Replace = Annotated[bool, Query(description="replace the import of that name; its corrections are kept")]
-router = APIRouter(prefix="/api", responses=REFUSALS)
+router = APIRouter(prefix="/api", responses=answer.REFUSALS)
 
 
 def own_desk(desk: AtDesk) -> Desk:
