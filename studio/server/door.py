@@ -10,7 +10,7 @@ from contextlib import AsyncExitStack
 from fastapi import FastAPI
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-INNER = ("/api", "/scene", "/openapi.json")
+from studio.server.origin import INNER
 
 
 class Door:

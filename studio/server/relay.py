@@ -16,6 +16,11 @@ from studio.scene import client
 
 # opens a public tunnel to the viser server: nobody may ask for that
 FORBIDDEN = b"ShareUrlRequest"
+# viser's client is one file, with its scripts in it
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' data: blob:; style-src 'unsafe-inline'; img-src 'self' data: blob:; "
+    "font-src data:; connect-src 'self' data: blob:; worker-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'"
+)
 # close codes that mean "no close frame came" must not be sent themselves (RFC 6455, section 7.4.1)
 UNSENDABLE = {1005, 1006, 1015}
 GOING_AWAY, TRY_AGAIN_LATER = 1001, 1013
@@ -31,7 +36,7 @@ def router(door: Callable[[], tuple[int, dict[str, str]]]) -> APIRouter:
 
     @routes.get("/scene/")
     def page() -> HTMLResponse:
-        return HTMLResponse(client.page(), headers={"Cache-Control": "no-cache"})
+        return HTMLResponse(client.page(), headers={"Cache-Control": "no-cache", "Content-Security-Policy": POLICY})
 
     @routes.websocket("/scene")
     @routes.websocket("/scene/")

@@ -1,7 +1,7 @@
 """Pages from elsewhere get 403, over HTTP and over WebSockets; our page and programs without Origin pass."""
 
 import pytest
-from fastapi import FastAPI, WebSocket
+from fastapi import FastAPI, Response, WebSocket
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
@@ -46,6 +46,8 @@ ALLOWED = [
     # a tunnel to another port of this machine
     {"host": "localhost:9000", "origin": "http://localhost:9000"},
     {"host": "localhost", "origin": "http://localhost:80"},
+    {"host": OURS, "sec-fetch-site": "same-origin"},
+    {"host": OURS, "sec-fetch-site": "none", "sec-fetch-mode": "navigate", "sec-fetch-dest": "document"},
 ]
 FOREIGN = [
     {"host": OURS, "origin": "http://evil.example"},
@@ -63,6 +65,11 @@ FOREIGN = [
     {"host": "evil.example:8000"},
     {"host": "192.168.1.5:8000", "origin": "http://192.168.1.5:8000"},
     {"host": ""},
+    # pictures and scripts of pages from elsewhere, which send no Origin; another port of this machine is the same site
+    {"host": OURS, "sec-fetch-site": "cross-site", "sec-fetch-mode": "no-cors", "sec-fetch-dest": "image"},
+    {"host": OURS, "sec-fetch-site": "same-site", "sec-fetch-mode": "no-cors", "sec-fetch-dest": "script"},
+    {"host": OURS, "sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate", "sec-fetch-dest": "iframe"},
+    {"host": OURS, "sec-fetch-site": "a trick"},
 ]
 
 
@@ -97,3 +104,26 @@ def test_two_origins_are_none_of_ours():
     with client() as here:
         doubled = [("host", OURS), ("origin", f"http://{OURS}"), ("origin", f"http://{OURS}")]
         assert here.get("/", headers=doubled).status_code == 403
+
+
+LINK = {"sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate", "sec-fetch-dest": "document"}
+
+
+def test_a_link_from_elsewhere_leads_to_the_page_only():
+    with client() as here:
+        assert here.get("/", headers=LINK).status_code == 200
+        for path in ("/api/runs", "/scene/", "/openapi.json"):
+            assert here.get(path, headers=LINK).status_code == 403
+        assert here.post("/", headers=LINK).status_code == 403
+
+
+def test_every_answer_says_what_a_browser_may_do_with_it():
+    """Refusals too; a policy of an answer's own stays."""
+    app = FastAPI()
+    app.get("/own")(lambda: Response(headers={"Content-Security-Policy": "default-src 'self'"}))
+    with TestClient(SameOrigin(app), base_url=f"http://{OURS}") as here:
+        for answer in (here.get("/nowhere"), here.get("/nowhere", headers={"origin": "http://evil.example"})):
+            assert answer.headers["x-content-type-options"] == "nosniff"
+            assert answer.headers["cross-origin-resource-policy"] == "same-origin"
+            assert "frame-ancestors 'none'" in answer.headers["content-security-policy"]
+        assert here.get("/own").headers.get_list("content-security-policy") == ["default-src 'self'"]

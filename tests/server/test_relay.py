@@ -162,6 +162,7 @@ def test_the_page_is_visers_client_with_our_bridge(port):
     answer = httpx.get(f"http://127.0.0.1:{port}/scene", follow_redirects=True)
     assert answer.status_code == 200 and answer.url.path == "/scene/"
     assert "text/html" in answer.headers["content-type"]
+    assert "frame-ancestors 'self'" in answer.headers["content-security-policy"]
     assert "__studioBridge" in answer.text and '<div id="root">' in answer.text
 
 

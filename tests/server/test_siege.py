@@ -21,7 +21,19 @@ BAD_NAMES = [*BAD_NUMBERS, "..%2f..%2fetc%2fpasswd", "a%20b", "'%22;--", "%F0%9F
 BAD_BODIES = [b"", b"{", b"[" * 100_000, b"\xff\xfe", b"null", b"[]", b"1", b'{"seed": ' + b"9" * 100_000 + b"}", b'{"set": {"": 1}}']
 VALUES = [None, True, -1, 10**400, 1e308, "", "\ud800", "\0", LONG, [], {}, [[]] * 50, {"a": {"b": []}}, "../../etc/passwd", "fast"]
 FIELDS = ["scenario", "set", "seed", "parent", "pace", "paused", "run", "name", "place", "bbox", "element", "tags", "remove", "replace"]
-PATHS = ["clock.duration", "map.file", "vehicles", "vehicles.leader.model", "traffic.count", "seed", "applications", "", ".", "a.b", "script"]
+PATHS = [
+    "clock.duration",
+    "map.file",
+    "vehicles",
+    "vehicles.leader.model",
+    "traffic.count",
+    "seed",
+    "applications",
+    "",
+    ".",
+    "a.b",
+    "script",
+]
 
 
 @pytest.fixture(scope="module")
@@ -99,7 +111,9 @@ def test_a_method_that_there_is_not(here, method):
 def test_a_body_that_is_none(here, address, content):
     answer = here[0].post(f"/api/{address}", content=content, headers={"Content-Type": "application/json"})
     assert answer.status_code in (400, 404, 422) or address.endswith("check"), answer.text
-    is_told(answer, here[1][f"/api/{address}".replace("/1/", "/{run}/").replace("grosser_stern_platoon", "{scenario}")]["post"]["responses"])
+    is_told(
+        answer, here[1][f"/api/{address}".replace("/1/", "/{run}/").replace("grosser_stern_platoon", "{scenario}")]["post"]["responses"]
+    )
 
 
 @pytest.mark.parametrize("channels", ["leader.speed,leader.speed", "", ","])
