@@ -4,7 +4,7 @@
     v_safe = -b τ + sqrt(b² τ² + b (2 s - v τ + v_ahead²/b_ahead))
 
 P. G. Gipps, A behavioural car-following model for computer simulation, Transportation Research Part B 15 (1981) 105, Eqs. 1 and 2, with
-positive b. Steering as in studio/model/driver.py.
+positive b. Steering as in studio/model/helm.py.
 """
 
 from math import inf, sqrt
@@ -12,7 +12,7 @@ from math import inf, sqrt
 from studio.compiled import compiled
 from studio.kind.driver import Driver, Wish
 from studio.kind.settings import number
-from studio.model import driver
+from studio.model import helm
 
 KIND = "driver"
 TITLE = "Driver of Gipps"
@@ -53,7 +53,4 @@ def decide(settings, sees):
     if sees.stop_distance < inf:
         v = min(v, safe_speed(settings, sees, sees.stop_distance, 0.0, 1.0))
     acceleration = min(max((v - sees.speed) / settings.reaction_time, -HARDEST), settings.acceleration)
-    steering = driver.path_steering(
-        sees.offset, sees.heading, sees.curvature, sees.speed, sees.yaw_rate, 2.0, 0.1, sees.compliance, sees.steering_max
-    )
-    return Wish(acceleration, steering)
+    return Wish(acceleration, helm.path_steering(sees, 2.0, 0.1))

@@ -44,6 +44,10 @@ class Sees(NamedTuple):
     curvature: Annotated[float, "1/m"] = 0.0  # of the path where the car will be in a moment, left positive
     compliance: Annotated[float, "rad s²/m"] = 0.0  # slip angle of the front axle per lateral acceleration
     steering_max: Annotated[float, "rad"] = 0.0  # largest road wheel angle
+    steering_rate: Annotated[float, "rad/s"] = 0.4  # fastest change of it
+    wheelbase: Annotated[float, "m"] = 2.7
+    understeer: Annotated[float, "rad s²/m"] = 0.0  # slip angle of the front axle less that of the rear one, per lateral acceleration
+    sideways: Annotated[float, "m/s"] = 0.0  # speed of the front axle to the left of where the car points
 
 
 class Wish(NamedTuple):

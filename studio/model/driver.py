@@ -1,13 +1,12 @@
-"""The driver: steers along a path, keeps a speed, follows what is ahead, stops at red.
+"""The driver's pedals: he keeps a speed, follows what is ahead, stops at red. How he steers stands in helm.py.
 
 Following: Intelligent Driver Model, M. Treiber, A. Hennecke, D. Helbing, Phys. Rev. E 62 (2000) 1805. Above the desired
 speed its fourth power brakes too late for a bend or too hard for a trifle; there the excess dies away with a time constant.
 Sight: who drives must be able to stop within what is seen, German StVO § 3 (1) sentence 4, and with less than 50 m of it goes
 no faster than 50 km/h, sentence 3.
-Steering: the controller of G. Hoffmann, C. Tomlin, M. Montemerlo, S. Thrun, ACC 2007, Eqs. 5 and 9, at the front axle.
 """
 
-from math import atan2, sqrt
+from math import sqrt
 
 from studio.compiled import compiled
 
@@ -59,23 +58,3 @@ def stopping_acceleration(v, distance, s_0, T, a, b):
     """Acceleration [m/s²] towards a stop line `distance` [m] ahead of the front bumper."""
     pressure = desired_gap(v, v, STOP_CLOSE, 0.0, a, b) / max(distance, 0.1)
     return a * (1.0 - pressure * pressure)
-
-
-@compiled
-def front_compliance(m, l_r, L, C_f):
-    """Slip angle of the front axle per lateral acceleration [rad s²/m]: m l_r/(L C_f), axle stiffness C_f [N/rad]."""
-    return m * l_r / (L * C_f)
-
-
-@compiled
-def path_steering(e, d_psi, kappa, v, r, gain, yaw_damping, compliance, delta_max):
-    """Road wheel angle [rad].
-
-    e [m] offset of the front axle from the path (left positive), d_psi [rad] heading minus path heading there,
-    kappa [1/m] path curvature, v [m/s], r [rad/s], gain [1/s], yaw_damping [s], compliance [rad s²/m].
-    The front axle moves along the path when the wheels point along it, -d_psi, plus the slip that the side force of
-    the bend needs, compliance v² kappa.
-    """
-    steady = compliance * v * v * kappa
-    correction = -d_psi - atan2(gain * e, 1.0 + v) + yaw_damping * (v * kappa - r)
-    return min(max(correction + steady, -delta_max), delta_max)

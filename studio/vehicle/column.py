@@ -18,6 +18,7 @@ from studio.vehicle.parameter import (
     BRAKE_SHARE,
     C_D,
     C_FRONT,
+    C_REAR,
     C_ROLL,
     CAMBER_F,
     CAMBER_R,
@@ -129,6 +130,7 @@ def parameter_rows(vehicle: Vehicle, front: Tyre, rear: Tyre) -> np.ndarray:
     p[[LOSS_TORQUE, LOSS_SHARE, DRIVE_SHARE]] = vehicle.gearbox.loss_torque, vehicle.gearbox.loss_share, vehicle.gearbox.front_share
     p[[C_D, AREA]] = vehicle.air.drag_coefficient, vehicle.air.frontal_area
     p[C_FRONT] = -2.0 * tyre.cornering_stiffness(front, 0.0, p[STATIC_F])
+    p[C_REAR] = -2.0 * tyre.cornering_stiffness(rear, 0.0, p[STATIC_R])
     return p
 
 

@@ -91,6 +91,7 @@ LENGTH = PARAMETER.row("length", "m", "body")
 WIDTH = PARAMETER.row("width", "m", "body")
 FRONT = PARAMETER.row("front_overhang", "m", "centre of gravity to front bumper")
 C_FRONT = PARAMETER.row("front_stiffness", "N/rad", "cornering stiffness of the front axle, for the driver's feed-forward")
+C_REAR = PARAMETER.row("rear_stiffness", "N/rad", "the same of the rear axle")
 
 # The gearbox, one row for each gear from reverse upwards: row = quantity · GEARS + gear + 1.
 GEARBOX = Table("gearbox", Role.PARAMETER, per="vehicle")

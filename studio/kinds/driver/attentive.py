@@ -1,8 +1,8 @@
 """The attentive driver: keeps a speed, follows what is ahead, lets others go first, stops at red, steers along the path.
 
 Following: Intelligent Driver Model, M. Treiber, A. Hennecke, D. Helbing, Phys. Rev. E 62 (2000) 1805.
-Steering: the controller of G. Hoffmann, C. Tomlin, M. Montemerlo, S. Thrun, ACC 2007, Eqs. 5 and 9, at the front axle.
-The laws stand in studio/model/driver.py.
+Steering: the controller of G. Hoffmann, C. Tomlin, M. Montemerlo, S. Thrun, ACC 2007, Eqs. 5 and 9, and a way back to the path.
+The laws stand in studio/model/driver.py and helm.py.
 """
 
 from math import inf
@@ -10,7 +10,7 @@ from math import inf
 from studio.compiled import inlined
 from studio.kind.driver import Driver, Wish
 from studio.kind.settings import number
-from studio.model import driver
+from studio.model import driver, helm
 
 KIND = "driver"
 TITLE = "Attentive driver"
@@ -56,8 +56,4 @@ def pedals(settings, sees):
 @inlined
 def decide(settings, sees):
     """One tick."""
-    steering = driver.path_steering(
-        sees.offset, sees.heading, sees.curvature, sees.speed, sees.yaw_rate, settings.steering_gain, settings.yaw_damping,
-        sees.compliance, sees.steering_max,
-    )  # fmt: skip
-    return Wish(pedals(settings, sees), steering)
+    return Wish(pedals(settings, sees), helm.path_steering(sees, settings.steering_gain, settings.yaw_damping))

@@ -9,7 +9,7 @@ from math import cos, inf, isfinite, nan, sin, sqrt
 
 from studio.compiled import inlined, lean
 from studio.kind.driver import Sees
-from studio.model import driver
+from studio.model import driver, helm
 from studio.road.network.signals import GREEN, signal_state
 from studio.road.ways.path import (
     PATH_CURVATURE,
@@ -21,9 +21,9 @@ from studio.road.ways.path import (
     interpolate,
     project,
 )
-from studio.vehicle.parameter import C_FRONT, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, WIDTH
+from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, STEER_RATE, WIDTH
 from studio.vehicle.shift import start
-from studio.vehicle.state import ACTIVE, PSI, V_X, YAW_RATE, X, Y
+from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
 from studio.world.passes.ground import touch_all
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN, moved, within
 from studio.world.passes.queue import from_station
@@ -342,18 +342,20 @@ def mind_mover(v, i, number, state, parameter, points, first, count, table, driv
 
 
 @inlined
-def compliance(v, parameter):
-    """Slip angle of the front axle per lateral acceleration [rad s²/m]."""
-    return driver.front_compliance(parameter[MASS, v], parameter[L_R, v], parameter[L_F, v] + parameter[L_R, v], parameter[C_FRONT, v])
+def compliance(v, own, other, stiffness, parameter):
+    """Slip angle per lateral acceleration [rad s²/m] of the axle that is `own` from the centre of gravity, the other one `other`."""
+    return helm.compliance(parameter[MASS, v], parameter[other, v], parameter[own, v] + parameter[other, v], parameter[stiffness, v])
 
 
 @inlined
 def sees(v, state, parameter, mind):
     """What a driver of any kind sees of all this."""
+    front, rear = compliance(v, L_F, L_R, C_FRONT, parameter), compliance(v, L_R, L_F, C_REAR, parameter)
     return Sees(
         state[V_X, v], state[YAW_RATE, v], mind[V_DESIRED, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v], mind[FIRST_GAP, v],
         mind[FIRST_SPEED, v], mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v], mind[FRONT_OFFSET, v], mind[D_PSI, v],
-        mind[PATH_KAPPA, v], compliance(v, parameter), parameter[STEER_MAX, v],
+        mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v], parameter[STEER_RATE, v], parameter[L_F, v] + parameter[L_R, v], front - rear,
+        state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v],
     )  # fmt: skip
 
 
