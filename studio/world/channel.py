@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.rows import Table
@@ -15,7 +15,7 @@ from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
 from studio.world.table.mind import MIND
-from studio.world.table.unit import H_NUMBER, H_TIME, PRESENT, SATELLITE
+from studio.world.table.unit import H_NUMBER, H_TIME, SATELLITE
 from studio.world.world import World
 
 
@@ -91,32 +91,40 @@ def pick(row, columns, start, values):
         values[i] = row[start + columns[i]]
 
 
-def present(world: World) -> np.ndarray:
-    """Which units are there, bool[unit]."""
-    return world.units.now[PRESENT] > 0.0
-
-
-def newly_heard(world: World, looked: np.ndarray, newest: np.ndarray, link: np.ndarray, sent: np.ndarray, count: np.ndarray) -> None:
-    """Writes down the links, of all posts, that have heard something newer than `newest` [s], and when that was sent [s].
-
-    `looked` is how often links of every sender had taken a message when it was looked last.
-    """
-    first = sender = 0
-    for post in world.units.posts:
-        own = looked[sender : sender + post.sender.size]
-        note(first, post.link_first, post.taken, post.inbox, own, newest[first : first + post.link_receiver.size], link, sent, count)
-        first, sender = first + post.link_receiver.size, sender + post.sender.size
+@lean
+def has_changed(present, there):
+    """Whether other units are there, of whom `present` is above 0, than `there` says."""
+    for u in range(there.size):
+        if (present[u] > 0.0) != there[u]:
+            return True
+    return False
 
 
 @lean
-def note(first, link_first, taken, inbox, looked, newest, link, sent, count):
-    """Those of one post, whose links are numbered from `first` on."""
-    for s in range(taken.size):
-        if looked[s] == taken[s]:
-            continue
-        looked[s] = taken[s]
-        for i in range(link_first[s], link_first[s + 1]):
-            if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
-                newest[i] = inbox[H_TIME, i]
-                link[count[0]], sent[count[0]] = first + i, newest[i]
-                count[0] += 1
+def note(first, link_first, taken, looks, came, came_count, inbox, looked, seen, newest, link, sent, count):
+    """Writes down the links of a post, numbered from `first` on, that have heard something newer than `newest` [s], and when it was sent.
+
+    `seen` is how often the post had looked for what has come in, and `looked` how often links of every sender had taken a message, when it
+    was noted last. Where the post has looked once since then, it says itself who has taken one.
+    """
+    if looks[0] == seen[0] + 1:
+        for k in range(came_count[0]):
+            note_link(first, came[k], inbox, newest, link, sent, count)
+        for s in range(taken.size):
+            looked[s] = taken[s]
+    elif looks[0] != seen[0]:
+        for s in range(taken.size):
+            if looked[s] != taken[s]:
+                looked[s] = taken[s]
+                for i in range(link_first[s], link_first[s + 1]):
+                    note_link(first, i, inbox, newest, link, sent, count)
+    seen[0] = looks[0]
+
+
+@inlined
+def note_link(first, i, inbox, newest, link, sent, count):
+    """One link, when it has heard something newer."""
+    if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
+        newest[i] = inbox[H_TIME, i]
+        link[count[0]], sent[count[0]] = first + i, newest[i]
+        count[0] += 1
