@@ -9,10 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from studio.compiled import bound
+from studio.bound import bound
 from studio.world import channel
 from studio.world.board.post import Post
-from studio.world.table.unit import PRESENT
 from studio.world.world import World
 
 ROOM = 1 << 16  # changes that room is made for at a time at least
@@ -49,7 +48,7 @@ class Hearing:
             for note in self.ready:
                 note()
             self.until.append(self.written + int(self.count[0]))
-            self.look(world.units.now[PRESENT])
+            self.look(channel.present(world))
 
     def noting(self, posts: Sequence[Post]) -> Iterator[Callable]:
         """What notes down who has heard something newer, post by post."""

@@ -8,16 +8,16 @@ last is written behind everything else; every sample says of every stretch where
 as the time of what it has measured and its number of targets tell, is not looked at.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import bound, inlined, lean
+from studio.bound import bound
+from studio.compiled import inlined, lean
 from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader, Share
-from studio.world.table.unit import MEASURED
 
 NUMBERS = 1 << 20  # that a part holds at least
 SAMPLES = 1024  # that a part holds at most
@@ -63,18 +63,16 @@ class Trail:
         if not self.parts or self.is_full(self.parts[-1]):
             self.begin()
         part = self.parts[-1]
-        for keep_share in self.shares(part.numbers):
-            self.used = keep_share(part.numbers, self.used)
+        for keep_share in self.ready:
+            self.used = keep_share(self.used)
         part.place[self.count - part.first] = self.newest
         self.count += 1
 
-    def shares(self, numbers: np.ndarray) -> list[Callable]:
-        """What keeps the stretches of each array; arrays stay where they are, so that all but the last two arguments are given once."""
-        if not self.ready:
-            own = np.split(self.newest, np.cumsum([each.stretches.shape[1] for each in self.reader.shares])[:-1])
-            for each, gate, newest in zip(self.reader.shares, self.gates, own, strict=False):
-                self.ready.append(bound(keep, each.numbers, each.stretches, *gate, newest, then=(numbers, self.used)))
-        return self.ready
+    def shares(self, kept: np.ndarray) -> Iterator[Callable]:
+        """What keeps the stretches of each array; arrays stay where they are while a part is written."""
+        own = np.split(self.newest, np.cumsum([each.stretches.shape[1] for each in self.reader.shares])[:-1])
+        for each, gate, newest in zip(self.reader.shares, self.gates, own, strict=False):
+            yield bound(keep, each.numbers, each.stretches, *gate, newest, kept, then=(self.used,))
 
     def is_full(self, part: Part) -> bool:
         """Whether a part may not take one more sample."""
@@ -86,6 +84,7 @@ class Trail:
         numbers[: self.longest] = nan
         self.parts.append(Part(self.count, np.empty((SAMPLES, self.newest.size), np.int32), numbers))
         self.newest[:], self.used = NOTHING, self.longest
+        self.ready = list(self.shares(numbers))
         for gate in self.gates:
             gate.seen[:] = nan
 
@@ -110,11 +109,11 @@ class Gate(NamedTuple):
 def gate_of(share: Share) -> Gate:
     """That of an array."""
     counter = share.stretches[COUNTER]
-    if share.field != "out":
-        return Gate(np.zeros(0), np.array([[0], [counter.size], [0], [0]]), np.full((2, 1), nan))
+    if not share.measured.size:
+        return Gate(share.measured, np.array([[0], [counter.size], [0], [0]]), np.full((2, 1), nan))
     first = np.flatnonzero(np.diff(counter, prepend=-1))
     groups = np.array([first, np.append(first[1:], counter.size), counter[first], counter[first] // share.owner.out.shape[1]])
-    return Gate(share.owner.health[MEASURED], groups, np.full((2, first.size), nan))
+    return Gate(share.measured, groups, np.full((2, first.size), nan))
 
 
 @lean

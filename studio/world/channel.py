@@ -1,11 +1,13 @@
 """Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one, and every kind that follows from them."""
 
+from collections.abc import Callable
 from functools import cache
 from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
+from studio.bound import bound
 from studio.compiled import inlined, lean
 from studio.kind import registry
 from studio.kind.registry import Kind
@@ -15,7 +17,7 @@ from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND, RING
 from studio.vehicle.state import ACTIVE, VEHICLE
 from studio.world.table.mind import MIND
-from studio.world.table.unit import H_NUMBER, H_TIME, SATELLITE
+from studio.world.table.unit import H_NUMBER, H_TIME, PRESENT, SATELLITE
 from studio.world.world import World
 
 
@@ -57,14 +59,19 @@ def derived(kind: Kind) -> Channel:
 registry.listen(catalogue.cache_clear)
 
 
-def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> None:
-    """All channels of some vehicles, float64[channel, vehicle], with the commands of tick k.
-
-    A vehicle that has arrived has no values any more.
-    """
+def sampler(world: World, columns: np.ndarray, values: np.ndarray) -> Callable[[int, int], None]:
+    """What writes all channels of some vehicles to a place of `values`, float64[place, channel, vehicle], with the commands of tick k."""
     v = world.vehicles
-    adhesion.sample(v, columns, values[len(KEPT) :])
-    gather(columns, (k % RING) * world.size, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values)
+    adhesion = (v.tyres, v.tyres_of, v.wheels, v.ground)
+    return bound(sample, columns, *adhesion, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values, then=(0, 0))
+
+
+@lean
+def sample(columns, tyres, tyres_of, wheels, ground, table_of, row_of, state, mind, commands, satellite, values, place, k):
+    """The pass behind it. A vehicle that has arrived has no values any more."""
+    n = state.shape[1]
+    adhesion.use(columns, n, tyres, tyres_of, wheels, ground, values[place, row_of.size :])
+    gather(columns, (k % RING) * n, table_of, row_of, state, mind, commands, satellite, values[place])
 
 
 @lean
@@ -89,6 +96,11 @@ def pick(row, columns, start, values):
     """One row of some vehicles."""
     for i in range(columns.size):
         values[i] = row[start + columns[i]]
+
+
+def present(world: World) -> np.ndarray:
+    """Of every unit, above 0 while it is there."""
+    return world.units.now[PRESENT]
 
 
 @lean

@@ -20,7 +20,8 @@ import numpy as np
 from numba import literal_unroll
 
 from studio.application.contract import Own
-from studio.compiled import bound, inlined, lean
+from studio.bound import bound
+from studio.compiled import inlined, lean
 from studio.errors import ApplicationError
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
@@ -224,33 +225,11 @@ class Post:
 
     def given(self, air: Air, around: tuple) -> tuple:
         """What the radio decides about, and what it looks at for that, as GIVEN names it."""
-        of_air = (
-            self.radio.stream,
-            air.settings,
-            air.reach,
-            air.within,
-            air.minds_walls,
-            air.table,
-            air.felt,
-            air.around,
-            air.busy,
-            air.load,
-            air.cell,
-        )
+        settings = (self.radio.stream, air.settings, air.reach, air.within, air.minds_walls, air.table)
+        channel = (air.felt, air.around, air.busy, air.load, air.cell)
+        sent = (self.sender, self.fresh, self.soonest, self.last, self.ring)
         links = (self.link_first, self.link_receiver, self.arrival, self.memory)
-        return (
-            self.stream,
-            *of_air,
-            *around,
-            self.sender,
-            self.fresh,
-            self.soonest,
-            self.last,
-            self.ring,
-            *links,
-            *self.log.now,
-            self.log.count,
-        )
+        return (self.stream, *settings, *channel, *around, *sent, *links, *self.log.now, self.log.count)
 
     def newest(self, world: int, world_of: np.ndarray) -> np.ndarray:
         """What is kept of the messages of a world, float64[row, slot, sender], the newest first: the same in every batch."""
