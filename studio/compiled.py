@@ -108,17 +108,6 @@ lean = compiled(_nrt=False)
 inlined = compiled(forceinline=True, _nrt=False)
 
 
-def bound(function: Any, *arguments: Any, then: tuple = ()) -> Callable:
-    """A function with its first arguments given once and for all; `then` are values like those that will follow, for a compiled one.
-
-    numba looks at the types of all arguments at every call. For a view of the world that takes longer than the work of a few units.
-    """
-    if not hasattr(function, "py_func"):
-        return partial(function, *arguments)
-    types = tuple(numba.typeof(each) for each in (*arguments, *then))
-    return partial(function.compile(types), *arguments)
-
-
 def readable(load: Callable[[], dict]) -> dict:
     """What there is of a function; nothing when some of it is for the types of a module that is not loaded now: a user's own."""
     try:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 FLOORS = [
-    {"errors", "conventions", "rows", "cache", "source", "sample", "process", "compiled", "portable"},
+    {"errors", "conventions", "rows", "cache", "source", "sample", "process", "compiled", "bound", "portable"},
     {"model"},
     {"application"},
     {"kind"},

@@ -4,11 +4,12 @@ hearing.take(world)            the next sample
 hearing.ages(links, time)  →   [s] float64[link, n], the age of the newest message on some links at the first samples
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from studio.bound import bound
 from studio.world import channel
 from studio.world.board.post import Post
 from studio.world.world import World
@@ -24,34 +25,50 @@ class Hearing:
     sender: np.ndarray  # units at the ends of every link
     receiver: np.ndarray
     looked: np.ndarray  # per sender, how often its links had taken a message when it was looked last
+    seen: np.ndarray  # per post, how often it had looked itself
     newest: np.ndarray  # [s] float64[link], when the newest message was sent; NEVER while none has come
-    link: np.ndarray = field(default_factory=lambda: np.zeros(0, np.int32))  # room for changes that are being written
-    sent: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    link: np.ndarray = field(init=False)  # room for changes that are being written
+    sent: np.ndarray = field(init=False)
     count: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int64))
     full: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)
     written: int = 0  # changes in `full`
     until: list[int] = field(default_factory=list)  # per sample, how many changes there had been
     there: list[tuple[int, np.ndarray]] = field(default_factory=list)  # from which sample on which units are there
+    ready: list[Callable] = field(default_factory=list)  # what looks at one post after the other
+
+    def __post_init__(self) -> None:
+        room = max(ROOM, 2 * self.newest.size)
+        self.link, self.sent = np.empty(room, np.int32), np.empty(room)
 
     def take(self, world: World) -> None:
         """The next sample."""
         if self.newest.size:
             self.make_room()
-            channel.newly_heard(world, self.looked, self.newest, self.link, self.sent, self.count)
+            self.ready = self.ready or list(self.noting(world.units.posts))
+            for note in self.ready:
+                note()
             self.until.append(self.written + int(self.count[0]))
             self.look(channel.present(world))
 
-    def look(self, there: np.ndarray) -> None:
-        """Which units are there at this sample."""
-        if not self.there or (there != self.there[-1][1]).any():
-            self.there.append((len(self.until) - 1, there))
+    def noting(self, posts: Sequence[Post]) -> Iterator[Callable]:
+        """What notes down who has heard something newer, post by post."""
+        first = sender = 0
+        for i, post in enumerate(posts):
+            own, newest = self.looked[sender : sender + post.sender.size], self.newest[first : first + post.link_receiver.size]
+            heard = (post.link_first, post.taken, post.looks, post.came, post.came_count, post.inbox)
+            yield bound(channel.note, first, *heard, own, self.seen[i : i + 1], newest, self.link, self.sent, self.count)
+            first, sender = first + post.link_receiver.size, sender + post.sender.size
+
+    def look(self, present: np.ndarray) -> None:
+        """Which units are there at this sample: those of whom `present` is above 0."""
+        if not self.there or channel.has_changed(present, self.there[-1][1]):
+            self.there.append((len(self.until) - 1, present > 0.0))
 
     def make_room(self) -> None:
         """So that a change of every link finds room."""
         if self.count[0] + self.newest.size > self.link.size:
-            count, room = int(self.count[0]), max(ROOM, 2 * self.newest.size)
+            count = int(self.count[0])
             self.full.append((self.link[:count].copy(), self.sent[:count].copy()))
-            self.link, self.sent = np.empty(room, np.int32), np.empty(room)
             self.written, self.count[0] = self.written + count, 0
 
     def ages(self, links: Sequence[int], time: np.ndarray) -> np.ndarray:
@@ -90,4 +107,4 @@ def hearing(posts: Sequence[Post]) -> Hearing:
     sender = np.concatenate([np.zeros(0, np.int64), *(post.sender[post.link_sender] for post in posts)])
     receiver = np.concatenate([np.zeros(0, np.int64), *(post.link_receiver for post in posts)])
     looked = np.zeros(sum(post.sender.size for post in posts), dtype=np.int64)
-    return Hearing(sender, receiver, looked, np.full(sender.size, NEVER))
+    return Hearing(sender, receiver, looked, np.zeros(len(posts), dtype=np.int64), np.full(sender.size, NEVER))

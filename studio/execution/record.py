@@ -240,6 +240,7 @@ class Recorder:
     probe_share: list[slice]
     count: int = 0
     chunks: list[Chunk] = field(default_factory=list)
+    sample: Callable[[int, int], None] = field(init=False)  # writes the channels to a place of the last chunk
 
     def take(self, world: World, k: int) -> None:
         """Takes a sample when it is time for one; commands are those of tick k."""
@@ -247,9 +248,9 @@ class Recorder:
             place = self.count % self.room
             if place == 0:
                 self.chunks.append(self.chunk())
-            chunk = self.chunks[-1]
-            chunk.time[place] = world.clock.time
-            channel.sample(world, self.columns, k, chunk.values[place])
+                self.sample = channel.sampler(world, self.columns, self.chunks[-1].values)
+            self.chunks[-1].time[place] = world.clock.time
+            self.sample(place, k)
             self.hearing.take(world)
             self.trail.take()
             self.count += 1

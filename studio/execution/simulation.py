@@ -65,9 +65,10 @@ class Simulation:
     ticks: int  # length of the whole run
     started: float = field(default_factory=time.perf_counter)
     running: int = field(init=False)  # worlds that are not over
+    may_end: bool = field(init=False)  # whether the script may end some world
 
     def __post_init__(self) -> None:
-        self.running = len(self.cases)
+        self.running, self.may_end = len(self.cases), bool(self.world.script.ends.any())
 
     @property
     def time(self) -> float:
@@ -94,7 +95,8 @@ class Simulation:
         if self.is_over:
             return
         self.recorder.take(self.world, self.world.clock.k)
-        self.end_by_script()
+        if self.may_end:
+            self.end_by_script()
         if self.is_over:
             return
         between(self.world, self.refuse)

@@ -4,17 +4,20 @@ trail.take()              the next sample
 trail.at(samples, probes) →   float64[sample, probe], what some probes had read at some samples
 
 Numbers that a probe's owner writes together are a stretch (studio/world/probe.py). A stretch that differs from what was written of it
-last is written behind everything else; every sample says of every stretch where it stands.
+last is written behind everything else; every sample says of every stretch where it stands. A sensor that has given nothing since then,
+as the time of what it has measured and its number of targets tell, is not looked at.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from math import nan
+from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import bound, lean
-from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader
+from studio.bound import bound
+from studio.compiled import inlined, lean
+from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader, Share
 
 NUMBERS = 1 << 20  # that a part holds at least
 SAMPLES = 1024  # that a part holds at most
@@ -42,6 +45,7 @@ class Trail:
     used: int = 0
     count: int = 0  # samples so far
     parts: list[Part] = field(default_factory=list)
+    gates: list["Gate"] = field(init=False)  # of every array that is read
     ready: list[Callable] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -52,24 +56,23 @@ class Trail:
             self.stretch[first : first + length], self.within[first : first + length] = number, np.arange(length)
         self.newest = np.full(count.size, NOTHING, np.int32)
         self.longest = int(count.max(initial=1))
+        self.gates = [gate_of(each) for each in self.reader.shares]
 
     def take(self) -> None:
         """The next sample."""
         if not self.parts or self.is_full(self.parts[-1]):
             self.begin()
         part = self.parts[-1]
-        for keep_share in self.shares(part.numbers):
-            self.used = keep_share(part.numbers, self.used)
+        for keep_share in self.ready:
+            self.used = keep_share(self.used)
         part.place[self.count - part.first] = self.newest
         self.count += 1
 
-    def shares(self, numbers: np.ndarray) -> list[Callable]:
-        """What keeps the stretches of each array; arrays stay where they are, so that all but the last two arguments are given once."""
-        if not self.ready:
-            own = np.split(self.newest, np.cumsum([each.stretches.shape[1] for each in self.reader.shares])[:-1])
-            for each, newest in zip(self.reader.shares, own, strict=False):
-                self.ready.append(bound(keep, each.numbers, each.stretches, newest, then=(numbers, self.used)))
-        return self.ready
+    def shares(self, kept: np.ndarray) -> Iterator[Callable]:
+        """What keeps the stretches of each array; arrays stay where they are while a part is written."""
+        own = np.split(self.newest, np.cumsum([each.stretches.shape[1] for each in self.reader.shares])[:-1])
+        for each, gate, newest in zip(self.reader.shares, self.gates, own, strict=False):
+            yield bound(keep, each.numbers, each.stretches, *gate, newest, kept, then=(self.used,))
 
     def is_full(self, part: Part) -> bool:
         """Whether a part may not take one more sample."""
@@ -81,6 +84,9 @@ class Trail:
         numbers[: self.longest] = nan
         self.parts.append(Part(self.count, np.empty((SAMPLES, self.newest.size), np.int32), numbers))
         self.newest[:], self.used = NOTHING, self.longest
+        self.ready = list(self.shares(numbers))
+        for gate in self.gates:
+            gate.seen[:] = nan
 
     def at(self, samples: np.ndarray, probes: slice) -> np.ndarray:
         """What some probes had read at some samples, float64[sample, probe]; not a number where there was no target."""
@@ -92,10 +98,41 @@ class Trail:
         return found
 
 
+class Gate(NamedTuple):
+    """Groups of the stretches of an array that are looked at together: those of one sensor, when it has given something."""
+
+    measured: np.ndarray  # [s] per sensor, of when is what it has given last; nothing for an array that is always looked at
+    groups: np.ndarray  # int64[row, group]: first stretch, the one behind the last, where the number of targets stands, which sensor
+    seen: np.ndarray  # float64[2, group]: when it had measured, and how many targets it had, when it was looked at last
+
+
+def gate_of(share: Share) -> Gate:
+    """That of an array."""
+    counter = share.stretches[COUNTER]
+    if not share.measured.size:
+        return Gate(share.measured, np.array([[0], [counter.size], [0], [0]]), np.full((2, 1), nan))
+    first = np.flatnonzero(np.diff(counter, prepend=-1))
+    groups = np.array([first, np.append(first[1:], counter.size), counter[first], counter[first] // share.owner.out.shape[1]])
+    return Gate(share.measured, groups, np.full((2, first.size), nan))
+
+
 @lean
-def keep(numbers, stretches, newest, kept, used):
+def keep(numbers, stretches, measured, groups, seen, newest, kept, used):
     """Writes stretches of an array that have changed behind the first `used` of `kept`; how many are used then."""
-    for i in range(stretches.shape[1]):
+    for g in range(groups.shape[1]):
+        if measured.size > 0:
+            when, count = measured[groups[3, g]], numbers[groups[2, g]]
+            if when == seen[0, g] and count == seen[1, g]:
+                continue
+            seen[0, g], seen[1, g] = when, count
+        used = keep_group(groups[0, g], groups[1, g], numbers, stretches, newest, kept, used)
+    return used
+
+
+@inlined
+def keep_group(begin, end, numbers, stretches, newest, kept, used):
+    """The same of some of the stretches."""
+    for i in range(begin, end):
         slot = stretches[SLOT, i]
         if slot >= 0 and numbers[stretches[COUNTER, i]] <= slot:
             newest[i] = NOTHING

@@ -1,13 +1,10 @@
 """Adhesion: how much of it the wheels use, made of the fleet's state whenever somebody records it."""
 
-import numpy as np
-
 from studio.compiled import lean
 from studio.model import adhesion
 from studio.rows import Role, Table
 from studio.vehicle.contact import MU
 from studio.vehicle.corner import OVERLOAD
-from studio.vehicle.fleet import Fleet
 from studio.vehicle.state import F_X, F_Y, F_Z
 from studio.vehicle.tile import tyre_at
 
@@ -20,14 +17,9 @@ REAR_LEFT = ADHESION.row("adhesion_rear_left", "1", "the same of this wheel", la
 REAR_RIGHT = ADHESION.row("adhesion_rear_right", "1", "the same of this wheel", label="Use of adhesion, rear right")
 
 
-def sample(fleet: Fleet, columns: np.ndarray, values: np.ndarray) -> None:
-    """Use of adhesion of some vehicles, float64[wheel, vehicle]."""
-    use(columns, fleet.size, fleet.tyres, fleet.tyres_of, fleet.wheels, fleet.ground, values)
-
-
 @lean
 def use(columns, n, tyres, tyres_of, wheels, ground, values):
-    """The pass behind it; tyres_of int64[2, n] are those of the front and the rear axle.
+    """Use of adhesion of some of n vehicles, float64[wheel, vehicle]; tyres_of int64[2, n] are those of the front and the rear axle.
 
     Forces are those that have just acted. Where the ground has become slippery since, they are more than it gives now: all of it is used.
     """

@@ -1,12 +1,14 @@
 """Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one, and every kind that follows from them."""
 
+from collections.abc import Callable
 from functools import cache
 from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import lean
+from studio.bound import bound
+from studio.compiled import inlined, lean
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.rows import Table
@@ -57,14 +59,19 @@ def derived(kind: Kind) -> Channel:
 registry.listen(catalogue.cache_clear)
 
 
-def sample(world: World, columns: np.ndarray, k: int, values: np.ndarray) -> None:
-    """All channels of some vehicles, float64[channel, vehicle], with the commands of tick k.
-
-    A vehicle that has arrived has no values any more.
-    """
+def sampler(world: World, columns: np.ndarray, values: np.ndarray) -> Callable[[int, int], None]:
+    """What writes all channels of some vehicles to a place of `values`, float64[place, channel, vehicle], with the commands of tick k."""
     v = world.vehicles
-    adhesion.sample(v, columns, values[len(KEPT) :])
-    gather(columns, (k % RING) * world.size, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values)
+    adhesion = (v.tyres, v.tyres_of, v.wheels, v.ground)
+    return bound(sample, columns, *adhesion, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values, then=(0, 0))
+
+
+@lean
+def sample(columns, tyres, tyres_of, wheels, ground, table_of, row_of, state, mind, commands, satellite, values, place, k):
+    """The pass behind it. A vehicle that has arrived has no values any more."""
+    n = state.shape[1]
+    adhesion.use(columns, n, tyres, tyres_of, wheels, ground, values[place, row_of.size :])
+    gather(columns, (k % RING) * n, table_of, row_of, state, mind, commands, satellite, values[place])
 
 
 @lean
@@ -92,31 +99,44 @@ def pick(row, columns, start, values):
 
 
 def present(world: World) -> np.ndarray:
-    """Which units are there, bool[unit]."""
-    return world.units.now[PRESENT] > 0.0
-
-
-def newly_heard(world: World, looked: np.ndarray, newest: np.ndarray, link: np.ndarray, sent: np.ndarray, count: np.ndarray) -> None:
-    """Writes down the links, of all posts, that have heard something newer than `newest` [s], and when that was sent [s].
-
-    `looked` is how often links of every sender had taken a message when it was looked last.
-    """
-    first = sender = 0
-    for post in world.units.posts:
-        own = looked[sender : sender + post.sender.size]
-        note(first, post.link_first, post.taken, post.inbox, own, newest[first : first + post.link_receiver.size], link, sent, count)
-        first, sender = first + post.link_receiver.size, sender + post.sender.size
+    """Of every unit, above 0 while it is there."""
+    return world.units.now[PRESENT]
 
 
 @lean
-def note(first, link_first, taken, inbox, looked, newest, link, sent, count):
-    """Those of one post, whose links are numbered from `first` on."""
-    for s in range(taken.size):
-        if looked[s] == taken[s]:
-            continue
-        looked[s] = taken[s]
-        for i in range(link_first[s], link_first[s + 1]):
-            if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
-                newest[i] = inbox[H_TIME, i]
-                link[count[0]], sent[count[0]] = first + i, newest[i]
-                count[0] += 1
+def has_changed(present, there):
+    """Whether other units are there, of whom `present` is above 0, than `there` says."""
+    for u in range(there.size):
+        if (present[u] > 0.0) != there[u]:
+            return True
+    return False
+
+
+@lean
+def note(first, link_first, taken, looks, came, came_count, inbox, looked, seen, newest, link, sent, count):
+    """Writes down the links of a post, numbered from `first` on, that have heard something newer than `newest` [s], and when it was sent.
+
+    `seen` is how often the post had looked for what has come in, and `looked` how often links of every sender had taken a message, when it
+    was noted last. Where the post has looked once since then, it says itself who has taken one.
+    """
+    if looks[0] == seen[0] + 1:
+        for k in range(came_count[0]):
+            note_link(first, came[k], inbox, newest, link, sent, count)
+        for s in range(taken.size):
+            looked[s] = taken[s]
+    elif looks[0] != seen[0]:
+        for s in range(taken.size):
+            if looked[s] != taken[s]:
+                looked[s] = taken[s]
+                for i in range(link_first[s], link_first[s + 1]):
+                    note_link(first, i, inbox, newest, link, sent, count)
+    seen[0] = looks[0]
+
+
+@inlined
+def note_link(first, i, inbox, newest, link, sent, count):
+    """One link, when it has heard something newer."""
+    if inbox[H_TIME, i] != newest[i] and inbox[H_NUMBER, i] >= 0.0:
+        newest[i] = inbox[H_TIME, i]
+        link[count[0]], sent[count[0]] = first + i, newest[i]
+        count[0] += 1

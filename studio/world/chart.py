@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.road.network import Network
-from studio.road.ways.path import PATH_SPACING, Path
+from studio.road.ways.path import PATH_CURVATURE, PATH_SPACING, Path
 from studio.rows import Role, Table
 from studio.world.line import Lines
 from studio.world.setting import Setting
@@ -22,6 +22,7 @@ LANES_LEFT = CHART.row("lanes_left", "1", "lanes of the same direction to its le
 LANES_RIGHT = CHART.row("lanes_right", "1", "lanes of the same direction to its right")
 LIMIT = CHART.row("limit", "m/s", "speed that is allowed there")
 JUNCTION = CHART.row("junction", "m", "along the path to the next junction, 0 within one, 1e6 where none comes")
+BENT = CHART.row("bent", "1/m", "sum of the curvatures of the path's points up to there, so that a mean takes two of them")
 
 
 class Piece(NamedTuple):
@@ -48,7 +49,7 @@ def under(path: Path, network: Network) -> np.ndarray:
     lane = np.array([lane_rows(network, each.lane) for each in found]).T[:, number]
     ends = np.array([each.junction for each in found])
     coming = np.minimum.accumulate(ends[::-1])[::-1][number]  # of this piece, or of one that comes
-    return np.concatenate([lane, np.clip(coming - stations, 0.0, NOWHERE)[None]])
+    return np.concatenate([lane, [np.clip(coming - stations, 0.0, NOWHERE), np.cumsum(path.points[PATH_CURVATURE])]])
 
 
 def lane_rows(network: Network, number: int) -> list[float]:

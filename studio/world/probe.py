@@ -116,6 +116,11 @@ class Share(NamedTuple):
         assert array.flags.c_contiguous, "what is laid out is the array itself and no copy"
         return array.reshape(-1)
 
+    @property
+    def measured(self) -> np.ndarray:
+        """Of when what each sensor has given is [s], where it is what sensors give."""
+        return self.owner.health[MEASURED] if self.field == "out" else np.zeros(0)
+
 
 @dataclass
 class Reader:

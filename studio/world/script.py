@@ -198,6 +198,7 @@ def meet_anew(world: World) -> None:
     """Everybody's conflicts, on the lines that are taken now."""
     r = world.roads
     r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, world.detours.known)
+    world.ready.clear()
 
 
 def follow(world: World) -> None:

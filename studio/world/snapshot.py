@@ -71,6 +71,7 @@ def restore(world: World, kept: Snapshot) -> None:
     check(world, kept)
     world.arena[:] = np.frombuffer(kept.content, np.uint8)
     world.events.hits = kept.hits.copy()
+    world.ready.clear()
     world.clock.k = kept.k
     script.follow(world)
     for post in world.units.posts:

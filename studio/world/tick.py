@@ -7,9 +7,11 @@ faster than that hear, decide and send once or several times before.
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import cache
+from functools import cache, wraps
 from math import nan
+from typing import Any
 
+from studio.bound import bound
 from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
@@ -81,43 +83,110 @@ def part(world: World) -> None:
     world.clock.k += 1
 
 
+def given(arguments: Callable[[World], tuple]) -> Callable:
+    """A pass with arrays that stay where they are: `arguments` tells of a world which pass, and which arrays; they are given to it once."""
+
+    @wraps(arguments)
+    def call(world: World, *now: float) -> Any:
+        run = world.ready.get(call)
+        if run is None:
+            run = world.ready[call] = bound(*arguments(world), then=now)
+        return run(*now)
+
+    return call
+
+
 def environment(world: World) -> None:
     """The script, lights, and the ground under the wheels."""
-    v, r, time = world.vehicles, world.roads, world.clock.time
     script.turn(world)
-    if r.any_raised:
-        ground.rise(v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
-    ground.lay(v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
-    if r.shown.size:
-        traffic.lights(time, r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
+    if world.roads.any_raised:
+        rise(world)
+    lay_ground(world)
+    if world.roads.shown.size:
+        show_lights(world, world.clock.time)
 
 
-def gather(world: World) -> None:
+@given
+def rise(world: World) -> tuple:
+    """Height and slope."""
+    v, r = world.vehicles, world.roads
+    return ground.rise, v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground
+
+
+@given
+def lay_ground(world: World) -> tuple:
+    """Friction."""
+    v, r = world.vehicles, world.roads
+    return ground.lay, v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground
+
+
+@given
+def show_lights(world: World) -> tuple:
+    """What every light shows at a time [s]."""
+    r = world.roads
+    signals = (r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
+    return traffic.lights, *signals
+
+
+@given
+def gather(world: World) -> tuple:
     """All vehicles are sorted by place, so that everybody finds who is near."""
     v, g = world.vehicles, world.neighbours
-    neighbour.sort(v.state, v.parameter, world.worlds.of, g.grid, g.places)
+    return neighbour.sort, v.state, v.parameter, world.worlds.of, g.grid, g.places
 
 
 def look(world: World) -> None:
     """Drivers find themselves on their path and see who, or what, is ahead."""
-    v, r, o, c, q, w = world.vehicles, world.roads, world.obstacles, world.roads.conflicts, world.queues, world.worlds
-    traffic.orient(
-        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
-        r.stop_link, r.shown, v.drivers, v.mind,
-    )  # fmt: skip
-    if c.partner.size:
-        queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
-        traffic.meetings(
-            v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
-            c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
-        )  # fmt: skip
-    if o.standing.size:
-        traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
-    if o.movers.object.size:
-        traffic.movers(
-            v.state, v.parameter, r.points, r.path_first, r.path_count, o.movers.object, o.table, o.standing, o.first, o.count, w.of,
-            v.drivers, v.mind,
-        )  # fmt: skip
+    orient(world)
+    if world.roads.conflicts.partner.size:
+        line_up(world)
+        mind_meetings(world)
+    if world.obstacles.standing.size:
+        mind_obstacles(world)
+    if world.obstacles.movers.object.size:
+        mind_movers(world)
+
+
+@given
+def orient(world: World) -> tuple:
+    """Where they are on their path."""
+    v, r = world.vehicles, world.roads
+    stops = (r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown)
+    places = world.neighbours.places
+    return traffic.orient, v.state, v.parameter, places, r.points, r.path_first, r.path_count, *stops, v.drivers, v.mind
+
+
+@given
+def line_up(world: World) -> tuple:
+    """Who is behind whom on every track."""
+    v, q = world.vehicles, world.queues
+    return queue.sort, v.state, v.mind, world.roads.conflicts.queue, q.first, q.order, q.before, q.slowest
+
+
+@given
+def mind_meetings(world: World) -> tuple:
+    """Who is ahead, or will be, where tracks meet."""
+    v, r, c, q, w, g = world.vehicles, world.roads, world.roads.conflicts, world.queues, world.worlds, world.neighbours
+    paths = (r.points, r.path_first, r.path_count)
+    zones = (c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span)
+    queues = (q.first, q.order, q.slowest)
+    return traffic.meetings, v.state, v.parameter, g.places, *paths, w.of, w.number, g.longest, *zones, *queues, v.drivers, v.mind
+
+
+@given
+def mind_obstacles(world: World) -> tuple:
+    """What stands in the way."""
+    v, o, w = world.vehicles, world.obstacles, world.worlds
+    sweep = (o.sweep, o.sweep_first, o.sweep_count)
+    return traffic.obstacles, v.state, v.parameter, *sweep, o.standing, o.first, w.of, v.drivers, v.mind
+
+
+@given
+def mind_movers(world: World) -> tuple:
+    """Who walks or rides in the way."""
+    v, r, o, w = world.vehicles, world.roads, world.obstacles, world.worlds
+    paths, objects = (r.points, r.path_first, r.path_count), (o.movers.object, o.table, o.standing, o.first, o.count)
+    return traffic.movers, v.state, v.parameter, *paths, *objects, w.of, v.drivers, v.mind
 
 
 def think(world: World) -> None:
@@ -182,11 +251,15 @@ def decide(world: World, time: float, which: list[Hosted], refuse: Refuse) -> No
 
 def act(world: World) -> None:
     """Maneuvers, applications and drivers command the actuators."""
-    v, clock = world.vehicles, world.clock
     script.act(world)
-    control.command(
-        clock.k, clock.time, v.state, v.ground, v.parameter, world.script.commands, v.drivers, v.mind, v.app_command, v.commands
-    )
+    command(world, world.clock.k, world.clock.time)
+
+
+@given
+def command(world: World) -> tuple:
+    """Actuators at tick k and a time [s]."""
+    v = world.vehicles
+    return control.command, v.state, v.ground, v.parameter, world.script.commands, v.drivers, v.mind, v.app_command, v.commands
 
 
 def move(world: World) -> None:
@@ -198,24 +271,41 @@ def collide(world: World) -> None:
     """Contacts are found at the end of the tick; where there is no room for all of them, room is made, and the rest is added."""
     while contacts(world):
         world.events.grow()
+        world.ready.clear()
 
 
 def contacts(world: World) -> int:
     """Adds the contacts of now that are not known; how many of them found no room."""
-    v, w, e, o, g = world.vehicles, world.worlds, world.events, world.obstacles, world.neighbours
     time = world.clock.time + world.clock.tick
-    left = collision.collide(time, g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found, e.hits, e.found)
-    if o.standing.size:
-        left += collision.strike(time, v.state, v.parameter, w.first, w.count, o.table, o.first, o.count, o.standing, e.hits, e.found)
-    return left
+    left = touch(world, time)
+    return left + strike(world, time) if world.obstacles.standing.size else left
+
+
+@given
+def touch(world: World) -> tuple:
+    """Vehicles that touch each other at a time [s]."""
+    v, w, e, g = world.vehicles, world.worlds, world.events, world.neighbours
+    near = (g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found)
+    return collision.collide, *near, e.hits, e.found
+
+
+@given
+def strike(world: World) -> tuple:
+    """Vehicles that touch an object."""
+    v, w, e, o = world.vehicles, world.worlds, world.events, world.obstacles
+    objects = (o.table, o.first, o.count, o.standing)
+    return collision.strike, v.state, v.parameter, w.first, w.count, *objects, e.hits, e.found
 
 
 def recirculate(world: World) -> None:
     """Traffic that has arrived comes in again."""
+    if world.vehicles.any_returns:
+        come_in(world)
+
+
+@given
+def come_in(world: World) -> tuple:
+    """At the beginning of its path."""
     v, r, w, g = world.vehicles, world.roads, world.worlds, world.neighbours
-    if not v.any_returns:
-        return
-    traffic.recirculate(
-        v.returns, r.points, r.path_first, r.path_count, r.raised, w.of, g.grid, g.places, g.found, g.entered, v.state, v.wheels,
-        v.ground, v.parameter, v.gears, v.mind,
-    )  # fmt: skip
+    paths, near = (r.points, r.path_first, r.path_count, r.raised), (g.grid, g.places, g.found, g.entered)
+    return traffic.recirculate, v.returns, *paths, w.of, *near, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from studio.compiled import bound
+from studio.bound import bound
 from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
@@ -344,6 +344,7 @@ class World:
     names: tuple[tuple[str, ...], ...]
     colours: tuple[str, ...] = field(default=())
     origin: str = ""  # digest of what it was built from
+    ready: dict[Any, Any] = field(default_factory=dict)  # passes with their arrays; empty again when one stands elsewhere
     unfit: int = 0  # wishes of drivers and maneuvers at this tick that are no numbers
     arena: np.ndarray = field(default_factory=lambda: np.zeros(0, np.uint8))  # the bytes of everything that moves
 

@@ -11,8 +11,7 @@ from studio.model import satellite
 from studio.road.network import Building, shadow
 from studio.vehicle.state import ACTIVE, VEHICLE, X, Y
 from studio.world.build import build
-from studio.world.channel import CHANNELS
-from studio.world.channel import sample as channels
+from studio.world.channel import CHANNELS, sampler
 from studio.world.passes import satellite as receiver
 from studio.world.table.unit import (
     CANYON,
@@ -166,10 +165,10 @@ def test_settings_reach_their_cars(world):
 def test_errors_are_recorded(world):
     tick(world)
     names = [channel.name for channel in CHANNELS]
-    values = np.zeros((len(CHANNELS), 5))
-    channels(world, np.arange(5), 0, values)
+    values = np.zeros((1, len(CHANNELS), 5))
+    sampler(world, np.arange(5), values)(0, 0)
     for name, row in (("gps_error_east", GPS_EAST), ("gps_error_north", GPS_NORTH)):
-        assert np.array_equal(values[names.index(name)], world.units.satellite[row, :5])
+        assert np.array_equal(values[0, names.index(name)], world.units.satellite[row, :5])
 
 
 def test_positions_do_not_touch_who_drives_by_range(sample):

@@ -39,8 +39,8 @@ KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and 
 
 def leaves(owner, path="world"):
     """Everything that a world holds, down to arrays, numbers and texts, with its path."""
-    # What a port is wired to stands with the units; a log is a record, and `taken` counts for one what has ever come.
-    if path in KNOWN or path.endswith((".owner", ".log", ".taken")):
+    # What a port is wired to stands with the units; a log is a record, and `taken` and `looks` count for one what has ever come.
+    if path in KNOWN or path.endswith((".owner", ".log", ".taken", ".looks")):
         return
     if isinstance(owner, np.ndarray):
         yield path, (owner.dtype, owner.shape, owner.tobytes())

@@ -90,9 +90,11 @@ def write(view, me, settings, i, slot, out):
 @inlined
 def measure(view, me, settings, memory, out):
     """One look: the cars that are seen, the nearest first."""
+    seen, slot = look(view, me, settings.range, 0.5 * settings.opening_angle, settings.visible, CAPACITY, False), 0
+    if seen == 0 and track.are_none(memory):
+        return 0, memory
     track.begin(view, memory)
-    slot = 0
-    for j in range(look(view, me, settings.range, 0.5 * settings.opening_angle, settings.visible, CAPACITY, False)):
+    for j in range(seen):
         i = target(view, j)
         if view.sight[WHO, i] >= 0.0:
             write(view, me, settings, i, slot, out)

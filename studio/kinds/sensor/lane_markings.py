@@ -12,7 +12,7 @@ from studio.kind.preset import Preset
 from studio.kind.sensor import Sensor
 from studio.kind.settings import number
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPACING
-from studio.world.chart import JUNCTION, LANE_WIDTH
+from studio.world.chart import BENT, JUNCTION, LANE_WIDTH
 from studio.world.table.mind import D_PSI, OFFSET, STATION
 from studio.world.view import draw_four, report
 
@@ -50,10 +50,8 @@ class Reading(NamedTuple):
 @inlined
 def mean_curvature(view, first, last):
     """Of the path [1/m] from one point to another, both counted."""
-    total = 0.0
-    for i in range(first, last + 1):
-        total += view.points[PATH_CURVATURE, i]
-    return total / (last - first + 1)
+    bent = view.chart[BENT, last] - view.chart[BENT, first] + view.points[PATH_CURVATURE, first]
+    return bent / (last - first + 1)
 
 
 @inlined

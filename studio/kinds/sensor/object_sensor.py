@@ -106,9 +106,12 @@ def write(view, me, settings, i, slot, out):
 @inlined
 def measure(view, me, settings, memory, out):
     """One look: all that is seen, the nearest first."""
+    cones, slot = settings.cones > 0.0, 0
+    seen = look(view, me, settings.range, 0.5 * settings.opening_angle, settings.visible, CAPACITY, cones)
+    if seen == 0 and track.are_none(memory):
+        return 0, memory
     track.begin(view, memory)
-    slot = 0
-    for j in range(look(view, me, settings.range, 0.5 * settings.opening_angle, settings.visible, CAPACITY, settings.cones > 0.0)):
+    for j in range(seen):
         if settings.missed <= 0.0 or draw(view, me, MISS, j) >= settings.missed:
             write(view, me, settings, target(view, j), slot, out)
             slot += 1

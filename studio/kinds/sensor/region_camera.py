@@ -80,9 +80,11 @@ def write(view, me, settings, i, slot, out):
 @inlined
 def measure(view, me, settings, memory, out):
     """One look: all in the field, the nearest first."""
+    seen, slot = look(view, me, settings.range, 0.5 * settings.opening_angle, settings.visible, CAPACITY, True), 0
+    if seen == 0 and track.are_none(memory):
+        return 0, memory
     track.begin(view, memory)
-    slot = 0
-    for j in range(look(view, me, settings.range, 0.5 * settings.opening_angle, settings.visible, CAPACITY, True)):
+    for j in range(seen):
         if settings.missed <= 0.0 or draw(view, me, MISS, j) >= settings.missed:
             write(view, me, settings, target(view, j), slot, out)
             slot += 1

@@ -17,7 +17,7 @@ import numpy as np
 
 from studio.application import port
 from studio.application.port import ACTUATORS, Port
-from studio.compiled import bound
+from studio.bound import bound
 from studio.errors import ApplicationError, Problem
 from studio.kind.quantity import quantities
 from studio.kind.registry import Kind

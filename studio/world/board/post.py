@@ -20,7 +20,8 @@ import numpy as np
 from numba import literal_unroll
 
 from studio.application.contract import Own
-from studio.compiled import bound, inlined, lean
+from studio.bound import bound
+from studio.compiled import inlined, lean
 from studio.errors import ApplicationError
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
@@ -109,19 +110,20 @@ def dispatch({given}):
                               log_count)
                 next_ = min(next_, came)
             ring[S_NEXT, column] = next_
+            soonest[i] = min(soonest[i], next_)
             trouble[DROPS, s] = max(trouble[DROPS, s] - 1.0, 0.0)
         fresh[i] = 0
 
 
 @lean
-def exchange(period, settings, kept, inbox, taken, came, came_count, gap, {given}, k, now_time):
+def exchange(period, settings, kept, inbox, taken, looks, came, came_count, gap, {given}, k, now_time):
 {beacons}
     dispatch({given})
-    receive(now_time, last, ring, link_first, arrival, inbox, taken, came, came_count)
+    receive(now_time, soonest, last, ring, link_first, arrival, inbox, taken, looks, came, came_count)
 '''
 GIVEN = (
     "stream, common, air, reach, within, minds_walls, table, felt, around, busy, load, cell, world_of, unit_first, entity, seed, place_of, "
-    "shadow, fixed, now, trouble, sender, fresh, last, ring, link_first, link_receiver, arrival, memory, "
+    "shadow, fixed, now, trouble, sender, fresh, soonest, last, ring, link_first, link_receiver, arrival, memory, "
     "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
 )
 ADMISSION = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
@@ -178,6 +180,7 @@ class Post:
     ring: Moving
     last: Moving  # number of the newest message per sender
     fresh: Moving  # messages per sender that the radio has not decided about
+    soonest: Moving  # [s] per sender, when the next of its messages is there at somebody; infinite when none is under way
     link_first: np.ndarray  # per sender, and one more
     link_sender: np.ndarray  # index into `sender`
     link_receiver: np.ndarray  # unit
@@ -185,6 +188,7 @@ class Post:
     memory: Moving  # what the radio remembers, [row, link]
     inbox: Moving  # [row, link]
     taken: np.ndarray  # int64[sender], how often links have taken a message of it, for those who look for what is new
+    looks: np.ndarray  # int64[1], how often it has been looked whether something has come in
     came: np.ndarray  # int64[link], the links that have taken a message when it was looked last
     came_count: np.ndarray  # int64[1], how many they are
     log: Log
@@ -197,7 +201,7 @@ class Post:
         own = (
             ()
             if "exchange" in self.ready
-            else (self.period, self.settings, self.kept, self.inbox, self.taken, self.came, self.came_count, air.gap)
+            else (self.period, self.settings, self.kept, self.inbox, self.taken, self.looks, self.came, self.came_count, air.gap)
         )
         return self.called("exchange", own, air, around, (k, time))
 
@@ -221,21 +225,11 @@ class Post:
 
     def given(self, air: Air, around: tuple) -> tuple:
         """What the radio decides about, and what it looks at for that, as GIVEN names it."""
-        of_air = (
-            self.radio.stream,
-            air.settings,
-            air.reach,
-            air.within,
-            air.minds_walls,
-            air.table,
-            air.felt,
-            air.around,
-            air.busy,
-            air.load,
-            air.cell,
-        )
+        settings = (self.radio.stream, air.settings, air.reach, air.within, air.minds_walls, air.table)
+        channel = (air.felt, air.around, air.busy, air.load, air.cell)
+        sent = (self.sender, self.fresh, self.soonest, self.last, self.ring)
         links = (self.link_first, self.link_receiver, self.arrival, self.memory)
-        return (self.stream, *of_air, *around, self.sender, self.fresh, self.last, self.ring, *links, *self.log.now, self.log.count)
+        return (self.stream, *settings, *channel, *around, *sent, *links, *self.log.now, self.log.count)
 
     def newest(self, world: int, world_of: np.ndarray) -> np.ndarray:
         """What is kept of the messages of a world, float64[row, slot, sender], the newest first: the same in every batch."""
@@ -246,7 +240,8 @@ class Post:
 
     def received(self, time: float) -> None:
         """What has come in between two ticks is taken."""
-        receive(time, self.last, self.ring, self.link_first, self.arrival, self.inbox, self.taken, self.came, self.came_count)
+        links = (self.link_first, self.arrival, self.inbox)
+        receive(time, self.soonest, self.last, self.ring, *links, self.taken, self.looks, self.came, self.came_count)
 
     @property
     def stream(self) -> int:
@@ -352,6 +347,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         ring=ring,
         last=np.array(first, dtype=np.int64),
         fresh=np.zeros(sender.size, dtype=np.int64),
+        soonest=np.full(sender.size, inf),
         link_first=np.searchsorted(links[0], np.arange(sender.size + 1)),
         link_sender=links[0].copy(),
         link_receiver=links[1].copy(),
@@ -359,6 +355,7 @@ def post(kind: Kind, radio: Kind, air: int, need: Need, units: Known, tick: floa
         memory=remembered(radio.module, "Memory", links.shape[1]),
         inbox=inbox,
         taken=np.zeros(sender.size, dtype=np.int64),
+        looks=np.zeros(1, dtype=np.int64),
         came=np.zeros(links.shape[1], dtype=np.int64),
         came_count=np.zeros(1, dtype=np.int64),
         log=Log((most * sender.size, most * links.shape[1])),
@@ -553,16 +550,28 @@ def settle(slot, link, time, cause, delay, distance, arrival, links, causes, del
 
 
 @lean
-def receive(time, last, ring, link_first, arrival, inbox, taken, came, came_count):
-    """Every link takes the newest of the messages that have come in; one that has not come to anybody since then is passed over."""
+def receive(time, soonest, last, ring, link_first, arrival, inbox, taken, looks, came, came_count):
+    """Every link takes the newest of the messages that have come in; a sender of whom none comes to anybody by now is passed over."""
+    looks[0] += 1
     came_count[0] = 0
     for i in range(last.size):
-        for number in range(last[i], max(last[i] - arrival.shape[0], -1), -1):
-            column = column_of(number, i, last, ring)
-            if ring[S_NUMBER, column] == number and ring[S_NEXT, column] - EARLY <= time:
-                before = came_count[0]
+        if soonest[i] - EARLY <= time:
+            before = came_count[0]
+            soonest[i] = receive_from(time, i, last, ring, link_first, arrival, inbox, came, came_count)
+            taken[i] += came_count[0] - before
+
+
+@inlined
+def receive_from(time, i, last, ring, link_first, arrival, inbox, came, came_count):
+    """The same of one sender, the newest message first; when the next of its messages is there at somebody."""
+    next_ = inf
+    for number in range(last[i], max(last[i] - arrival.shape[0], -1), -1):
+        column = column_of(number, i, last, ring)
+        if ring[S_NUMBER, column] == number:
+            if ring[S_NEXT, column] - EARLY <= time:
                 deliver(time, i, number, column, last, ring, link_first, arrival, inbox, came, came_count)
-                taken[i] += came_count[0] - before
+            next_ = min(next_, ring[S_NEXT, column])
+    return next_
 
 
 @inlined

@@ -15,13 +15,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.compiled import bound, inlined
+from studio.bound import bound
+from studio.compiled import inlined
 from studio.kind.loop import written
 from studio.kind.number import numbers, row_of, shapes, spelled, tuple_of
 from studio.kind.quantity import Quantity, first_values, quantities, width
 from studio.kind.registry import Kind, stream
 from studio.kind.sensor import LONGEST, Looking
-from studio.model.random import normals, uniform
+from studio.model.random import first_normal, uniform
 from studio.rows import Moving
 from studio.world.table.unit import DUE, MEASURED, NEXT, NOISE, OUTPUT, SENSOR, TAKEN
 from studio.world.view import LATE, LOST, MISSHAPEN, OF_THE_STUDIO, View
@@ -99,7 +100,7 @@ def put(view, me, settings, first, output, health):
     """The slot for what is measured now, with the time at which it is due."""
     delay, i = settings.delay, me.sensor
     if settings.delay_variation > 0.0:
-        w, _, _, _ = normals(view.seed[me.world], view.entity[me.unit], me.stream + LATE, view.k, OF_THE_STUDIO)
+        w = first_normal(view.seed[me.world], view.entity[me.unit], me.stream + LATE, view.k, OF_THE_STUDIO)
         delay = max(delay + settings.delay_variation * min(max(w, -LONGEST), LONGEST), 0.0)
     number = view.k if settings.period <= view.tick else turn(view.time, settings.period)
     slot = first[i] + number % (first[i + 1] - first[i])

@@ -122,7 +122,7 @@ def report(time, a, b, speed, column, hits):
 
 
 @lean
-def collide(time, widest, state, parameter, world_of, number, grid, places, found, hits, total):
+def collide(widest, state, parameter, world_of, number, grid, places, found, hits, total, time):
     """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers.
 
     Gives how many of them found no room.
@@ -154,7 +154,7 @@ def add(time, a, b, speed, w, share, hits, total):
 
 
 @lean
-def strike(time, state, parameter, first, count, table, first_object, object_count, standing, hits, total):
+def strike(state, parameter, first, count, table, first_object, object_count, standing, hits, total, time):
     """The same for cars and the objects that stand on the road; object i is OBJECT - i."""
     share, left = hits.shape[1] // first.size, 0
     for w in range(first.size):

@@ -213,7 +213,7 @@ def tell_who(v, column, limit, is_scripted, script, mind, app_command, commands)
 
 
 @lean
-def command(k, time, state, ground, parameter, script, drivers, mind, app_command, commands):
+def command(state, ground, parameter, script, drivers, mind, app_command, commands, k, time):
     """Writes this tick's commands into the ring."""
     n = state.shape[1]
     for v in range(n):

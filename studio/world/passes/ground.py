@@ -12,6 +12,7 @@ from math import cos, sin
 import numpy as np
 
 from studio.compiled import inlined, lean
+from studio.model import elementary
 from studio.road.ways.path import (
     PATH_HEADING,
     PATH_HEIGHT,
@@ -49,7 +50,7 @@ def plane(s, points, first, count):
     """The plane that touches a path at station s [m], z = height + slope_x x + slope_y y: height, slope_x, slope_y."""
     at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
     slope, heading = interpolate(points, first, PATH_SLOPE, at), interpolate(points, first, PATH_HEADING, at)
-    g_x, g_y = slope * cos(heading), slope * sin(heading)
+    g_x, g_y = slope * elementary.cos(heading), slope * elementary.sin(heading)
     level = g_x * interpolate(points, first, PATH_X, at) + g_y * interpolate(points, first, PATH_Y, at)
     return interpolate(points, first, PATH_HEIGHT, at) - level, g_x, g_y
 

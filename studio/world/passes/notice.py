@@ -5,11 +5,13 @@ but for company, waiting at red lights, drivers who overrule applications and wh
 passed.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf, isnan, nan
 
 import numpy as np
 
+from studio.bound import bound
 from studio.compiled import inlined, lean
 from studio.road.network.signals import RED
 from studio.rows import Role, Table
@@ -130,24 +132,31 @@ def watch(world: World, named: np.ndarray, followers: list[tuple[int, tuple[int,
 
 def notice(world: World, at: Watch) -> None:
     """The pass: all that has happened in the tick that is over."""
-    v, e, s, w, r, time = world.vehicles, world.events, world.script, world.worlds, world.roads, world.clock.time
-    at.make_room(e.hits.shape[1])
-    u, now = world.units, time - world.clock.tick  # the instant at which everybody looked, decided and told
-    notice_events(
-        time, now, s.turned, s.cut, s.vehicle, at.script_world, at.script_told, e.found, e.hits, w.first, at.hits_told, w.of, w.number,
-        at.named, v.removed, at.vehicles_told, at.follower, at.member_first, at.member_count, at.member, at.between, at.acting, at.hands,
-        at.hands_since, v.state, v.mind, at.table, at.count,
-    )  # fmt: skip
+    at.make_room(world.events.hits.shape[1])
+    time = world.clock.time
+    now = time - world.clock.tick  # the instant at which everybody looked, decided and told
+    if notice not in world.ready:
+        world.ready[notice] = [bound(*each, at.table, at.count, then=(time, now)) for each in noticing(world, at)]
+    for look in world.ready[notice]:
+        look(time, now)
+
+
+def noticing(world: World, at: Watch) -> Iterator[tuple]:
+    """What is looked at, with its arrays, which stay where they are as long as there is room for collisions."""
+    v, e, s, w, r, u = world.vehicles, world.events, world.script, world.worlds, world.roads, world.units
+    script, hits = (s.turned, s.cut, s.vehicle, at.script_world, at.script_told), (e.found, e.hits, w.first, at.hits_told)
+    arrivals = (w.of, w.number, at.named, v.removed, at.vehicles_told)
+    company = (at.follower, at.member_first, at.member_count, at.member, at.between)
+    yield notice_events, *script, *hits, *arrivals, *company, at.acting, at.hands, at.hands_since, v.state, v.mind
     if r.stop_station.size:
-        notice_lights(
-            time, world.clock.tick, v.state, v.mind, v.parameter, w.of, w.number, at.named, r.path_first, r.stop_first, r.stop_count,
-            r.stop_station, r.stop_link, r.shown, at.waiting, at.front, at.path, at.table, at.count,
-        )  # fmt: skip
+        stops = (r.path_first, r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown)
+        yield notice_lights, v.state, v.mind, v.parameter, w.of, w.number, at.named, *stops, at.waiting, at.front, at.path
     for post, links in zip(u.posts, at.listened, strict=True):
-        notice_messages(now, world.clock.tick, links, post.inbox, post.link_receiver, post.sender, post.link_sender, u.world, u.first,
-                        u.now, at.table, at.count)  # fmt: skip
+        if links.size:
+            ends = (post.link_receiver, post.sender, post.link_sender)
+            yield notice_messages, links, post.inbox, *ends, u.world, u.first, u.now
     for i, (hosted, told) in enumerate(at.shown):
-        notice_shown(now, i, hosted.shown, told, hosted.unit, u.world, u.first, u.now, at.table, at.count)
+        yield notice_shown, i, hosted.shown, told, hosted.unit, u.world, u.first, u.now
 
 
 @lean
@@ -181,9 +190,9 @@ def is_news(true, told, i):
 
 
 @lean
-def notice_events(time, now, turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named,
-                  removed, vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind,
-                  table, count):  # fmt: skip
+def notice_events(turned, cut, vehicle, script_world, script_told, found, hits, first, hits_told, world_of, number, named, removed,
+                  vehicles_told, follower, member_first, member_count, member, between, acting, hands, hands_since, state, mind, table,
+                  count, time, now):  # fmt: skip
     """What may happen in every world, in one call: what the script, collisions, routes, chains and drivers have brought."""
     notice_script(turned, cut, vehicle, state, script_world, script_told, table, count)
     notice_hits(found, hits, first, state, hits_told, table, count)
@@ -239,8 +248,8 @@ def notice_vehicles(time, state, world_of, number, named, removed, told, table, 
 
 
 @lean
-def notice_lights(time, tick, state, mind, parameter, world_of, number, named, path_first, stop_first, stop_count, stop_station, stop_link,
-                  shown, waiting, front, path, table, count):  # fmt: skip
+def notice_lights(state, mind, parameter, world_of, number, named, path_first, stop_first, stop_count, stop_station, stop_link, shown,
+                  waiting, front, path, table, count, time, now):  # fmt: skip
     """Named vehicles that have come to a stand at a red light, or have passed one.
 
     A line is passed between the last look at the own place and the one before it, so it is told for the beginning of the tick.
@@ -256,7 +265,7 @@ def notice_lights(time, tick, state, mind, parameter, world_of, number, named, p
         before = front[v] if path[v] == path_first[v] else nan
         front[v], path[v] = bumper, path_first[v]
         if state[ACTIVE, v] > 0.0 and has_passed_red(before, bumper, stop_first[v], stop_count[v], stop_station, stop_link, shown):
-            note_vehicle(time - tick, RED_PASSED, v, -1, state[V_X, v], state, world_of, number, table, count)
+            note_vehicle(now, RED_PASSED, v, -1, state[V_X, v], state, world_of, number, table, count)
 
 
 @lean
@@ -306,24 +315,24 @@ def is_new_hand(i, v, time, mind, hands, since):
 
 
 @lean
-def notice_messages(time, tick, links, inbox, link_receiver, sender, link_sender, unit_world, unit_first, now, table, count):
+def notice_messages(links, inbox, link_receiver, sender, link_sender, unit_world, unit_first, unit, table, count, time, now):
     """Messages that came at this tick after others had been lost, as their numbers tell."""
     for link in links:
-        if inbox[H_MISSED, link] > 0.0 and time - tick < inbox[H_CAME, link] - EARLY <= time:
+        if inbox[H_MISSED, link] > 0.0 and 2.0 * now - time < inbox[H_CAME, link] - EARLY <= now:
             u, s = link_receiver[link], sender[link_sender[link]]
             w = unit_world[u]
             receiver, other, missed = u - unit_first[w], s - unit_first[w], inbox[H_MISSED, link]
-            note(time, MESSAGE_LOST, w, receiver, other, now[TRUE_X, u], now[TRUE_Y, u], missed, table, count)
+            note(now, MESSAGE_LOST, w, receiver, other, unit[TRUE_X, u], unit[TRUE_Y, u], missed, table, count)
 
 
 @lean
-def notice_shown(time, which, shown, told, unit, unit_world, unit_first, now, table, count):
+def notice_shown(which, shown, told, mounted_on, unit_world, unit_first, unit, table, count, time, now):
     """Notices that applications have begun to show to their drivers."""
-    for j in range(unit.size):
+    for j in range(mounted_on.size):
         if shown[j] != told[j] and shown[j] > 0:
-            u = unit[j]
+            u = mounted_on[j]
             w = unit_world[u]
-            note(time, NOTICE_SHOWN, w, u - unit_first[w], which, now[TRUE_X, u], now[TRUE_Y, u], shown[j], table, count)
+            note(now, NOTICE_SHOWN, w, u - unit_first[w], which, unit[TRUE_X, u], unit[TRUE_Y, u], shown[j], table, count)
         told[j] = shown[j]
 
 

@@ -35,6 +35,15 @@ class Tracks(NamedTuple):
 
 
 @inlined
+def are_none(memory):
+    """Whether nobody is followed."""
+    for each in memory.existence:
+        if each > 0.0:
+            return False
+    return True
+
+
+@inlined
 def begin(view, memory):
     """Lays the tracks out; nobody has been seen at this look."""
     for t in range(MOST):

@@ -78,7 +78,7 @@ ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a
 
 
 @lean
-def lights(t, signal_time, signal_first, signal_count, phase_end, phase_state, forced, shown):
+def lights(signal_time, signal_first, signal_count, phase_end, phase_state, forced, shown, t):
     """First pass: what every signal shows, by its programme or as it is forced to."""
     for link in range(shown.size):
         if forced[link] >= 0:
