@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from studio.assess.adhesion import WHEELS, used
+from studio.assess.adhesion import WHEELS, sliding, used
 from studio.assess.danger import HARD, stretches
 from studio.assess.known import Known, known
 from studio.execution.happening import Happening
@@ -28,11 +28,18 @@ BEFORE = 1.0  # [s] before the event in which a tyre may have been
 
 @dataclass(frozen=True)
 class Wheel:
-    """A tyre at its limit: whose, which, and how much of its adhesion it used at most [1]."""
+    """A tyre at its limit: whose, which, how much of its adhesion it used at most [1], and whether it slid past its peak of slip."""
 
     unit: str
     wheel: str
     use: float
+    slides: bool = False
+
+    @property
+    def text(self) -> str:
+        """All of it in a sentence."""
+        how = "slid past its peak of slip, with up to" if self.slides else "was at its limit,"
+        return f"{self.unit}: the {self.wheel.replace('_', ' ')} tyre {how} {self.use:.0%} of its adhesion"
 
 
 @dataclass(frozen=True)
@@ -78,8 +85,7 @@ class Explanation:
 
     def of_tyres(self) -> Iterator[str]:
         """Which tyres were at their limits."""
-        for each in self.tyre_at_limit:
-            yield f"{each.unit}: the {each.wheel.replace('_', ' ')} tyre was at its limit, {each.use:.0%} of its adhesion"
+        yield from (each.text for each in self.tyre_at_limit)
         if not self.tyre_at_limit:
             yield "no tyre was at its limit"
 
@@ -121,8 +127,14 @@ def last_of(record: Record, event: Happening, sample: int) -> int:
 
 
 def at_limit(record: Record, vehicle: str, sample: int, last: int) -> Iterator[Wheel]:
-    """Wheels of a vehicle whose tyres were at their limits from a second before a sample up to the last one of the event."""
+    """Wheels of a vehicle whose tyres were at their limits, or past their peaks of slip.
+
+    That is from a second before a sample up to the last one of the event.
+    """
     row = record.vehicles.index(vehicle)
-    first = int(np.searchsorted(record.time, record.time[sample] - BEFORE))
-    most = np.nan_to_num(used(record)[:, row, first : last + 1]).max(axis=1, initial=0.0)
-    yield from (Wheel(vehicle, wheel, round(float(use), 4)) for wheel, use in zip(WHEELS, most, strict=True) if use >= LIMIT)
+    while_it_was = slice(int(np.searchsorted(record.time, record.time[sample] - BEFORE)), last + 1)
+    most = np.nan_to_num(used(record)[:, row, while_it_was]).max(axis=1, initial=0.0)
+    slid = sliding(record)[:, row, while_it_was].max(axis=1, initial=False)
+    for wheel, use, slides in zip(WHEELS, most, slid, strict=True):
+        if use >= LIMIT or slides:
+            yield Wheel(vehicle, wheel, round(float(use), 4), bool(slides))

@@ -76,8 +76,8 @@ class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings.
 
     `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
-    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channel `ahead` stand for, `commanders`
-    those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
+    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channels `ahead` and `minded` stand for,
+    `commanders` those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
     """
 
     time: np.ndarray
@@ -128,7 +128,15 @@ class Record:
 
     def ahead(self, vehicle: int, sample: int) -> str:
         """The name of the vehicle or object ahead of the vehicle in a row at a sample; "" when there is none."""
-        number = self.channel("ahead")[vehicle, sample]
+        return self.called_by("ahead", vehicle, sample)
+
+    def minded(self, vehicle: int, sample: int) -> str:
+        """The name of whom, or of the object that, its driver minds; "" when there is none."""
+        return self.called_by("minded", vehicle, sample)
+
+    def called_by(self, channel: str, vehicle: int, sample: int) -> str:
+        """The name that the number in a channel stands for."""
+        number = self.channel(channel)[vehicle, sample]
         return self.called.get(int(number), "") if np.isfinite(number) else ""
 
     def between(self, begin: float, end: float | None) -> "Record":

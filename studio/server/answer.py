@@ -280,6 +280,7 @@ class Wheel(BaseModel):
     unit: str
     wheel: str
     use: float = Field(description="[1] greatest share of its adhesion in the second before")
+    slides: bool = Field(description="whether it was past its peak of slip")
 
 
 class Explanation(BaseModel):

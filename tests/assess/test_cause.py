@@ -126,7 +126,7 @@ def test_an_explanation_in_order(drive):
     assert {"event", "time", "units", "known", "commanded_by", "tyre_at_limit"} <= plain.keys()
     assert plain["units"] == ["b", "a"] and [each["source"] for each in plain["known"]] == ["front", "awareness"]
     assert plain["known"][1]["lost"] == [{"time": 3.45, "why": "fading"}] and plain["known"][1]["about"] == "a"
-    assert plain["tyre_at_limit"] == [{"unit": "b", "wheel": "front_left", "use": 0.97}]
+    assert plain["tyre_at_limit"] == [{"unit": "b", "wheel": "front_left", "use": 0.97, "slides": False}]
     assert (
         brake.lines[0].startswith("b knew a by front") and brake.lines[-1] == "b: the front left tyre was at its limit, 97% of its adhesion"
     )

@@ -2302,6 +2302,11 @@ export interface components {
              * @description [1] greatest share of its adhesion in the second before
              */
             use: number;
+            /**
+             * Slides
+             * @description whether it was past its peak of slip
+             */
+            slides: boolean;
         };
     };
     responses: never;
