@@ -2,8 +2,8 @@
 
     explain(record)   →  [Explanation]     of every collision, near miss and hard brake
 
-What was known about the other, from which sensor or message and how old; which message was lost and why; who commanded; which tyre was at
-its limit. Everything was recorded: nothing is simulated anew.
+What was known about the other, from which sensor or message and how old; which message was lost and why; which sensor the script had
+harmed; who commanded; which tyre was at its limit. Everything was recorded: nothing is simulated anew, and what was not recorded is said.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from studio.assess.adhesion import WHEELS, sliding, used
+from studio.assess.adhesion import CHANNELS, WHEELS, sliding, used
 from studio.assess.danger import HARD, stretches
-from studio.assess.known import Known, known
+from studio.assess.known import PLACES, Known, known
 from studio.execution.happening import Happening
 from studio.execution.record import Record
 from studio.world.commander import PARTS
@@ -43,13 +43,38 @@ class Wheel:
 
 
 @dataclass(frozen=True)
+class Harmed:
+    """A sensor that the script harmed at that time: whose, which, "" for all, by which entry and since when [s]; how noisy, or failed."""
+
+    unit: str
+    sensor: str
+    entry: str
+    since: float
+    fails: bool
+    noise: float
+
+    @property
+    def text(self) -> str:
+        """All of it in a sentence."""
+        which = f"{self.sensor} of {self.unit}" if self.sensor else f"all sensors of {self.unit}"
+        return f"{which} gave {'nothing' if self.fails else f'noise times {self.noise:g}'}, by {self.entry} since {self.since:.2f} s"
+
+
+@dataclass(frozen=True)
 class Explanation:
-    """Why an event happened: what was known by whom, who commanded each vehicle, and which tyres were at their limits."""
+    """Why an event happened: what was known by whom, who commanded each vehicle, and which tyres were at their limits.
+
+    `not_recorded` are the channels that this would need and the run has not kept, "sensors" among them when it lacks their readings;
+    `unknown` are units of the event of which nothing was recorded.
+    """
 
     event: Happening
     known: tuple[Known, ...]
     commanded_by: dict[str, dict[str, str]]
     tyre_at_limit: tuple[Wheel, ...]
+    faults: tuple[Harmed, ...] = ()
+    not_recorded: tuple[str, ...] = ()
+    unknown: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Plain data, as scripts read it."""
@@ -61,20 +86,32 @@ class Explanation:
             "known": [each.as_json() for each in self.known],
             "commanded_by": self.commanded_by,
             "tyre_at_limit": [vars(each) for each in self.tyre_at_limit],
+            "faults": [vars(each) for each in self.faults],
+            "not_recorded": list(self.not_recorded),
+            "unknown": list(self.unknown),
         }
 
     @property
     def lines(self) -> list[str]:
         """All of it in sentences, in order."""
-        return [*self.of_knowledge(), *self.of_command(), *self.of_tyres()]
+        return [*self.of_knowledge(), *(each.text for each in self.faults), *self.of_command(), *self.of_tyres()]
 
     def of_knowledge(self) -> Iterator[str]:
         """What was known, and who knew nothing of whom."""
         for one, other in permutations(self.event.units, 2):
-            found = [each.text for each in self.known if (each.unit, each.about) == (one, other)]
             if one in self.commanded_by:
-                nothing = f"{one} knew nothing of {other}" if other in self.commanded_by else f"{other} was not recorded, nor who knew it"
-                yield from found or [nothing]
+                yield from self.of_pair(one, other)
+
+    def of_pair(self, one: str, other: str) -> Iterator[str]:
+        """What one knew of the other."""
+        found = [each.text for each in self.known if (each.unit, each.about) == (one, other)]
+        yield from found
+        if other in self.unknown:
+            yield f"{other} was not recorded, nor who knew it"
+        elif {"sensors", *PLACES} & set(self.not_recorded):
+            yield f"what {one} knew of {other} by sensors was not recorded"
+        elif not found:
+            yield f"{one} knew nothing of {other}"
 
     def of_command(self) -> Iterator[str]:
         """Who commanded."""
@@ -86,7 +123,9 @@ class Explanation:
     def of_tyres(self) -> Iterator[str]:
         """Which tyres were at their limits."""
         yield from (each.text for each in self.tyre_at_limit)
-        if not self.tyre_at_limit:
+        if set(CHANNELS) & set(self.not_recorded):
+            yield "how much of its adhesion every tyre used was not recorded"
+        elif not self.tyre_at_limit:
             yield "no tyre was at its limit"
 
 
@@ -105,7 +144,26 @@ def explained(record: Record, event: Happening) -> Explanation:
         known=tuple(each for one, other in pairs for each in known(record, one, other, sample)),
         commanded_by={each: commanded(record, each, sample) for each in vehicles},
         tyre_at_limit=tuple(each for vehicle in vehicles for each in at_limit(record, vehicle, sample, last_of(record, event, sample))),
+        faults=tuple(each for vehicle in vehicles for each in harmed(record, vehicle, event.time)),
+        not_recorded=lacking(record),
+        unknown=tuple(each for each in event.units if each not in (*record.vehicles, *record.brought)),
     )
+
+
+def lacking(record: Record) -> tuple[str, ...]:
+    """What a run has not kept that would have to be known: channels, and "sensors" when their readings are not there."""
+    channels = (*PLACES, *(f"commands_{part}" for part in PARTS), *CHANNELS) if record.time.size else ()
+    found = [name for name in channels if np.isnan(record.channel(name)).all()]
+    is_blind = any(f"{sensor}.measured" not in record.probes for sensor in record.mounts)
+    return (*found, *(["sensors"] if is_blind else []))
+
+
+def harmed(record: Record, unit: str, time: float) -> Iterator[Harmed]:
+    """Sensors of a unit that the script harms at a time [s]."""
+    for each in record.faults:
+        since = record.acting_since(each.entry, time)
+        if each.unit == unit and since is not None:
+            yield Harmed(unit, each.sensor, each.entry, since, each.fails, each.noise)
 
 
 def commanded(record: Record, vehicle: str, sample: int) -> dict[str, str]:
