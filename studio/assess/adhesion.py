@@ -13,6 +13,12 @@ def used(record: Record) -> np.ndarray:
     return np.array([record.channel(name) for name in CHANNELS])
 
 
+def sliding(record: Record) -> np.ndarray:
+    """Which tyres are past their peak of slip, bool[wheel, vehicle, n]."""
+    bits = np.nan_to_num(record.channel("tyres_sliding")).astype(np.int64)
+    return np.array([bits >> wheel & 1 for wheel in range(len(WHEELS))], dtype=bool)
+
+
 def most_used(record: Record) -> np.ndarray:
     """Of the wheel that uses most of it, float64[vehicle, n]."""
     return used(record).max(axis=0)

@@ -3,7 +3,8 @@
 A near miss is a stretch of time to collision below 1.5 s without a collision in it (R. van der Horst, J. Hogema, Time-to-collision and
 collision avoidance systems, 1993: below it drivers are in danger); it is told when the time to collision is least. A hard brake is a
 stretch of deceleration above 5 m/s² (T. A. Dingus et al., The 100-car naturalistic driving study, DOT HS 810 593, 2006); it is told when
-it begins, with its strongest deceleration. Stretches that are nearer to each other than a second are one.
+it begins, with its strongest deceleration, and names whom the driver minds; where somebody else brakes, who is ahead. Stretches that are
+nearer to each other than a second are one.
 """
 
 from collections.abc import Iterator
@@ -14,11 +15,13 @@ import numpy as np
 from studio.assess.following import ttc
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Record
+from studio.world.commander import NAMES
 from studio.world.table.event import EVENTS, HARD_BRAKE, HIT, NEAR_MISS
 
 NEAR = 1.5  # [s]
 HARD = 5.0  # [m/s²]
 APART = 1.0  # [s]
+DRIVERS = [NAMES.index(each) for each in ("driver", "driver's intervention")]  # who has the brake where a driver brakes himself
 FAR = 100.0  # [m] ahead, from which on nobody is a reason to brake hard
 
 
@@ -41,14 +44,20 @@ def near_misses(record: Record) -> Iterator[Happening]:
 
 
 def hard_brakes(record: Record) -> Iterator[Happening]:
-    """Those of every vehicle, with what was ahead of it where there was something near."""
+    """Those of every vehicle, with the one that was the reason."""
     for row, values in enumerate(-record.channel("acceleration")):
         for part in stretches(values > HARD, record.time):
-            is_near = record.channel("gap")[row, part.start] < FAR
-            ahead = record.ahead(row, part.start) if is_near else ""
-            units = (record.vehicles[row], *([ahead] if ahead else []))
+            reason = reason_of(record, row, part.start)
+            units = (record.vehicles[row], *([reason] if reason else []))
             place = place_of(record, row, part.start)
             yield happening(HARD_BRAKE, float(record.time[part.start]), units, place=place, deceleration=float(np.nanmax(values[part])))
+
+
+def reason_of(record: Record, row: int, sample: int) -> str:
+    """Whom a driver who brakes himself minds; who is ahead and near, where the brake is another's; "" when there is nobody."""
+    if record.channel("commands_brake")[row, sample] in DRIVERS:
+        return record.minded(row, sample)
+    return record.ahead(row, sample) if record.channel("gap")[row, sample] < FAR else ""
 
 
 def place_of(record: Record, row: int, sample: int) -> tuple[float, float]:

@@ -1,16 +1,17 @@
 """Known: what a unit knew of another one at a moment, by its sensors and by messages.
 
 A sensor does not say whom it has seen, and an application may not know. The record tells both afterwards: the target belongs to the vehicle
-whose outline is nearest to where the sensor has put it, at the time at which it was measured, if it is not farther away than 3 m.
-Vehicles that were not recorded are nobody here.
+whose outline is nearest to where the sensor has put it, at the time at which it was measured, if it is not farther away than 3 m; or to
+whatever the script has brought to the road, people and cyclists among it. Vehicles that were not recorded are nobody here.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from studio.execution.brought import Pose
 from studio.execution.happening import Number
 from studio.execution.message import Messages
 from studio.execution.record import SAME_TIME, Mount, Record
@@ -19,6 +20,7 @@ from studio.world.table.cause import CAUSES
 NEAR = 3.0  # [m] from an outline, within which a target is taken for that of this vehicle
 SENSED = (("range", "azimuth"), ("ahead", "left"))  # fields that say where a target is: from the sensor, or from the middle of the front
 OF_THE_SENSOR = ("count", "measured")  # what is no field of a target
+PLACES = ("x", "y", "heading")  # channels that say where a vehicle is
 AT_THE_FRONT = Mount(0.0, 0.0, 0.0)
 WHY = {number: each.name for number, each in enumerate(CAUSES)}
 
@@ -66,7 +68,7 @@ def lost_text(lost: tuple[Lost, ...]) -> str:
 
 
 def known(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
-    """Everything that a unit knew about another vehicle at a sample: by its sensors, then by messages."""
+    """Everything that a unit knew about a vehicle, or whatever the script has brought, at a sample: by its sensors, then by messages."""
     yield from sensed(record, unit, about, sample)
     yield from heard(record, unit, about, sample)
 
@@ -95,13 +97,14 @@ def targets(record: Record, unit: str) -> Iterator[Target]:
         if place.partition(".")[0] == unit:
             places.setdefault(place, {})[part] = name
     for place, fields in places.items():
-        if any(set(pair) <= fields.keys() for pair in SENSED):
-            yield Target(".".join(place.split(".")[:2]), fields)
+        sensor = ".".join(place.split(".")[:2])
+        if f"{sensor}.measured" in record.probes and any(set(pair) <= fields.keys() for pair in SENSED):
+            yield Target(sensor, fields)
 
 
 def sensed(record: Record, unit: str, about: str, sample: int) -> Iterator[Known]:
     """What sensors say about somebody."""
-    if unit not in record.vehicles or about not in record.vehicles:
+    if unit not in record.vehicles or about not in (*record.vehicles, *record.brought):
         return
     for each in targets(record, unit):
         values = {part: float(record.probes[name].values[sample]) for part, name in each.fields.items()}
@@ -119,7 +122,7 @@ def sensed(record: Record, unit: str, about: str, sample: int) -> Iterator[Known
 def place_of(record: Record, unit: str, sensor: str, values: dict[str, float], sample: int) -> np.ndarray:
     """Where a target is in the world [m], as the sensor says."""
     row, front = record.vehicles.index(unit), record.bodies[unit].front
-    x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
+    x, y, psi = (record.channel(name)[row, sample] for name in PLACES)
     if {"ahead", "left"} <= values.keys():
         ahead, left = values["ahead"], values["left"]
     else:
@@ -131,22 +134,40 @@ def place_of(record: Record, unit: str, sensor: str, values: dict[str, float], s
 
 
 def belongs_to(record: Record, place: np.ndarray, sample: int) -> str:
-    """The recorded vehicle whose outline is nearest to a place [m] at a sample; "" when none is near."""
-    distances = [outside(record, row, place, sample) for row in range(len(record.vehicles))]
-    nearest = int(np.argmin(distances))
-    return record.vehicles[nearest] if distances[nearest] <= NEAR else ""
+    """Whose outline is nearest to a place [m] at a sample, of recorded vehicles and what the script has brought; "" when none is near."""
+    found = [(outside(outline, place), name) for name, outline in outlines(record, sample)]
+    distance, name = min(found, default=(np.inf, ""))
+    return name if distance <= NEAR else ""
 
 
-def outside(record: Record, row: int, place: np.ndarray, sample: int) -> float:
-    """How far a place is outside the outline of a vehicle [m]; infinite when it is not there."""
-    body = record.bodies[record.vehicles[row]]
-    x, y, psi = (record.channel(name)[row, sample] for name in ("x", "y", "heading"))
-    if not np.isfinite(x):
-        return float("inf")
-    east, north = place[0] - x, place[1] - y
-    ahead, left = east * np.cos(psi) + north * np.sin(psi), north * np.cos(psi) - east * np.sin(psi)
-    beyond = max(ahead - body.front, body.front - body.length - ahead, 0.0), max(abs(left) - 0.5 * body.width, 0.0)
-    return float(np.hypot(*beyond))
+class Outline(NamedTuple):
+    """A rectangle on the road: a point in it and its heading, how far [m] it reaches before and behind the point, and its width [m]."""
+
+    pose: Pose
+    front: float
+    rear: float
+    width: float
+
+
+def outlines(record: Record, sample: int) -> Iterator[tuple[str, Outline]]:
+    """Those of all who are there at a sample."""
+    for row, name in enumerate(record.vehicles):
+        body, pose = record.bodies[name], Pose(*(float(record.channel(each)[row, sample]) for each in PLACES))
+        if np.isfinite(pose).all():
+            yield name, Outline(pose, body.front, body.length - body.front, body.width)
+    time = float(record.time[sample])
+    for name, each in record.brought.items():
+        since = record.acting_since(each.entry, time)
+        if since is not None and (pose := each.after(time - since)) is not None:
+            yield name, Outline(pose, 0.5 * each.length, 0.5 * each.length, each.width)
+
+
+def outside(outline: Outline, place: np.ndarray) -> float:
+    """How far a place is outside an outline [m]."""
+    x, y, psi = outline.pose
+    east, north, c, s = place[0] - x, place[1] - y, np.cos(psi), np.sin(psi)
+    ahead, left = east * c + north * s, north * c - east * s
+    return float(np.hypot(max(ahead - outline.front, -outline.rear - ahead, 0.0), max(abs(left) - 0.5 * outline.width, 0.0)))
 
 
 # -- by messages ---------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.errors import UnknownError, nearest
+from studio.execution.brought import Brought, Fault, acting_since, turns_of
 from studio.execution.happening import Happening
 from studio.execution.hearing import Hearing
 from studio.execution.message import Messages, none
@@ -76,8 +77,9 @@ class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings.
 
     `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
-    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channel `ahead` stand for, `commanders`
-    those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
+    of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channels `ahead` and `minded` stand for,
+    `commanders` those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
+    `brought` is what the script may bring to the road, by name; `faults` are those of sensors that it may make.
     """
 
     time: np.ndarray
@@ -93,11 +95,22 @@ class Record:
     called: dict[int, str] = field(default_factory=dict)
     commanders: tuple[str, ...] = ()
     mounts: dict[str, Mount] = field(default_factory=dict)
+    brought: dict[str, Brought] = field(default_factory=dict)
+    faults: tuple[Fault, ...] = ()
 
     @cached_property
     def derived(self) -> "Derived":
         """The channels that follow from those that were recorded."""
         return Derived(self)
+
+    @cached_property
+    def turns(self) -> dict[str, list[Happening]]:
+        """When every entry of the script has begun and ended."""
+        return turns_of(self.happenings)
+
+    def acting_since(self, entry: str, time: float) -> float | None:
+        """Since when [s] an entry of the script acts at a time [s]; None when it does not."""
+        return acting_since(self.turns.get(entry, ()), time)
 
     def channel(self, name: str) -> np.ndarray:
         """One quantity of all vehicles, float64[vehicle, n]; raises UnknownError with the nearest name."""
@@ -128,7 +141,15 @@ class Record:
 
     def ahead(self, vehicle: int, sample: int) -> str:
         """The name of the vehicle or object ahead of the vehicle in a row at a sample; "" when there is none."""
-        number = self.channel("ahead")[vehicle, sample]
+        return self.called_by("ahead", vehicle, sample)
+
+    def minded(self, vehicle: int, sample: int) -> str:
+        """The name of whom, or of the object that, its driver minds; "" when there is none."""
+        return self.called_by("minded", vehicle, sample)
+
+    def called_by(self, channel: str, vehicle: int, sample: int) -> str:
+        """The name that the number in a channel stands for."""
+        number = self.channel(channel)[vehicle, sample]
         return self.called.get(int(number), "") if np.isfinite(number) else ""
 
     def between(self, begin: float, end: float | None) -> "Record":

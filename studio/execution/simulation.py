@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
+from studio.execution.brought import brought, faults
 from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.hearing import hearing
@@ -199,6 +200,8 @@ class Simulation:
             called=self.called(number),
             commanders=commanders(case.setting.scenario),
             mounts=mounts(case.setting.scenario),
+            brought=brought(case.setting),
+            faults=faults(case.setting),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:

@@ -284,6 +284,25 @@ def cornering_stiffness(t, gamma, F_z):
     return F_z * lateral_factors(t, gamma, load_change(t, F_z), 1.0).K
 
 
+# --- beyond the peak ---------------------------------------------------------------------------------------------------
+
+
+@compiled(forceinline=True)
+def is_past_peak(f, E, slip):
+    """Whether a slip lies beyond the greatest force, from the factors f and the curvature E: the sine's argument beyond a right angle."""
+    return abs(formula_angle(f.B, f.C, E, slip + f.S_H)) > 0.5 * pi
+
+
+@compiled(forceinline=True)
+def slides(t, kappa, alpha, F_z, mu):
+    """Whether a loaded tyre is past its peak of slip, along or across the wheel: more slip gives less force. Camber left aside."""
+    df_z = load_change(t, F_z)
+    x, y = longitudinal_factors(t, 0.0, df_z, mu), lateral_factors(t, 0.0, df_z, mu)
+    along = is_past_peak(x, longitudinal_curvature(t, df_z, kappa + x.S_H), kappa)
+    across = is_past_peak(y, lateral_curvature(t, 0.0, df_z, alpha + y.S_H), alpha)
+    return F_z > 0.0 and (along or across)
+
+
 # --- combined slip -----------------------------------------------------------------------------------------------------
 
 

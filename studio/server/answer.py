@@ -294,6 +294,18 @@ class Wheel(BaseModel):
     unit: str
     wheel: str
     use: float = Field(description="[1] greatest share of its adhesion in the second before")
+    slides: bool = Field(description="whether it was past its peak of slip")
+
+
+class Harmed(BaseModel):
+    """A sensor that the script harmed at that time."""
+
+    unit: str
+    sensor: str = Field(description='its name, "" for all of the unit')
+    entry: str = Field(description="of the script")
+    since: float = Field(description="[s]")
+    fails: bool
+    noise: float = Field(description="[1] factor on its noise")
 
 
 class Explanation(BaseModel):
@@ -306,6 +318,9 @@ class Explanation(BaseModel):
     known: list[Known]
     commanded_by: dict[str, dict[str, str]] = Field(description="who had wheel, brake, drive and gear, by vehicle")
     tyre_at_limit: list[Wheel]
+    faults: list[Harmed]
+    not_recorded: list[str] = Field(description='channels that the run has not kept, and "sensors" when it lacks their readings')
+    unknown: list[str] = Field(description="units of which nothing was recorded")
     lines: list[str]
 
 

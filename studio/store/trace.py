@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 from tsdownsample import MinMaxDownsampler
 
 from studio.errors import Problem, UnknownError, nearest
+from studio.execution.brought import Brought, Fault
 from studio.execution.happening import Happening
 from studio.execution.message import Messages
 from studio.execution.record import Body, Chain, Mount, Record, Traced
@@ -45,6 +46,8 @@ def about(record: Record) -> dict[str, Any]:
         "called": list(record.called.items()),
         "commanders": record.commanders,
         "mounts": record.mounts,
+        "brought": record.brought,
+        "faults": record.faults,
     }
 
 
@@ -71,7 +74,14 @@ def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Message
         messages=messages,
         commanders=tuple(known["commanders"]),
         mounts={name: Mount(*each) for name, each in known["mounts"].items()},
+        brought={name: brought_of(*each) for name, each in known.get("brought", {}).items()},
+        faults=tuple(Fault(*each) for each in known.get("faults", ())),
     )
+
+
+def brought_of(entry: str, line: Sequence[Sequence[float]], *rest: Any) -> Brought:
+    """What the script has brought to the road."""
+    return Brought(entry, tuple((x, y) for x, y in line), *rest)
 
 
 def probes_of(table: pa.Table) -> dict[str, Traced]:

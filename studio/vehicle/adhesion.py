@@ -1,11 +1,15 @@
-"""Adhesion: how much of it the wheels use, made of the fleet's state whenever somebody records it."""
+"""Adhesion: how much of it the wheels use, made of the fleet's state whenever somebody records it.
+
+A tyre past its peak of slip transmits less than it could: its use of adhesion is below 1, and yet it is at its limit. Which tyres are is
+kept as one number, of a bit for each.
+"""
 
 from studio.compiled import lean
-from studio.model import adhesion
+from studio.model import adhesion, tyre
 from studio.rows import Role, Table
 from studio.vehicle.contact import MU
 from studio.vehicle.corner import OVERLOAD
-from studio.vehicle.state import F_X, F_Y, F_Z
+from studio.vehicle.state import ALPHA, F_X, F_Y, F_Z, KAPPA
 from studio.vehicle.tile import tyre_at
 
 ADHESION = Table("adhesion", Role.RECORD, per="recorded vehicle")
@@ -15,6 +19,10 @@ FRONT_LEFT = ADHESION.row(
 FRONT_RIGHT = ADHESION.row("adhesion_front_right", "1", "the same of this wheel", label="Use of adhesion, front right")
 REAR_LEFT = ADHESION.row("adhesion_rear_left", "1", "the same of this wheel", label="Use of adhesion, rear left")
 REAR_RIGHT = ADHESION.row("adhesion_rear_right", "1", "the same of this wheel", label="Use of adhesion, rear right")
+SLIDING = ADHESION.row(
+    "tyres_sliding", "1", "tyres past their peak of slip: the sum of 1 front left, 2 front right, 4 rear left, 8 rear right",
+    label="Tyres past their peak of slip",
+)  # fmt: skip
 
 
 @lean
@@ -24,8 +32,11 @@ def use(columns, n, tyres, tyres_of, wheels, ground, values):
     Forces are those that have just acted. Where the ground has become slippery since, they are more than it gives now: all of it is used.
     """
     for i in range(columns.size):
+        values[SLIDING, i] = 0.0
         for corner in range(4):
-            w = corner * n + columns[i]
+            w, side = corner * n + columns[i], 1.0 - 2.0 * (corner % 2)
             t = tyre_at(tyres, tyres_of[corner // 2, columns[i]])
             F = min(wheels[F_Z, w], OVERLOAD * t.LFZO * t.FNOMIN)
             values[corner, i] = min(adhesion.used(t, wheels[F_X, w], wheels[F_Y, w], F, ground[MU, w]), 1.0)
+            if tyre.slides(t, wheels[KAPPA, w], side * wheels[ALPHA, w], F, ground[MU, w]):
+                values[SLIDING, i] += 1 << corner

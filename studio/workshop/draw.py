@@ -127,7 +127,7 @@ def record(period: float = 0.02, **channels: Any) -> Record:
     vehicles, samples = np.broadcast_shapes((1, 1), *[np.shape(each) for each in channels.values()])
     values = np.zeros((len(CHANNELS), vehicles, samples))
     names = [each.name for each in CHANNELS]
-    values[names.index("gap")], values[names.index("ahead")] = np.nan, -1.0
+    values[names.index("gap")], values[names.index("ahead")], values[names.index("minded")] = np.nan, -1.0, -1.0
     for name, each in channels.items():
         values[names.index(name)] = each
     cars: tuple[str, ...] = NAMES[:vehicles]

@@ -15,6 +15,7 @@ from studio.bound import bound
 from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
+from studio.world.board.post import taking_turns
 from studio.world.passes import collision, control, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.world import World
@@ -209,7 +210,7 @@ def communicate(world: World, refuse: Refuse = let_through) -> None:
     clock, u = world.clock, world.units
     for air in u.airs:
         air.turn(clock.time, u.world)
-    for post in u.posts:
+    for post in taking_turns(u.posts, clock.k):
         for fault in post.exchanged(clock.k, clock.time, u.airs[post.air], world.air):
             refuse(fault)
     lay(world, clock.time)
@@ -230,7 +231,7 @@ def listen(world: World, time: float) -> None:
 
 def dispatch(world: World, refuse: Refuse = let_through) -> None:
     """The radio decides about what applications have sent."""
-    for post in world.units.posts:
+    for post in taking_turns(world.units.posts, world.clock.k):
         for fault in post.dispatched(world.units.airs[post.air], world.air):
             refuse(fault)
 

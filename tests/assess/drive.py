@@ -12,7 +12,7 @@ CAR = Body(length=4.5, width=1.8, front=2.25, mass=1500.0, radius=0.3)
 def record(time, vehicles=("a", "b"), bodies=None, **channels):
     """A record with these channels, float64[vehicle, n] each; the others are zero, and nobody is ahead unless it is said."""
     values = np.zeros((len(NAMES), len(vehicles), len(time)))
-    values[NAMES.index("gap")], values[NAMES.index("ahead")] = np.nan, -1.0
+    values[NAMES.index("gap")], values[NAMES.index("ahead")], values[NAMES.index("minded")] = np.nan, -1.0, -1.0
     for name, value in channels.items():
         values[NAMES.index(name)] = value
     bodies = bodies or dict.fromkeys(vehicles, CAR)
@@ -32,8 +32,8 @@ def behind(time, gap, leader, follower):
     """A record of two cars, b behind a: way, speed and acceleration of each, and the gap [m] at the start."""
     (x_l, v_l, a_l), (x_f, v_f, a_f) = leader, follower
     nobody = np.full(len(time), np.nan)
-    x = np.array([gap + CAR.length + x_l, x_f])
+    x, ahead = np.array([gap + CAR.length + x_l, x_f]), np.array([nobody, np.zeros(len(time))])
     return record(
         time, x=x, gap=np.array([nobody, gap + x_l - x_f]), speed=np.array([v_l, v_f]), ahead_speed=np.array([nobody, v_l]),
-        acceleration=np.array([a_l, a_f]), ahead=np.array([nobody, np.zeros(len(time))]),
+        acceleration=np.array([a_l, a_f]), ahead=ahead, minded=ahead,
     )  # fmt: skip

@@ -5,15 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import yaml
 
 from studio import job
 from studio.assess.cause import explain
 from studio.assess.danger import hard_brakes, near_misses, stretches, with_dangers
 from studio.assess.known import belongs_to, known, place_of
 from studio.errors import UnknownError
+from studio.execution.brought import Brought
 from studio.execution.happening import happening
 from studio.execution.message import none
 from studio.execution.record import Mount, Traced
+from studio.road.drawn.motorway import motorway
 from studio.store.explanation import explanation
 from studio.store.runs import open_runs
 from studio.world.table.cause import FADING, RECEIVED
@@ -126,7 +129,7 @@ def test_an_explanation_in_order(drive):
     assert {"event", "time", "units", "known", "commanded_by", "tyre_at_limit"} <= plain.keys()
     assert plain["units"] == ["b", "a"] and [each["source"] for each in plain["known"]] == ["front", "awareness"]
     assert plain["known"][1]["lost"] == [{"time": 3.45, "why": "fading"}] and plain["known"][1]["about"] == "a"
-    assert plain["tyre_at_limit"] == [{"unit": "b", "wheel": "front_left", "use": 0.97}]
+    assert plain["tyre_at_limit"] == [{"unit": "b", "wheel": "front_left", "use": 0.97, "slides": False}]
     assert (
         brake.lines[0].startswith("b knew a by front") and brake.lines[-1] == "b: the front left tyre was at its limit, 97% of its adhesion"
     )
@@ -165,10 +168,62 @@ def test_a_run_is_explained_from_the_database(sample, tmp_path):
 
 
 def test_what_was_not_kept_is_not_guessed(sample, tmp_path):
+    """Messages are there whatever channels are kept; what sensors saw, who commanded and what tyres did are said to be unknown."""
     runs = open_runs(tmp_path / "runs.db")
-    job.run(job.load(sample, {"clock.duration": 0.1, "recording.channels": ["speed", "gap"]}), runs=runs)
-    with pytest.raises(UnknownError, match=r"not kept the channels x, y, heading.*recording\.channels"):
-        explanation(runs, 1)
+    job.run(job.load(sample, HARD | {"recording.channels": ["speed", "gap"]}), runs=runs)
+    found = explanation(runs, 1, "hard_brake")
+    of = next(each for each in found if len(each.event.units) == 2 and not each.unknown)
+    one, other = of.event.units
+    assert {"x", "commands_brake", "adhesion_rear_left", "sensors"} <= set(of.not_recorded)
+    assert f"what {one} knew of {other} by sensors was not recorded" in of.lines and f"{one}: who commanded was not recorded" in of.lines
+    assert of.lines[-1] == "how much of its adhesion every tyre used was not recorded"
+    assert not any("knew nothing" in line for line in of.lines) and of.as_json()["not_recorded"] == list(of.not_recorded)
+
+
+def test_an_unknown_kind_names_each_kind_once(tmp_path):
+    with pytest.raises(UnknownError) as told:
+        explanation(open_runs(tmp_path / "runs.db"), 1, "nonsense")
+    assert all(str(told.value).count(kind) == 1 for kind in ("collision", "near_miss", "hard_brake"))
+
+
+CHILD = {
+    "version": 3,
+    "title": "a child on the road",
+    "map": {"file": "motorway.xodr"},
+    "clock": {"duration": 6},
+    "routes": {"way": {"roads": ["motorway"], "speeds": [{"at": 0, "speed": 15}]}},
+    "vehicles": {"car": {"route": "way", "position": {"along": 100}, "speed": 15, "sensors": {"front": {"kind": "object_sensor"}}}},
+    "script": {"child": {"do": {"kind": "mover", "route": "way", "line": [[160, 0]]}}},
+}
+BLIND = {"blind": {"when": {"kind": "time", "at": 1}, "do": {"kind": "sensor_fault", "unit": "car", "sensor": "front"}}}
+
+
+@pytest.mark.parametrize("is_blind", [False, True])
+def test_of_somebody_on_foot_is_told_who_knew_it(tmp_path, is_blind):
+    """A driver brakes hard for a child; his radar has seen it, or the script has made it fail."""
+    (tmp_path / "motorway.xodr").write_text(motorway(length=600.0, lanes=2), encoding="utf-8")
+    script = CHILD["script"] | (BLIND if is_blind else {})
+    driver = {"time_headway": 0.3, "deceleration": 8, "standstill_gap": 0.5}
+    cars = {"car": CHILD["vehicles"]["car"] | {"driver": driver}}
+    (tmp_path / "child.yaml").write_text(yaml.safe_dump(CHILD | {"script": script, "vehicles": cars}))
+    runs = open_runs(tmp_path / "runs.db")
+    made = job.run(job.load(tmp_path / "child.yaml"), runs=runs)
+    assert made.status == "done", made.error
+    event = next(each for each in explanation(runs, 1) if each.event.units == ("car", "child"))
+    fault = "front of car gave nothing, by blind since 1.00 s"
+    if is_blind:
+        assert "car knew nothing of child" in event.lines and fault in event.lines and event.faults[0].sensor == "front"
+    else:
+        (seen,) = [each for each in event.known if each.about == "child"]
+        assert seen.source == "front" and "car knew child by front" in event.lines[0] and fault not in event.lines
+
+
+def test_whoever_moves_is_where_his_line_says():
+    """3 m/s along 3 m to the east and 4 m to the north; one who does not stay is gone at its end."""
+    walker = Brought("walk", ((0.0, 0.0), (3.0, 0.0), (3.0, 4.0)), 0.0, 3.0, False, 0.6, 0.5)
+    assert walker.after(0.5) == (1.5, 0.0, 0.0) and walker.after(2.0) == pytest.approx((3.0, 3.0, np.pi / 2.0))
+    assert walker.after(2.5) is None and walker._replace(stays=True).after(9.0) == pytest.approx((3.0, 4.0, np.pi / 2.0))
+    assert Brought("cone", ((5.0, 6.0),), 0.7, 0.0, True, 0.3, 0.3).after(9.0) == (5.0, 6.0, 0.7)
 
 
 def test_adhesion_is_that_of_the_tyres(sample):

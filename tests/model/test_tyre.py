@@ -401,3 +401,17 @@ def test_braking_side_force():
     D = mu_y * F_z * (t.RVY1 + t.RVY2 * df_z + t.RVY3 * gamma) * cos(atan(t.RVY4 * alpha))
     expected = D * sin(t.RVY5 * atan(t.RVY6 * kappa))
     assert braking_side_force(t, kappa, alpha, gamma, F_z, 1.0) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("t", TYRES, ids=list(PAIRS))
+@pytest.mark.parametrize("mu", [0.3, 1.0])
+def test_a_tyre_slides_beyond_its_peak(t, mu):
+    """Up to the slip of the greatest force it does not, and beyond it does, along and across."""
+    slips = np.linspace(0.0, 3.0, 3001)
+    for force, place in ((tyre.longitudinal_pure, lambda slip: (-slip, 0.0)), (tyre.lateral_pure, lambda slip: (0.0, slip))):
+        forces = np.abs([force(t, -slip if force is tyre.longitudinal_pure else slip, 0.0, 4000.0, mu) for slip in slips])
+        peak = int(forces.argmax())
+        before, after = slips[max(peak - 3, 0)], slips[min(peak + 3, 3000)]
+        assert not tyre.slides(t, *place(before), 4000.0, mu)
+        assert tyre.slides(t, *place(after), 4000.0, mu) == (peak < 2998)
+    assert not tyre.slides(t, -1.0, 0.0, 0.0, mu)

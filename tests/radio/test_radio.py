@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from studio.kinds.radio import cellular, wlan
 from studio.model.radio import packet
 from studio.workshop.stage import stage
+from studio.world.board.post import taking_turns
 from studio.world.table.cause import BANDWIDTH, BUSY, NO_COVERAGE, RECEIVED
 
 SIZE = 300.0  # [bytes] of an awareness message
@@ -130,6 +132,35 @@ def test_twice_the_bandwidth_delays_a_second_a_second():
     early, late = messages.is_received & (time < 3.8), time > 4.2
     assert np.polyfit(time[early], delay[early], 1)[0] == pytest.approx(1.0, abs=0.03)
     assert np.mean(messages.cause[late] == BANDWIDTH) == pytest.approx(0.5, abs=0.03) and np.nanmax(delay) <= 4.0 + 1e-6
+
+
+def test_whoever_sends_at_the_same_instant_has_the_same_chance():
+    """A network for half of what is sent, which keeps nothing for long: of those who speak together nobody is served more than others."""
+    radio = {"kind": "cellular", "bandwidth": 45e3, "longest_wait": 0.02, "delay": 0.0, "delay_variation": 0.0, "loss": 0.0}
+    messages = talk(radio, circle(24, 20.0), 20.0)
+    came = np.zeros(messages.time.size, dtype=bool)
+    came[messages.of[messages.is_received]] = True
+    phase = np.round(messages.time / 0.02).astype(int) % 5
+    for each in range(5):
+        senders = np.unique(messages.sender[phase == each])
+        share = np.array([came[(messages.sender == sender) & (phase == each)].mean() for sender in senders])
+        assert share.mean() > 0.0 and np.ptp(share) < 6.0 * (share.mean() * (1.0 - share.mean()) / 200.0) ** 0.5 + 1e-9
+    assert 0.3 < came.mean() < 0.7
+
+
+def test_kinds_of_messages_take_turns_before_a_network():
+    """Each is before the other about half of the time, whoever else is there; where nothing waits, they stay as they are."""
+
+    class Kind:
+        def __init__(self, stream, radio):
+            self.stream, self.radio = stream, type("Radio", (), {"module": radio})
+
+    one, other, third = (Kind(stream, cellular) for stream in (1000, 2000, 3000))
+    orders = [taking_turns([one, other], k) for k in range(400)]
+    assert 140 < sum(order[0] is one for order in orders) < 260
+    for k, order in enumerate(orders):
+        assert [each for each in taking_turns([third, one, other], k) if each is not third] == order
+    assert taking_turns([Kind(1, wlan), Kind(2, wlan)], 3)[0].stream == 1
 
 
 # -- bits --------------------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 
 Parameters as Massow & Radusch 2018, Table 3: a region, a circle or a polygon, or everywhere; delay with mean and variation; loss rate;
 bandwidth in bytes per second, beyond which everything waits. All messages of a scenario go through the same link, once each, however many
-hear them; one that would wait longer than `longest_wait` is thrown away. A source of information far away, a server for instance, is a
-station anywhere: in a network distance is nothing.
+hear them; one that would wait longer than `longest_wait` is thrown away. Who goes first of those that send at one instant is drawn by lot.
+A source of information far away, a server for instance, is a station anywhere: in a network distance is nothing.
 
 The presets are delays as surveys give them (arXiv 1802.08027): LTE there and back 20 to 60 ms, 5G less. Their bandwidths are estimates.
 """

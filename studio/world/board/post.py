@@ -27,6 +27,7 @@ from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
 from studio.kind.quantity import quantities, width
 from studio.kind.registry import Kind
+from studio.model.random import uniform
 from studio.road.network.shadow import walls_between
 from studio.rows import Moving
 from studio.world.board.air import EARLY, Air, remembered
@@ -65,6 +66,8 @@ from studio.world.table.unit import (
 from studio.world.table.unit import JAMMED as IS_JAMMED
 from studio.world.view import Way
 
+LOT = 1  # tells the lots for turns from the draws of radios
+WORD = 2**32 - 1
 SENT_ROWS, HEARD_ROWS = len(SENT), len(HEARD)
 
 TEXT = '''"""Messages of the kind {name} on the radio {radio}."""
@@ -75,7 +78,7 @@ from studio.application.contract import Own
 from studio.compiled import lean
 from studio.world.board.air import occupy
 from studio.world.board.log import log_message
-from studio.world.board.post import apart, behind, hindrance, is_any, is_free, receive, send, settle, way_of
+from studio.world.board.post import apart, behind, hindrance, is_any, is_free, receive, send, settle, way_of, whose_turn
 from studio.world.table.cause import OUT_OF_RANGE, RECEIVED, TOO_WEAK
 from studio.world.table.unit import ADDED, DRIFT, DROPS, OFFSET, PRESENT, S_SIZE, S_TIME, S_NEXT, S_X, S_Y, TRUE_X, TRUE_Y
 from studio.world.view import Draw, Sent, Spot, Turn
@@ -84,10 +87,7 @@ from {radio_module} import SettingsTuple as Radio, {radio_parts}
 
 @lean
 def dispatch({given}):
-{located}    for i in range(sender.size):
-        if fresh[i] == 0:
-            continue
-        s = sender[i]
+{located}{turn}        s = sender[i]
         j = world_of[s]
         radio, known = Radio({air}), table[j]
         for number in range(last[i] - fresh[i] + 1, last[i] + 1):
@@ -126,6 +126,15 @@ GIVEN = (
     "shadow, fixed, now, trouble, sender, fresh, soonest, last, ring, link_first, link_receiver, arrival, memory, "
     "log_message_rows, log_links, log_causes, log_delays, log_distances, log_count"
 )
+ONE_BY_ONE = """    for i in range(sender.size):
+        if fresh[i] == 0:
+            continue
+"""
+BY_LOT = """    for _ in range(sender.size):
+        i = whose_turn(fresh, last, sender, world_of, entity, seed, stream)
+        if i < 0:
+            break
+"""
 ADMISSION = """            sent = Sent(time, ring[S_X, column], ring[S_Y, column], size, load[s])
             wait, remembered = admit(radio, sent, Cell({cell}))
 """
@@ -391,6 +400,7 @@ def written_for(kind: Kind, radio: Kind) -> ModuleType:
         imports=imports(module),
         places=places(air) if hasattr(air, "place") else "",
         located="    locate(common, air, felt, around, world_of, seed, now, fresh)\n" if hasattr(air, "place") else "",
+        turn=BY_LOT if hasattr(air, "admit") else ONE_BY_ONE,
         admission=admission(air),
         found="found, remembered" if fields else "found",
         memory=f", Link({spelled([each.size for each in fields], 'memory', 'link')})" if fields else "",
@@ -485,6 +495,28 @@ def is_any(fresh):
         if fresh[i] > 0:
             return True
     return False
+
+
+@lean
+def whose_turn(fresh, last, sender, world_of, entity, seed, stream):
+    """Of those whose messages have not gone out yet, the one with the least lot: what they share does not go to the first by name.
+
+    -1 when there is none.
+    """
+    first, least = -1, inf
+    for i in range(sender.size):
+        if fresh[i] > 0:
+            lot = uniform(seed[world_of[sender[i]]], entity[sender[i]], stream, last[i], LOT)
+            if lot < least:
+                first, least = i, lot
+    return first
+
+
+def taking_turns(posts: Sequence["Post"], instant: int) -> Sequence["Post"]:
+    """Posts in the order in which they send at an instant: by lot too where messages wait for a network, so that no kind goes first."""
+    if not any(hasattr(post.radio.module, "admit") for post in posts[1:]):
+        return posts
+    return sorted(posts, key=lambda post: uniform(0, instant & WORD, post.stream, instant >> WORD.bit_length(), LOT))
 
 
 @inlined

@@ -41,6 +41,7 @@ from studio.world.table.mind import (
     FRONT_OFFSET,
     GAP,
     HEADWAY,
+    MINDED,
     OFFSET,
     PATH_KAPPA,
     RED_STATION,
@@ -50,6 +51,7 @@ from studio.world.table.mind import (
     STANDSTILL,
     STATION,
     STEER_WISH,
+    STOPPING,
     V_DESIRED,
     WISH,
     YIELDING,
@@ -137,6 +139,18 @@ def orient(state, parameter, places, points, path_first, path_count, stop_first,
             v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, drivers[SIGHT, v]
         )
         forget(v, mind)
+        mind[STOPPING, v] = before_line(v, state, parameter, drivers, mind)
+
+
+@inlined
+def before_line(v, state, parameter, drivers, mind):
+    """Acceleration [m/s²] that the next stop line permits."""
+    if mind[RED_STATION, v] == inf:
+        return driver.NO_LIMIT
+    return driver.stopping_acceleration(
+        state[V_X, v], mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
+        drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
+    )  # fmt: skip
 
 
 @inlined
@@ -151,7 +165,7 @@ def permitted_speed(v, state, points, first, count, mind):
 def forget(v, mind):
     """Nothing is ahead until a zone says so."""
     mind[GAP, v] = nan
-    mind[AHEAD, v] = -1.0
+    mind[AHEAD, v] = mind[MINDED, v] = -1.0
     mind[AHEAD_SPEED, v] = 0.0
     mind[FOLLOWING, v] = mind[YIELDING, v] = driver.NO_LIMIT
     mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = inf
@@ -168,17 +182,27 @@ def behind(v, gap, speed, state, drivers, mind):
 
 
 @inlined
-def follow(v, gap, speed, state, drivers, mind):
-    """Somebody is ahead: who permits least is minded."""
+def is_least(v, permitted, mind):
+    """Whether nobody and nothing has permitted less so far."""
+    return permitted < mind[FOLLOWING, v] and permitted < mind[YIELDING, v] and permitted < mind[STOPPING, v]
+
+
+@inlined
+def follow(v, number, gap, speed, state, drivers, mind):
+    """Somebody, of this number in the world, is ahead: who permits least is minded."""
     permitted = behind(v, gap, speed, state, drivers, mind)
+    if is_least(v, permitted, mind):
+        mind[MINDED, v] = number
     if permitted < mind[FOLLOWING, v]:
         mind[FOLLOWING, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v] = permitted, gap, speed
 
 
 @inlined
-def let_in(v, gap, speed, state, drivers, mind):
-    """Somebody goes first: who permits least is minded."""
+def let_in(v, number, gap, speed, state, drivers, mind):
+    """Somebody, of this number in the world, goes first: who permits least is minded."""
     permitted = max(behind(v, gap, speed, state, drivers, mind), -driver.COURTESY)
+    if is_least(v, permitted, mind):
+        mind[MINDED, v] = number
     if permitted < mind[YIELDING, v]:
         mind[YIELDING, v], mind[FIRST_GAP, v], mind[FIRST_SPEED, v] = permitted, gap, speed
 
@@ -229,12 +253,12 @@ def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, pa
     in_front = mind[STATION, other] - other_enter > mind[STATION, v] - v_enter
     if bumper_other >= other_enter:
         if in_front:
-            follow(v, gap, state[V_X, other], state, drivers, mind)
+            follow(v, number, gap, state[V_X, other], state, drivers, mind)
             rear = bumper + gap
             if gap > 0.0 and is_in_the_way(v, other, rear, parameter, places, points, first, count):
                 is_ahead(v, other, number, gap, state, mind)
     elif bumper < v_enter and goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
-        let_in(v, gap, state[V_X, other], state, drivers, mind)
+        let_in(v, number, gap, state[V_X, other], state, drivers, mind)
 
 
 @inlined
@@ -308,7 +332,7 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first
 @lean
 def stand_before(v, number, gap, speed, state, drivers, mind):
     """Object `number` of the world is followed as a car with its speed [m/s]."""
-    follow(v, gap, speed, state, drivers, mind)
+    follow(v, OBJECT - number, gap, speed, state, drivers, mind)
     if not gap >= mind[GAP, v]:
         mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, speed
 

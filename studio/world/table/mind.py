@@ -40,6 +40,11 @@ FOLLOW_SPEED = MIND.row("follow_speed", "m/s", "speed of the same")
 YIELDING = MIND.row("yielding", "m/s²", "acceleration that cars permit which reach a merge or crossing first")
 FIRST_GAP = MIND.row("first_gap", "m", "gap to the one of these that permits least, as if it drove ahead; infinite when there is none")
 FIRST_SPEED = MIND.row("first_speed", "m/s", "speed of the same")
+MINDED = MIND.row(
+    "minded", "1", "number in its world of the vehicle that permits the driver least, ahead or first at a merge or crossing, or "
+    "OBJECT - i; -1 when nobody does, or a stop line permits less", label="Number of whom the driver minds",
+)  # fmt: skip
+STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next stop line permits")
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
 NEEDED_COLLISION = MIND.row("needed_collision", "s", "since when he would brake before a collision; infinite when not", role=Role.STATE)

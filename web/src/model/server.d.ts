@@ -910,6 +910,18 @@ export interface components {
             };
             /** Tyre At Limit */
             tyre_at_limit: components["schemas"]["Wheel"][];
+            /** Faults */
+            faults: components["schemas"]["Harmed"][];
+            /**
+             * Not Recorded
+             * @description channels that the run has not kept, and "sensors" when it lacks their readings
+             */
+            not_recorded: string[];
+            /**
+             * Unknown
+             * @description units of which nothing was recorded
+             */
+            unknown: string[];
             /** Lines */
             lines: string[];
         };
@@ -936,6 +948,36 @@ export interface components {
             channels: components["schemas"]["Quantity"][];
             /** Metrics */
             metrics: components["schemas"]["Measure"][];
+        };
+        /**
+         * Harmed
+         * @description A sensor that the script harmed at that time.
+         */
+        Harmed: {
+            /** Unit */
+            unit: string;
+            /**
+             * Sensor
+             * @description its name, "" for all of the unit
+             */
+            sensor: string;
+            /**
+             * Entry
+             * @description of the script
+             */
+            entry: string;
+            /**
+             * Since
+             * @description [s]
+             */
+            since: number;
+            /** Fails */
+            fails: boolean;
+            /**
+             * Noise
+             * @description [1] factor on its noise
+             */
+            noise: number;
         };
         /**
          * Info
@@ -2302,6 +2344,11 @@ export interface components {
              * @description [1] greatest share of its adhesion in the second before
              */
             use: number;
+            /**
+             * Slides
+             * @description whether it was past its peak of slip
+             */
+            slides: boolean;
         };
     };
     responses: never;

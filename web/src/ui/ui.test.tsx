@@ -52,6 +52,9 @@ describe("why it happened", () => {
             known: [known],
             commanded_by: { car_2: { brake: "platoon" } },
             tyre_at_limit: [],
+            faults: [],
+            not_recorded: [],
+            unknown: [],
             lines: ["car_2 knew car_1 by front, 0.10 s old", "car_2: platoon had brake"],
           },
         ]}
