@@ -100,17 +100,19 @@ def gather(world: World) -> None:
 
 def look(world: World) -> None:
     """Drivers find themselves on their path and see who, or what, is ahead."""
-    v, r, o, c, q, w = world.vehicles, world.roads, world.obstacles, world.roads.conflicts, world.queues, world.worlds
+    v, r, o, q, w = world.vehicles, world.roads, world.obstacles, world.queues, world.worlds
     traffic.orient(
-        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station,
-        r.stop_link, r.shown, v.drivers, v.mind,
+        world.clock.tick, v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, r.stop_first,
+        r.stop_count, r.stop_station, r.stop_link, r.shown, v.drivers, v.mind,
     )  # fmt: skip
-    if c.partner.size:
-        queue.sort(v.state, v.mind, c.queue, q.first, q.order, q.before, q.slowest)
-        traffic.meetings(
-            v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, world.neighbours.longest,
-            c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span, q.first, q.order, q.slowest, v.drivers, v.mind,
-        )  # fmt: skip
+    queue.sort(
+        v.state, v.parameter, v.mind, w.of, w.entity, r.drive_first, r.drive_count, r.web, q.first, q.place, q.at, q.wanted, q.wanted_at,
+        q.there, q.count,
+    )  # fmt: skip
+    traffic.others(
+        v.state, v.parameter, world.neighbours.places, r.points, r.path_first, r.path_count, w.of, w.number, w.entity, r.drive_first,
+        r.drive_count, r.web, q.first, q.place, q.at, v.drivers, v.mind,
+    )  # fmt: skip
     if o.standing.size:
         traffic.obstacles(v.state, v.parameter, o.sweep, o.sweep_first, o.sweep_count, o.standing, o.first, w.of, v.drivers, v.mind)
     if o.movers.object.size:

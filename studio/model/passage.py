@@ -1,0 +1,30 @@
+"""Passage: when a driver comes to a place, and whether there is time to pass before others do.
+
+Who has to wait takes a gap in a stream that goes first if it is as long as the critical gap t_c, counted from the line where one would
+wait. Who comes to the line rolling needs less, by the time that this saves on the way across.
+"""
+
+from math import sqrt
+
+from studio.compiled import compiled
+
+SLOWEST = 1e-3  # [m/s]
+AFTER = 0.5  # [s] that are left between one who has passed and the next
+
+
+@compiled
+def arrival(d, v, a):
+    """Time [s] to drive d [m] from a speed v [m/s] with an acceleration a [m/s²] ≥ 0: the root of v t + a t²/2 = d."""
+    return 2.0 * d / max(v + sqrt(v * v + 2.0 * a * d), SLOWEST) if d > 0.0 else 0.0
+
+
+@compiled
+def saved(d, v, a):
+    """Time [s] that rolling with v saves over starting from rest, on d [m]."""
+    return arrival(d, 0.0, a) - arrival(d, v, a)
+
+
+@compiled
+def is_enough(lag, t_c, across, v, a):
+    """Whether a lag [s] is enough to pass, `across` [m] from the line until the place is left."""
+    return lag >= t_c - saved(across, max(v, 0.0), a)
