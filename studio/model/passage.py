@@ -9,6 +9,8 @@ from math import sqrt
 from studio.compiled import compiled
 
 SLOWEST = 1e-3  # [m/s]
+PATIENT = 30.0  # [s] from then on shorter gaps are taken, and after as long again gaps of half the length
+HEADWAY, GENTLE = 1.0, 2.0  # [s], [m/s²]
 AFTER = 0.5  # [s] that are left between one who has passed and the next
 
 
@@ -22,6 +24,18 @@ def arrival(d, v, a):
 def saved(d, v, a):
     """Time [s] that rolling with v saves over starting from rest, on d [m]."""
     return arrival(d, 0.0, a) - arrival(d, v, a)
+
+
+@compiled
+def wanted_gap(t_c, waited):
+    """The critical gap [s] of one who has waited so long [s]: who waits for long takes shorter ones, half of it in the end."""
+    return t_c * (1.0 - 0.5 * min(max((waited - PATIENT) / PATIENT, 0.0), 1.0))
+
+
+@compiled
+def merging_headway(v, u):
+    """Headway [s] that one with v [m/s] needs to one who comes in before him with u: a second, and Δv/(2 b), what braking with b takes."""
+    return HEADWAY + max(v - u, 0.0) / (2.0 * GENTLE)
 
 
 @compiled

@@ -6,12 +6,15 @@ Before the line of a way, where its strand begins, he decides whether he may go;
                          stands. With a green light one waits in the junction, where the ways meet
     equal                who comes first goes first; at an all-way stop who has stood longer
     crossed ways         are not entered while there is no room behind them
+    slow traffic         lets in whoever has waited for long, and after half a minute one takes shorter gaps
     nobody goes          of those who have stood a while, who has stood longest goes before one who stands as well
 """
 
+from math import sqrt
+
 from studio.compiled import inlined, lean
 from studio.model import driver
-from studio.model.passage import AFTER, arrival, is_enough
+from studio.model.passage import AFTER, arrival, is_enough, merging_headway, wanted_gap
 from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
 from studio.road.ways.path import project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
@@ -36,6 +39,7 @@ from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAV
 PATIENCE = 2.0  # [s] that one stands before who has stood longer goes first
 STANDING = 0.5  # [m/s] a car slower than this stands
 HALT, AT_LINE = 0.1, 4.0  # [m/s], [m] slower than this, and so near to a line, one has halted there
+FAIR, CRAWL, GENTLE, NEAREST = 10.0, 3.0, 2.0, 1.0  # [s], [m/s], [m/s²], [m] in slow traffic who has waited so long is let in
 SLOW = 2.0  # [m/s] who drives slower than this behind a junction may leave no room
 EARLIEST = 150.0  # [m] before a place where ways meet others are looked for
 BEHIND = 60.0  # [m] behind oneself others are minded before a lane change
@@ -145,8 +149,8 @@ def meet(v, other, m, strand, own, there, to_line, state, parameter, places, poi
         mine, its = together(m, web)
         if its_nose - its > nose - mine:
             lead(
-                v, other, its_tail - its - (nose - mine), state[V_X, other], state, parameter, places, points, path_first, path_count, number,
-                drivers, mind,
+                v, other, its_tail - its - (nose - mine), state[V_X, other], state, parameter, places, points, path_first, path_count,
+                number, drivers, mind,
             )  # fmt: skip
         return False
     if nose >= enter or leaves_in(other, its_leave - its_tail, state) + AFTER < comes_in(v, enter - nose, state, drivers, mind):
@@ -213,7 +217,7 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, state, pa
     its_time = comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
     if turn == GIVE and (to_line >= 0.0 or at_light):
-        if has_time(v, other, m, strand, to_enter, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+        if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
             return False
         if at_light:
             follow(v, number[other], to_enter, 0.0, state, drivers, mind)
@@ -230,9 +234,11 @@ def has_stood_longer(v, other, entity, mind):
 
 
 @lean
-def has_time(v, other, m, strand, to_enter, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
     """Whether v may go before one who goes first: he is far enough, he will be gone, or he stands and lets v go."""
     if state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE and has_stood_longer(v, other, entity, mind):
+        return True
+    if mind[STOOD, v] > FAIR and is_crawling(other, its_way, state):
         return True
     length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
     own_time = comes_in(v, to_enter, state, drivers, mind)
@@ -241,7 +247,26 @@ def has_time(v, other, m, strand, to_enter, its_time, to_line, state, parameter,
     a, to_wait = free(v, state, drivers, mind), max(to_line - driver.STOP_CLOSE, 0.0)
     across = web.span[OWN_LEAVE, m] + parameter[LENGTH, v]
     lag = its_time - arrival(to_wait, max(state[V_X, v], 0.0), a)
-    return is_enough(lag, web.critical[strand], across, state[V_X, v], drivers[COMFORT, v])
+    return is_enough(lag, wanted_gap(web.critical[strand], mind[STOOD, v]), across, state[V_X, v], drivers[COMFORT, v]) and is_safe(
+        v, other, m, to_enter, its_time, own_time, a, state, parameter, web
+    )
+
+
+@inlined
+def is_safe(v, other, m, to_enter, its_time, own_time, a, state, parameter, web):
+    """Whether v has left before the other comes; where lines run together, whether he need not brake hard behind v."""
+    speed = max(state[V_X, v], 0.0)
+    if web.shape[m] == ALONG:
+        return its_time > own_time + merging_headway(state[V_X, other], sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
+    way = to_enter + web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + parameter[LENGTH, v]
+    return its_time > arrival(way, speed, a) + AFTER
+
+
+@inlined
+def is_crawling(other, its_way, state):
+    """Whether one drives so slowly, and is so far yet, that he lets somebody in who has waited for long."""
+    speed = max(state[V_X, other], 0.0)
+    return speed < CRAWL and its_way > NEAREST + speed * speed / (2.0 * GENTLE)
 
 
 @lean

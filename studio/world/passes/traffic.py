@@ -23,7 +23,7 @@ from studio.vehicle.parameter import C_FRONT, FRONT, L_F, L_R, LENGTH, MASS, STE
 from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, PSI, V_X, YAW_RATE, X, Y
 from studio.world.passes.ground import touch_all
-from studio.world.passes.junction import STANDING, has_to_let_pass, waits
+from studio.world.passes.junction import BESIDE, STANDING, has_to_let_pass, waits
 from studio.world.passes.neighbour import COS, SIN, moved, within
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
 from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_unseen, let_in
@@ -73,6 +73,7 @@ PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steerin
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
 HORIZON, AHEAD_TIME = 60.0, 4.0  # [m], [s] how far before a way drivers mind who meets them there
 LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives there: LOOK + v²/LOOKING
+AWAY = 2.0  # [m/s] who has become faster than this stands no more
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
@@ -137,8 +138,17 @@ def orient(tick, state, parameter, places, points, path_first, path_count, stop_
         mind[RED_STATION, v] = next_red(
             v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, drivers[SIGHT, v]
         )
-        mind[STOOD, v] = mind[STOOD, v] + tick if abs(state[V_X, v]) < STANDING else 0.0
+        stand(v, tick, state, mind)
         forget(v, mind)
+
+
+@inlined
+def stand(v, tick, state, mind):
+    """Counts how long one stands; who only moves up stands on."""
+    if abs(state[V_X, v]) < STANDING:
+        mind[STOOD, v] += tick
+    elif abs(state[V_X, v]) > AWAY:
+        mind[STOOD, v] = 0.0
 
 
 @inlined
@@ -213,19 +223,11 @@ def is_led(v, own, key, state, parameter, places, points, path_first, path_count
         other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
         if other == v or is_unseen(v, other, state, parameter, drivers):
             continue
-        if is_there == 0:
-            if there > own > 0.0:  # somebody who will change to this lane
-                let_in(
-                    v,
-                    number[other],
-                    there + parameter[FRONT, other] - parameter[LENGTH, other] - nose,
-                    state[V_X, other],
-                    state,
-                    drivers,
-                    mind,
-                )
-            continue
         gap = there + parameter[FRONT, other] - parameter[LENGTH, other] - nose
+        if is_there == 0:
+            if own > 0.0 and gap >= BESIDE:  # somebody who will change to this lane
+                let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
+            continue
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
         found = True
         if gap <= 0.0 or is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):

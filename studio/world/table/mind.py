@@ -35,7 +35,7 @@ AHEAD = MIND.row(
 )
 RED_STATION = MIND.row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none")
 WAY_STATION = MIND.row("way_station", "m", "station before which the driver waits for those who go first; infinite when for nobody")
-STOOD = MIND.row("stood", "s", "how long the vehicle has stood, or all but stood", role=Role.STATE)
+STOOD = MIND.row("stood", "s", "how long the vehicle has stood, and has not driven faster than 2 m/s since", role=Role.STATE)
 HALTED = MIND.row("halted", "m", "station of the last line at which the vehicle has come to a halt", role=Role.STATE)
 FOLLOWING = MIND.row("following", "m/s²", "acceleration that traffic ahead permits")
 FOLLOW_GAP = MIND.row("follow_gap", "m", "gap to whoever ahead permits least; infinite when there is nobody")
