@@ -38,7 +38,7 @@ class Sees(NamedTuple):
     ahead_speed: Annotated[float, "m/s"] = 0.0  # of the same
     first_gap: Annotated[float, "m"] = inf  # to the car that goes first at a merge or crossing, as if it drove ahead already
     first_speed: Annotated[float, "m/s"] = 0.0  # of the same
-    stop_distance: Annotated[float, "m"] = inf  # from the front bumper to the next stop line whose light asks for a stop
+    stop_distance: Annotated[float, "m"] = inf  # from the front bumper to the next line where a light or those who go first ask for a stop
     offset: Annotated[float, "m"] = 0.0  # of the front axle from the path, left positive
     heading: Annotated[float, "rad"] = 0.0  # of the car minus that of the path at the front axle
     curvature: Annotated[float, "1/m"] = 0.0  # of the path where the car will be in a moment, left positive

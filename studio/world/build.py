@@ -23,7 +23,7 @@ from studio.world.board.equipment import units_of
 from studio.world.chart import chart_of
 from studio.world.deed import deeds_of
 from studio.world.effect import Slippery
-from studio.world.line import Lines, Zones, conflicts, detours_of, lines_of, starts, stops_of, table_of
+from studio.world.line import Lines, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.mail import mail_of
 from studio.world.obstacle import movers, obstacles_of
 from studio.world.passes import ground
@@ -36,8 +36,10 @@ from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
 from studio.world.snapshot import gather, origin_of
 from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION
-from studio.world.table.street import COLLISION, LINE_COUNT, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
-from studio.world.world import Clock, Conflicts, Events, Roads, Vehicles, World, Worlds
+from studio.world.table.street import COLLISION, LINE_COUNT, LINE_DRIVE, LINE_DRIVES, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
+from studio.world.table.web import Web
+from studio.world.web import web_of
+from studio.world.world import Clock, Events, Roads, Vehicles, World, Worlds
 
 FIRST_HITS = 64  # collisions of a world that there is room for at first
 
@@ -51,10 +53,9 @@ def build(settings: Sequence[Setting]) -> World:
     lines = lines_of(settings)
     stops = stops_of(lines, starts(np.array([len(each.network.signals) for each in settings])))
     obstacles = obstacles_of(settings, lines)
-    table = table_of(lines, stops[0], obstacles.counts)
-    known: Zones = {}
-    met = conflicts(worlds, lines.points, table[LINE_FIRST, lines.base], table[LINE_COUNT, lines.base], known)
-    roads = roads_of(settings, lines, table, stops, met)
+    web, drives = web_of(settings, lines)
+    table = table_of(lines, stops[0], obstacles.counts, drives)
+    roads = roads_of(settings, lines, table, stops, web)
     units = units_of(settings, worlds, cars, obstacles.standing.size, clock.tick)
     hosted, open_inboxes = hosts(settings, units, clock.tick)
     world = World(
@@ -65,7 +66,7 @@ def build(settings: Sequence[Setting]) -> World:
         units=units,
         events=events_of(settings),
         script=script_of(settings, worlds, lines, movers(settings, obstacles.first)),
-        detours=detours_of(settings, worlds, lines, table, known),
+        detours=detours_of(settings, worlds, lines, table),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
         queues=queues(vehicles.size),
@@ -164,8 +165,8 @@ def minded(intervention: Intervention) -> list[float]:
     return [*(float(reason in intervention.reasons) for reason in REASONS), intervention.reaction_time]
 
 
-def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, met: Conflicts) -> Roads:
-    """Points, the line that every vehicle is on, stop lines, conflicts, signals and surface."""
+def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, web: Web) -> Roads:
+    """Points, the line that every vehicle is on, stop lines, strands, signals and surface."""
     _, stop_station, stop_link = stops
     raised = [ground.is_raised(car.path) for each in settings for car in each.cars]
     return Roads(
@@ -179,7 +180,9 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
         stop_count=table[LINE_STOPS, lines.base],
         stop_station=stop_station,
         stop_link=stop_link,
-        conflicts=met,
+        web=web,
+        drive_first=table[LINE_DRIVE, lines.base],
+        drive_count=table[LINE_DRIVES, lines.base],
         **signals_of(settings),
         **surface_of(settings),
         **buildings_of(settings),

@@ -1,23 +1,18 @@
 """Lines: every path that a vehicle of a batch of worlds may take, in one array of points, with what stands along it.
 
 lines_of(settings)   →  Lines      the usual path of every vehicle, and those that lead it around works
-conflicts(...)       →  Conflicts  where the lines that are taken just now run close to each other
 """
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from studio.road.ways import conflict
 from studio.road.ways.path import Path
 from studio.world.setting import Setting
 from studio.world.way import MOST_WORKS, Way
-from studio.world.world import Conflicts, Detours, Worlds
-
-Zones = dict[tuple[int, int], np.ndarray]
+from studio.world.world import Detours, Worlds
 
 
 class Laid(NamedTuple):
@@ -72,10 +67,11 @@ def stops_of(lines: Lines, link_base: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return np.array([len(each) for each in stops]), flat[:, 0].copy(), flat[:, 1].astype(np.int64)
 
 
-def table_of(lines: Lines, stop_counts: np.ndarray, object_counts: np.ndarray) -> np.ndarray:
+def table_of(lines: Lines, stop_counts: np.ndarray, object_counts: np.ndarray, drive_counts: np.ndarray) -> np.ndarray:
     """int64[LINE, line]."""
     counts = [each.path.points.shape[1] for each in lines.laid]
-    return np.array([[each.first for each in lines.laid], counts, starts(stop_counts), stop_counts, starts(object_counts), object_counts])
+    along = [row for each in (stop_counts, object_counts, drive_counts) for row in (starts(each), each)]
+    return np.array([[each.first for each in lines.laid], counts, *along])
 
 
 def starts(counts: np.ndarray) -> np.ndarray:
@@ -83,7 +79,7 @@ def starts(counts: np.ndarray) -> np.ndarray:
     return np.concatenate([[0], np.cumsum(counts)[:-1]])
 
 
-def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table: np.ndarray, known: Zones) -> Detours:
+def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table: np.ndarray) -> Detours:
     """The vehicles whose path passes works, all on their usual path."""
     vehicles = np.array([v for v, way in enumerate(lines.ways) if way.works], dtype=np.int64)
     first = starts(np.array([len(each.sites) for each in settings]))
@@ -103,32 +99,4 @@ def detours_of(settings: Sequence[Setting], worlds: Worlds, lines: Lines, table:
         lines=table,
         span=span,
         held=np.zeros(sum(len(each.sites) for each in settings) if any(each.changes_roads for each in settings) else 0, dtype=np.int64),
-        known=known,
-    )
-
-
-def conflicts(worlds: Worlds, points: np.ndarray, path_first: np.ndarray, path_count: np.ndarray, known: Zones) -> Conflicts:
-    """Zones of every ordered pair of tracks on which vehicles of one world are now; a pair is looked at once.
-
-    A track meets itself where two vehicles of a world are on it.
-    """
-    counts = dict(zip(path_first.tolist(), path_count.tolist(), strict=True))
-    used = [Counter(path_first[first : first + count].tolist()) for first, count in zip(worlds.first, worlds.count, strict=True)]
-    pairs = {(a, b) for tracks in used for a in tracks for b in tracks if a != b or tracks[a] > 1}
-    for a, b in pairs - known.keys():
-        known[a, b] = conflict.zones(points, a, counts[a], b, counts[b])
-    meeting = sorted(pair for pair in pairs if len(known[pair]))
-    tracks, track = np.unique(path_first, return_inverse=True)
-    mine, other = np.searchsorted(tracks, np.array(meeting, dtype=np.int64).reshape(-1, 2).T)
-    queues, queue = np.unique(worlds.of * tracks.size + track, return_inverse=True)
-    queue_of = np.full(worlds.first.size * tracks.size, -1)
-    queue_of[queues] = np.arange(queues.size)
-    return Conflicts(
-        track=track,
-        queue=queue,
-        queue_of=queue_of.reshape(worlds.first.size, tracks.size),
-        partner_first=np.searchsorted(mine, np.arange(tracks.size + 1)),
-        partner=other,
-        zone_first=np.cumsum([0, *(len(known[pair]) for pair in meeting)]),
-        zone_span=np.concatenate([np.zeros((0, 4)), *(known[pair] for pair in meeting)]).T.copy(),
     )

@@ -22,7 +22,7 @@ from studio.world import condition, deed, mail, maneuver, obstacle
 from studio.world.condition import View
 from studio.world.effect import End, Limit
 from studio.world.find import Finder, finders
-from studio.world.line import Lines, conflicts, starts
+from studio.world.line import Lines, starts
 from studio.world.mail import MAIL
 from studio.world.node import Node, nodes_of
 from studio.world.setting import Setting
@@ -180,7 +180,7 @@ def choose(phase, vehicle, work, base, span, state, parameter, mind, held, choic
 
 
 def go_over(world: World, chosen: np.ndarray) -> None:
-    """Vehicles take other lines: place on it, stop lines, objects in the way, and everybody's zones."""
+    """Vehicles take other lines: place on it, stop lines, objects in the way, and strands."""
     d, o, v, r = world.detours, world.obstacles, world.vehicles, world.roads
     for j in np.flatnonzero(chosen != d.choice):
         column, old, new = d.vehicle[j], d.base[j] + d.choice[j], d.base[j] + chosen[j]
@@ -188,25 +188,15 @@ def go_over(world: World, chosen: np.ndarray) -> None:
         carry_stations(world.script, column, d.span[:, old], d.span[:, new])
         (
             r.path_first[column], r.path_count[column], r.stop_first[column], r.stop_count[column],
-            o.sweep_first[column], o.sweep_count[column],
+            o.sweep_first[column], o.sweep_count[column], r.drive_first[column], r.drive_count[column],
         ) = d.lines[:, new]  # fmt: skip
     d.choice[:] = chosen
-    meet_anew(world)
-
-
-def meet_anew(world: World) -> None:
-    """Everybody's conflicts, on the lines that are taken now."""
-    r = world.roads
-    r.conflicts = conflicts(world.worlds, r.points, r.path_first, r.path_count, world.detours.known)
-    world.ready.clear()
 
 
 def follow(world: World) -> None:
     """Makes anew what follows from phases and choices, after both have been set from outside."""
     if world.script.phase.size:
         post(world)
-    if world.detours.vehicle.size:
-        meet_anew(world)
 
 
 def carry_stations(script: Script, column: int, old: np.ndarray, new: np.ndarray) -> None:

@@ -139,9 +139,8 @@ def gather(world: World) -> tuple:
 def look(world: World) -> None:
     """Drivers find themselves on their path and see who, or what, is ahead."""
     orient(world)
-    if world.roads.conflicts.partner.size:
-        line_up(world)
-        mind_meetings(world)
+    line_up(world)
+    mind_others(world)
     if world.obstacles.standing.size:
         mind_obstacles(world)
     if world.obstacles.movers.object.size:
@@ -154,24 +153,25 @@ def orient(world: World) -> tuple:
     v, r = world.vehicles, world.roads
     stops = (r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown)
     places = world.neighbours.places
-    return traffic.orient, v.state, v.parameter, places, r.points, r.path_first, r.path_count, *stops, v.drivers, v.mind
+    return traffic.orient, world.clock.tick, v.state, v.parameter, places, r.points, r.path_first, r.path_count, *stops, v.drivers, v.mind
 
 
 @given
 def line_up(world: World) -> tuple:
-    """Who is behind whom on every track."""
-    v, q = world.vehicles, world.queues
-    return queue.sort, v.state, v.mind, world.roads.conflicts.queue, q.first, q.order, q.before, q.slowest
+    """Who is behind whom on every strand."""
+    v, r, q, w = world.vehicles, world.roads, world.queues, world.worlds
+    asked = (q.wanted, q.wanted_at, q.there, q.count)
+    drives = (r.drive_first, r.drive_count, r.web)
+    return queue.sort, v.state, v.parameter, v.mind, w.of, w.entity, *drives, q.first, q.place, q.at, *asked
 
 
 @given
-def mind_meetings(world: World) -> tuple:
-    """Who is ahead, or will be, where tracks meet."""
-    v, r, c, q, w, g = world.vehicles, world.roads, world.roads.conflicts, world.queues, world.worlds, world.neighbours
-    paths = (r.points, r.path_first, r.path_count)
-    zones = (c.track, c.queue_of, c.partner_first, c.partner, c.zone_first, c.zone_span)
-    queues = (q.first, q.order, q.slowest)
-    return traffic.meetings, v.state, v.parameter, g.places, *paths, w.of, w.number, g.longest, *zones, *queues, v.drivers, v.mind
+def mind_others(world: World) -> tuple:
+    """Who is ahead on one's strands, and who comes where they meet others."""
+    v, r, q, w, g = world.vehicles, world.roads, world.queues, world.worlds, world.neighbours
+    paths, drives = (r.points, r.path_first, r.path_count), (r.drive_first, r.drive_count, r.web)
+    numbers, queues = (w.of, w.number, w.entity), (q.first, q.place, q.at)
+    return traffic.others, v.state, v.parameter, g.places, *paths, *numbers, *drives, *queues, v.drivers, v.mind
 
 
 @given

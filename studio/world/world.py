@@ -28,6 +28,7 @@ from studio.world.seat import Seats
 from studio.world.table.mind import STEER_WISH, WISH
 from studio.world.table.street import OBJECT
 from studio.world.table.unit import PRESENT
+from studio.world.table.web import Web
 
 
 @dataclass
@@ -72,7 +73,7 @@ class Worlds:
 
 @dataclass
 class Roads:
-    """Paths as one array of points with a first point and a count per vehicle; stop lines; conflicts; signals."""
+    """Paths as one array of points with a first point and a count per vehicle; strands; stop lines; signals."""
 
     points: np.ndarray
     chart: np.ndarray  # of the roads under them
@@ -84,7 +85,9 @@ class Roads:
     stop_count: Moving
     stop_station: np.ndarray
     stop_link: np.ndarray
-    conflicts: "Conflicts"
+    web: Web
+    drive_first: Moving  # per vehicle, on the line it is on
+    drive_count: Moving
     signal_time: np.ndarray  # [cycle, offset] per link
     signal_first: np.ndarray
     signal_count: np.ndarray
@@ -98,22 +101,6 @@ class Roads:
     near: np.ndarray  # scratch: pieces around one vehicle
     place_of: np.ndarray  # number of the map, per world
     shadow: Shadow  # the buildings of all maps
-
-
-@dataclass
-class Conflicts:
-    """Where tracks run close to each other. A track is a row of points; a queue is what drives on it in one world.
-
-    The partners of track t stand from `partner_first[t]` on, the zones of the p-th of them from `zone_first[p]` on.
-    """
-
-    track: np.ndarray  # on which each vehicle is now
-    queue: np.ndarray  # in which each vehicle is now
-    queue_of: np.ndarray  # int64[world, track], -1 for none
-    partner_first: np.ndarray
-    partner: np.ndarray  # tracks
-    zone_first: np.ndarray
-    zone_span: np.ndarray  # float64[4, zone]: where it is entered and left on the track, and on its partner [m]
 
 
 class Reader(Protocol):
@@ -235,7 +222,6 @@ class Detours:
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
     held: Moving  # int64[entry]: vehicles that are still within it on the usual path
-    known: dict[tuple[int, int], np.ndarray]  # zones of pairs of tracks, by their first points
 
 
 @dataclass

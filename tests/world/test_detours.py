@@ -9,9 +9,9 @@ from studio import job
 from studio.errors import ScenarioError
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
-from studio.road.ways.conflict import zones
 from studio.road.ways.detour import STEEPEST, place_at, stations_on
 from studio.road.ways.path import PATH_CURVATURE, PATH_HEADING, PATH_SPEED, PATH_X, PATH_Y, ease
+from studio.road.ways.strand import driven as strands_on
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, X, Y
 from studio.world.build import build
@@ -90,29 +90,24 @@ def test_a_taper_eases_over_by_a_lane(closed):
     assert (new.points[PATH_SPEED, taper] <= bend[taper] + 1e-9).all()
 
 
-def test_led_paths_have_zones_of_their_own(sample):
-    """The led path and that of the lane it is led onto share a stretch; the usual ones do not."""
+def test_a_led_path_is_on_the_lane_that_it_is_led_onto(sample):
+    """Between the tapers it is on that lane alone, within them on both; the usual path never leaves its own."""
     setting = scenario(sample, WORKS, vehicles=two_lanes())
-    world = build([setting])
-    spans = []
-    for _ in range(2):
-        spans.append(shared(world.roads.conflicts, 0, 1))
-        tick(world)
-    before, after = ([(span[0], span[1]) for span in each if span[0] < 600] for each in spans)
-    assert before == []
-    ((enter, leave),) = after
+    lanes = setting.network.roads[ROAD].lanes
+    found = []
+    for path in setting.works.way(setting.cars[0].path).paths:
+        on_road = [each for each in strands_on(setting.network, path) if each.strand in lanes]
+        found.append({setting.network.lanes[each.strand].index: (each.enter, each.leave) for each in on_road if each.leave > 400})
+    usual, led = found
+    assert list(usual) == [1] and 1 in led and 2 in led
+    enter, leave = led[2]
     assert 420 < enter < 460 and 520 < leave < 560
-    paths = [world.roads.path_first, world.roads.path_count]
-    expected = zones(world.roads.points, paths[0][0], paths[1][0], paths[0][1], paths[1][1])
-    assert (np.array(spans[1]) == expected).all()
-
-
-def shared(conflicts, one, other):
-    """The zones that the tracks of two cars share."""
-    own = conflicts.track[one]
-    partners = range(conflicts.partner_first[own], conflicts.partner_first[own + 1])
-    found = [p for p in partners if conflicts.partner[p] == conflicts.track[other]]
-    return [span for p in found for span in conflicts.zone_span.T[conflicts.zone_first[p] : conflicts.zone_first[p + 1]]]
+    own = [
+        (each.enter, each.leave)
+        for each in strands_on(setting.network, setting.works.way(setting.cars[0].path).paths[1])
+        if each.strand == lanes[1]
+    ]
+    assert any(enter < left < 460 for _, left in own) and any(520 < entered < leave for entered, _ in own)
 
 
 def two_lanes():

@@ -1,5 +1,6 @@
 """Neighbours and queues against brute force: the same vehicles in the same order, in whatever batch a world runs."""
 
+from itertools import product
 from math import cos, sin
 from types import SimpleNamespace
 
@@ -13,6 +14,7 @@ from studio.vehicle.state import ACTIVE, PSI, V_X, VEHICLE, X, Y
 from studio.world.passes import neighbour, queue
 from studio.world.passes.neighbour import AT_X, AT_Y, REAR_X, REAR_Y, neighbours, within
 from studio.world.table.mind import MIND, STATION
+from studio.world.table.web import Web
 
 WORLDS = 3
 
@@ -112,18 +114,31 @@ def test_how_far_one_has_moved():
 @settings(max_examples=100, deadline=None)
 @given(n=st.integers(1, 120), seed=st.integers(0, 10_000))
 def test_a_queue_is_in_the_order_of_stations(n, seed):
-    """Whatever the order before; equal stations by number; the slowest of the rest beside each place."""
+    """Everybody stands in the queue of each strand under his body, and there only; in order, whoever has the lower number by lot first."""
     random = np.random.default_rng(seed)
-    f, mind, queues = fleet(n, seed), np.zeros((len(MIND), n)), random.integers(0, min(5, n), n)
-    mind[STATION] = np.round(random.uniform(0.0, 30.0, n))
-    f.state[V_X] = random.uniform(-1.0, 40.0, n)
-    made = queue.queues(n)
-    made.order[:] = random.permutation(n)
-    queue.sort(f.state, mind, queues, made.first, made.order, made.before, made.slowest)
-    assert sorted(made.order.tolist()) == list(range(n))
-    for number in range(min(5, n)):
-        begin, end = made.first[number], made.first[number + 1]
-        expected = [v for v in range(n) if queues[v] == number and f.state[ACTIVE, v] > 0.0]
-        assert made.order[begin:end].tolist() == sorted(expected, key=lambda v: (mind[STATION, v], v))
-        assert made.slowest[begin:end].tolist() == [f.state[V_X, made.order[i:end]].min() for i in range(begin, end)]
-        assert queue.from_station(12.0, begin, end, mind, made.order) == begin + sum(mind[STATION, v] < 12.0 for v in expected)
+    f, mind, worlds, strands = fleet(n, seed), np.zeros((len(MIND), n)), random.integers(0, 3, n), 5
+    mind[STATION], f.state[V_X] = np.round(random.uniform(0.0, 290.0, n)), 0.0
+    enter = np.tile(np.arange(strands) * 60.0, n)
+    drive = np.array([enter, enter + 60.0, np.zeros(enter.size), np.full(enter.size, 60.0)])
+    web = bare_web(drive, np.tile(np.arange(strands), n), strands)
+    made, entity = queue.queues(n), random.permutation(n)
+    queue.sort(
+        f.state, f.parameter, mind, worlds, entity, np.arange(n) * strands, np.full(n, strands), web, made.first, made.place, made.at,
+        made.wanted, made.wanted_at, made.there, made.count,
+    )  # fmt: skip
+    nose = mind[STATION] + f.parameter[FRONT]
+    tail = nose - f.parameter[LENGTH]
+    for world, strand in product(range(3), range(strands)):
+        key, low = world * strands + strand, strand * 60.0
+        there = [v for v in range(n) if worlds[v] == world and f.state[ACTIVE, v] > 0.0 and nose[v] >= low and tail[v] < low + 60.0]
+        place, end = queue.from_station(key, -np.inf, made.first, made.place, made.at)
+        found = [int(v) for number, v in made.place[[0, 1], place:end].T if number == key]
+        assert found == sorted(there, key=lambda v: (mind[STATION, v], entity[v]))
+        assert made.at[place : place + len(found)] == pytest.approx(mind[STATION, found] - low)
+
+
+def bare_web(drive, strand, count):
+    """Strands on which nobody meets others."""
+    none = np.zeros(0, np.int64)
+    nothing = np.zeros(count), np.zeros(count, np.int64), np.zeros(count + 1, np.int64), none, np.zeros((4, 0)), none, none
+    return Web(drive, strand, np.full(count, -1), *nothing)

@@ -16,12 +16,11 @@ from studio.world.passes.neighbour import Neighbours
 from studio.world.passes.queue import Queues
 from studio.world.snapshot import moving, restore, snapshot
 from studio.world.tick import tick
-from studio.world.world import Conflicts
 from tests.changing import SLOW, scenario
 from tests.conftest import ROOT
 
 SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
-ROADS, SCRIPT = ("points", "pieces", *(f"conflicts.{each.name}" for each in fields(Conflicts))), ("waiting", "acting")
+ROADS, SCRIPT = ("points", "pieces"), ("waiting", "acting")
 FOLLOWS = {*(f"world.roads.{name}" for name in ROADS), *(f"world.script.{name}" for name in SCRIPT)}  # made anew
 SORTED = {f"world.{name}.{each.name}" for name, kind in (("neighbours", Neighbours), ("queues", Queues)) for each in fields(kind)}
 SCRATCH = {
@@ -34,7 +33,7 @@ SCRATCH = {
     *(f"world.units.posts[{i}].{name}" for i in range(3) for name in ("came", "came_count")),  # from the post to the inboxes
     *SORTED,
 }
-KNOWN = {"world.detours.known", "world.roads.shadow.sky"}  # looked up once and kept: zones of pairs of lines, open sky
+KNOWN = {"world.roads.shadow.sky"}  # looked up once and kept: open sky
 
 
 def leaves(owner, path="world"):

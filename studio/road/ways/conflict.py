@@ -7,6 +7,8 @@ from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y
 
 BLOCK = 32  # points that share one bounding box
 MOST_ZONES = 64  # of one pair of paths
+ALONG, ACROSS, AGAINST = range(3)  # how the other drives there: with oneself, crossing, towards oneself
+GIVE, TAKE, EQUAL, NONE = range(4)  # who goes first where both come at once: the other, oneself, the first; they part, or follow each other
 ENTER_I, EXIT_I, ENTER_J, EXIT_J = range(4)
 
 

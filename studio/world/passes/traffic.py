@@ -1,11 +1,9 @@
 """Traffic: what the drivers of this tick see of road, lights and each other. Five passes, and what a driver sees of it.
 
-Two paths that run within a lane's width of each other share a zone: a stretch of one belongs to a stretch of the other.
-Following on one lane, merging and crossing are then one and the same: a car that is in the zone, or will be there
-first, drives ahead at the distance that the stretches give.
+Who is ahead is looked up in the queues of the strands that the own line leads over; who comes from elsewhere, where these meet others.
 """
 
-from math import cos, inf, isfinite, nan, sin, sqrt
+from math import cos, inf, isfinite, sin, sqrt
 
 from studio.compiled import inlined, lean
 from studio.kind.driver import Sees
@@ -25,19 +23,21 @@ from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, M
 from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
 from studio.world.passes.ground import touch_all
-from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN, moved, within
-from studio.world.passes.queue import from_station
+from studio.world.passes.junction import BESIDE, STANDING, has_to_let_pass, waits
+from studio.world.passes.neighbour import COS, SIN, moved, within
+from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
+from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_unseen, let_in
 from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
     BRAKE_COMFORT,
     COMFORT,
     D_PSI,
+    FIRST,
     FIRST_GAP,
     FIRST_SPEED,
     FOLLOW_GAP,
     FOLLOW_SPEED,
-    FOLLOWING,
     FRONT_OFFSET,
     GAP,
     HEADWAY,
@@ -51,8 +51,10 @@ from studio.world.table.mind import (
     STANDSTILL,
     STATION,
     STEER_WISH,
+    STOOD,
     STOPPING,
     V_DESIRED,
+    WAY_STATION,
     WISH,
     YIELDING,
 )  # fmt: skip
@@ -68,13 +70,14 @@ from studio.world.table.street import (
     SWEPT_AT,
     SWEPT_OBJECT,
 )  # fmt: skip
+from studio.world.table.web import ENTER, LEAVE
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
-HORIZON = 60.0  # [m] how far before a merge drivers mind each other
-STANDING = 0.5  # [m/s] a car slower than this, still outside, is not waited for
+HORIZON, AHEAD_TIME = 60.0, 4.0  # [m], [s] how far before a way drivers mind who meets them there
+LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives there: LOOK + v²/LOOKING
+AWAY = 2.0  # [m/s] who has become faster than this stands no more
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
-SLACK = 1e-6  # [m] by which a bound gives way to rounding
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
@@ -124,7 +127,7 @@ def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, st
 
 
 @lean
-def orient(state, parameter, places, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
+def orient(tick, state, parameter, places, points, path_first, path_count, stop_first, stop_count, stop_station, stop_link, shown,
            drivers, mind):  # fmt: skip
     """Second pass: own place on the path, permitted speed, next red light; forgets what was ahead."""
     for v in range(state.shape[1]):
@@ -138,6 +141,7 @@ def orient(state, parameter, places, points, path_first, path_count, stop_first,
         mind[RED_STATION, v] = next_red(
             v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, drivers[SIGHT, v]
         )
+        stand(v, tick, state, mind)
         forget(v, mind)
         mind[STOPPING, v] = before_line(v, state, parameter, drivers, mind)
 
@@ -154,6 +158,15 @@ def before_line(v, state, parameter, drivers, mind):
 
 
 @inlined
+def stand(v, tick, state, mind):
+    """Counts how long one stands; who only moves up stands on."""
+    if abs(state[V_X, v]) < STANDING:
+        mind[STOOD, v] += tick
+    elif abs(state[V_X, v]) > AWAY:
+        mind[STOOD, v] = 0.0
+
+
+@inlined
 def permitted_speed(v, state, points, first, count, mind):
     """Speed [m/s] that is allowed here and a little ahead."""
     here = mind[STATION, v]
@@ -161,157 +174,84 @@ def permitted_speed(v, state, points, first, count, mind):
     return min(interpolate(points, first, PATH_SPEED, clip(here, count)), interpolate(points, first, PATH_SPEED, clip(ahead, count)))
 
 
-@inlined
-def forget(v, mind):
-    """Nothing is ahead until a zone says so."""
-    mind[GAP, v] = nan
-    mind[AHEAD, v] = mind[MINDED, v] = -1.0
-    mind[AHEAD_SPEED, v] = 0.0
-    mind[FOLLOWING, v] = mind[YIELDING, v] = driver.NO_LIMIT
-    mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = inf
-
-
-@inlined
-def behind(v, gap, speed, state, drivers, mind):
-    """IDM acceleration [m/s²] of v, `gap` [m] behind something with a speed [m/s]."""
-    own = state[V_X, v]
-    return driver.following_acceleration(
-        own, mind[V_DESIRED, v], gap, own - speed, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v],
-        drivers[BRAKE_COMFORT, v],
-    )  # fmt: skip
-
-
-@inlined
-def is_least(v, permitted, mind):
-    """Whether nobody and nothing has permitted less so far."""
-    return permitted < mind[FOLLOWING, v] and permitted < mind[YIELDING, v] and permitted < mind[STOPPING, v]
-
-
-@inlined
-def follow(v, number, gap, speed, state, drivers, mind):
-    """Somebody, of this number in the world, is ahead: who permits least is minded."""
-    permitted = behind(v, gap, speed, state, drivers, mind)
-    if is_least(v, permitted, mind):
-        mind[MINDED, v] = number
-    if permitted < mind[FOLLOWING, v]:
-        mind[FOLLOWING, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v] = permitted, gap, speed
-
-
-@inlined
-def let_in(v, number, gap, speed, state, drivers, mind):
-    """Somebody, of this number in the world, goes first: who permits least is minded."""
-    permitted = max(behind(v, gap, speed, state, drivers, mind), -driver.COURTESY)
-    if is_least(v, permitted, mind):
-        mind[MINDED, v] = number
-    if permitted < mind[YIELDING, v]:
-        mind[YIELDING, v], mind[FIRST_GAP, v], mind[FIRST_SPEED, v] = permitted, gap, speed
-
-
-@inlined
-def is_in_the_way(v, other, s_guess, parameter, places, points, first, count):
-    """Whether the rear of the other car overlaps the strip that v's body will sweep along its path."""
-    _, e = project(points, first, count, places[REAR_X, other], places[REAR_Y, other], s_guess)
-    return abs(e) < 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other])
-
-
-@inlined
-def is_ahead(v, other, number, gap, state, mind):
-    """The other car, of this number in its world, is what the gap is measured to, if it is the nearest, or the first of the nearest."""
-    if not gap >= mind[GAP, v] or (gap == mind[GAP, v] and number < mind[AHEAD, v]):  # true too while the gap is not a number
-        mind[GAP, v] = gap
-        mind[AHEAD, v] = number
-        mind[AHEAD_SPEED, v] = state[V_X, other]
-
-
-@inlined
-def goes_first(v, other, d_v, d_other, zone_start, state, mind):
-    """Whether the other car, also before the zone, will be there before v: nearer, and neither waiting nor held."""
-    held = mind[RED_STATION, other] <= zone_start
-    nearer = d_other < d_v or (d_other == d_v and other < v)
-    return nearer and not held and d_other < HORIZON and state[V_X, other] > STANDING
-
-
-@inlined
-def is_unseen(v, other, state, parameter, drivers):
-    """Whether the other car is farther from the own front bumper than one sees."""
-    dx, dy = state[X, other] - state[X, v], state[Y, other] - state[Y, v]
-    reach = drivers[SIGHT, v] + parameter[FRONT, v] + parameter[LENGTH, other] - parameter[FRONT, other]
-    return dx * dx + dy * dy > reach * reach
-
-
-@inlined
-def meet(v, other, number, v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count, drivers, mind):
-    """What one zone means for v: a car that is in it, in front, is followed; one that will be there first is let in."""
-    bumper = mind[STATION, v] + parameter[FRONT, v]
-    bumper_other = mind[STATION, other] + parameter[FRONT, other]
-    rear_other = bumper_other - parameter[LENGTH, other]
-    if bumper - parameter[LENGTH, v] > v_leave or rear_other > other_leave or v_enter - bumper > HORIZON:
-        return
-    if is_unseen(v, other, state, parameter, drivers):
-        return
-    gap = (rear_other - other_enter) - (bumper - v_enter)
-    in_front = mind[STATION, other] - other_enter > mind[STATION, v] - v_enter
-    if bumper_other >= other_enter:
-        if in_front:
-            follow(v, number, gap, state[V_X, other], state, drivers, mind)
-            rear = bumper + gap
-            if gap > 0.0 and is_in_the_way(v, other, rear, parameter, places, points, first, count):
-                is_ahead(v, other, number, gap, state, mind)
-    elif bumper < v_enter and goes_first(v, other, v_enter - bumper, other_enter - bumper_other, other_enter, state, mind):
-        let_in(v, number, gap, state[V_X, other], state, drivers, mind)
-
-
-@inlined
-def asks_no_more(v, gap, speed, state, drivers, mind):
-    """Whether nobody from this gap [m] on, none slower than `speed`, can ask more of v than is asked already, or be nearer."""
-    if not gap > mind[GAP, v] or gap <= 0.0 or state[V_X, v] < 0.0:
-        return False
-    return behind(v, gap, speed, state, drivers, mind) >= mind[FOLLOWING, v]
-
-
-@inlined
-def meet_queue(v, begin, end, order, slowest, number, longest, v_enter, v_leave, other_enter, other_leave, state, parameter, places,
-               points, first, count, drivers, mind):  # fmt: skip
-    """What one zone means for v: everybody in the queue of the other track from where he may matter on.
-
-    Who is farther back than v itself will not be first, and from somewhere ahead on nobody asks more than the nearer ones.
-    """
-    bumper = mind[STATION, v] + parameter[FRONT, v]
-    if bumper - parameter[LENGTH, v] > v_leave or v_enter - bumper > HORIZON:
-        return
-    station = other_enter + (mind[STATION, v] - v_enter) - longest - SLACK
-    for place in range(from_station(station, begin, end, mind, order), end):
-        other = order[place]
-        rear = mind[STATION, other] - longest - SLACK  # or before
-        if rear > other_leave:
-            return
-        if mind[STATION, other] >= other_enter and asks_no_more(
-            v, (rear - other_enter) - (bumper - v_enter), slowest[place], state, drivers, mind
-        ):
-            return
-        if other != v:
-            meet(
-                v, other, number[other], v_enter, v_leave, other_enter, other_leave, state, parameter, places, points, first, count,
-                drivers, mind,
+@lean
+def others(state, parameter, places, points, path_first, path_count, world_of, number, entity, drive_first, drive_count, web, first,
+           place, at, drivers, mind):  # fmt: skip
+    """Third pass: for every driver who is ahead on the own strands, and whom he meets where others come near."""
+    for v in range(state.shape[1]):
+        if state[ACTIVE, v] != 0.0:
+            look_along(
+                v, state, parameter, places, points, path_first[v], path_count[v], world_of[v], number, entity, drive_first[v],
+                drive_count[v], web, first, place, at, drivers, mind,
             )  # fmt: skip
+            yield_at_line(v, state, parameter, drivers, mind)
+
+
+@inlined
+def yield_at_line(v, state, parameter, drivers, mind):
+    """Waiting before a line is giving way as well."""
+    if mind[WAY_STATION, v] < inf:
+        distance = mind[WAY_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
+        permitted = driver.stopping_acceleration(
+            state[V_X, v], distance, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v]
+        )
+        if is_least(v, permitted, mind):
+            mind[MINDED, v] = mind[FIRST, v]
+        mind[YIELDING, v] = min(mind[YIELDING, v], permitted)
 
 
 @lean
-def meetings(state, parameter, places, points, path_first, path_count, world_of, number, longest, track, queue_of, partner_first, partner,
-             zone_first, zone_span, queue_first, order, slowest, drivers, mind):  # fmt: skip
-    """Third pass: for every driver the queues on the tracks that his own meets."""
-    for v in range(state.shape[1]):
-        if state[ACTIVE, v] == 0.0:
+def look_along(v, state, parameter, places, points, path_first, path_count, world, number, entity, drive_first, drive_count, web, first,
+               place, at, drivers, mind):  # fmt: skip
+    """Strand after strand, until somebody is ahead and no way is near that is still to be decided about."""
+    station, speed = mind[STATION, v], max(state[V_X, v], 0.0)
+    bumper = station + parameter[FRONT, v]
+    rear, far, near = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING, bumper + max(HORIZON, AHEAD_TIME * speed)
+    is_open, may_go = True, True
+    for d in range(first_drive(rear, drive_first, drive_count, web), drive_first + drive_count):
+        enter, strand = web.drive[ENTER, d], web.strand[d]
+        if enter > far or not (is_open or (may_go and enter <= near)):
+            return
+        if web.drive[LEAVE, d] <= rear:
             continue
-        for p in range(partner_first[track[v]], partner_first[track[v] + 1]):
-            queue = queue_of[world_of[v], partner[p]]
-            if queue < 0 or queue_first[queue] == queue_first[queue + 1]:
-                continue
-            for z in range(zone_first[p], zone_first[p + 1]):
-                meet_queue(
-                    v, queue_first[queue], queue_first[queue + 1], order, slowest, number, longest, zone_span[0, z], zone_span[1, z],
-                    zone_span[2, z], zone_span[3, z], state, parameter, places, points, path_first[v], path_count[v], drivers, mind,
-                )  # fmt: skip
+        own = station_on(d, station, web)
+        if is_open or enter <= bumper:
+            is_open &= not is_led(
+                v, own, world * web.right.size + strand, state, parameter, places, points, path_first, path_count, number, first, place, at,
+                drivers, mind,
+            )  # fmt: skip
+        if may_go and bumper < enter and is_changed_to(d, bumper, speed, web):
+            may_go = not has_to_let_pass(
+                v, own, enter, world * web.right.size + strand, state, parameter, number, first, place, at, drivers, mind
+            )
+        if may_go and enter <= near and is_met(strand, web):
+            may_go = not waits(
+                v, d, drive_first + drive_count, own, enter - bumper, state, parameter, places, points, path_first, path_count, world,
+                number, entity, web, first, place, at, drivers, mind,
+            )  # fmt: skip
+
+
+@inlined
+def is_led(v, own, key, state, parameter, places, points, path_first, path_count, number, first, place, at, drivers, mind):
+    """Whether somebody is ahead on one strand; he is followed, and the first of them who is in the way is who is ahead."""
+    nose, found = own + parameter[FRONT, v], False
+    i, end = from_station(key, own, first, place, at)
+    while i < end and place[KEY, i] == key:
+        other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
+        if other == v or is_unseen(v, other, state, parameter, drivers):
+            continue
+        gap = there + parameter[FRONT, other] - parameter[LENGTH, other] - nose
+        if is_there == 0:
+            if own > 0.0 and gap >= BESIDE:  # somebody who will change to this lane
+                let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
+            continue
+        follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
+        found = True
+        if gap <= 0.0 or is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):
+            if gap > 0.0:
+                is_ahead(v, other, number[other], gap, state[V_X, other], mind)
+            return True
+    return found
 
 
 @lean
@@ -377,9 +317,9 @@ def sees(v, state, parameter, mind):
     front, rear = compliance(v, L_F, L_R, C_FRONT, parameter), compliance(v, L_R, L_F, C_REAR, parameter)
     return Sees(
         state[V_X, v], state[YAW_RATE, v], mind[V_DESIRED, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v], mind[FIRST_GAP, v],
-        mind[FIRST_SPEED, v], mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v], mind[FRONT_OFFSET, v], mind[D_PSI, v],
-        mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v], parameter[STEER_RATE, v], parameter[L_F, v] + parameter[L_R, v], front - rear,
-        state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v],
+        mind[FIRST_SPEED, v], min(mind[RED_STATION, v], mind[WAY_STATION, v]) - mind[STATION, v] - parameter[FRONT, v],
+        mind[FRONT_OFFSET, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v], parameter[STEER_RATE, v],
+        parameter[L_F, v] + parameter[L_R, v], front - rear, state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v],
     )  # fmt: skip
 
 

@@ -34,6 +34,9 @@ AHEAD = MIND.row(
     "ahead", "1", "number in its world of the vehicle ahead, or OBJECT - i; -1 when there is none", label="Number of the vehicle ahead"
 )
 RED_STATION = MIND.row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none")
+WAY_STATION = MIND.row("way_station", "m", "station before which the driver waits for those who go first; infinite when for nobody")
+STOOD = MIND.row("stood", "s", "how long the vehicle has stood, and has not driven faster than 2 m/s since", role=Role.STATE)
+HALTED = MIND.row("halted", "m", "station of the last line at which the vehicle has come to a halt", role=Role.STATE)
 FOLLOWING = MIND.row("following", "m/s²", "acceleration that traffic ahead permits")
 FOLLOW_GAP = MIND.row("follow_gap", "m", "gap to whoever ahead permits least; infinite when there is nobody")
 FOLLOW_SPEED = MIND.row("follow_speed", "m/s", "speed of the same")
@@ -45,6 +48,7 @@ MINDED = MIND.row(
     "OBJECT - i; -1 when nobody does, or a stop line permits less", label="Number of whom the driver minds",
 )  # fmt: skip
 STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next stop line permits")
+FIRST = MIND.row("first", "1", "number in its world of who goes first, and is waited for; -1 for nobody")
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
 NEEDED_COLLISION = MIND.row("needed_collision", "s", "since when he would brake before a collision; infinite when not", role=Role.STATE)

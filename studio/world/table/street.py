@@ -9,6 +9,8 @@ LINE_STOP = LINE.row("first_stop", "1", "its first stop line")
 LINE_STOPS = LINE.row("stops", "1", "number of its stop lines")
 LINE_OBJECT = LINE.row("first_object", "1", "first object that stands in its way")
 LINE_OBJECTS = LINE.row("objects", "1", "number of them")
+LINE_DRIVE = LINE.row("first_drive", "1", "its first drive on a strand")
+LINE_DRIVES = LINE.row("drives", "1", "number of them")
 
 BEFORE, ACTING, OVER = range(3)  # phases of an entry of the script
 

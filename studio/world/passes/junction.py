@@ -1,0 +1,314 @@
+"""Junctions: whom a driver lets go first on a way, and where he waits for it.
+
+Before the line of a way, where its strand begins, he decides whether he may go; beyond it he is committed, and others know it.
+
+    sign, ring, light    who goes first by the map is let by, unless the gap before him is long enough; a full halt first where a stop sign
+                         stands. With a green light one waits in the junction, where the ways meet
+    equal                who comes first goes first; at an all-way stop who has stood longer
+    crossed ways         are not entered while there is no room behind them
+    slow traffic         lets in whoever has waited for long, and after half a minute one takes shorter gaps
+    nobody goes          of those who have stood a while, who has stood longest goes before one who stands as well
+"""
+
+from math import sqrt
+
+from studio.compiled import inlined, lean
+from studio.model import driver
+from studio.model.passage import AFTER, arrival, is_enough, merging_headway, wanted_gap
+from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
+from studio.road.ways.path import project
+from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
+from studio.vehicle.state import V_X
+from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
+from studio.world.passes.queue import KEY, THERE, WHO, from_station
+from studio.world.passes.regard import behind, follow, is_ahead, is_in_the_way, is_unseen, let_in
+from studio.world.table.mind import (
+    BRAKE_COMFORT,
+    COMFORT,
+    FIRST,
+    HALTED,
+    RED_STATION,
+    STANDSTILL,
+    STATION,
+    STOOD,
+    V_DESIRED,
+    WAY_STATION,
+)  # fmt: skip
+from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE, SIGNAL, STOP
+
+PATIENCE = 2.0  # [s] that one stands before who has stood longer goes first
+STANDING = 0.5  # [m/s] a car slower than this stands
+HALT, AT_LINE = 0.1, 4.0  # [m/s], [m] slower than this, and so near to a line, one has halted there
+FAIR, CRAWL, GENTLE, NEAREST = 10.0, 3.0, 2.0, 1.0  # [s], [m/s], [m/s²], [m] in slow traffic who has waited so long is let in
+SLOW = 2.0  # [m/s] who drives slower than this behind a junction may leave no room
+EARLIEST = 150.0  # [m] before a place where ways meet others are looked for
+BEHIND = 60.0  # [m] behind oneself others are minded before a lane change
+BESIDE, SAFE = 1.0, 3.0  # [m], [m/s²] nearer than this is beside; harder than this nobody is made to brake by a lane change
+ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body
+AT_LIGHT = 1.0  # [m] from a line, a stop line is that of its light
+
+
+@lean
+def waits(v, d, last, own, to_line, state, parameter, places, points, path_first, path_count, world, number, entity, web, first, place, at,
+          drivers, mind):  # fmt: skip
+    """Whether a driver has to wait before the line of a strand, `to_line` [m] ahead; minds all whom he meets on it."""
+    strand = web.strand[d]
+    is_way, line = web.right[strand] != LANE and to_line >= 0.0, web.drive[ENTER, d]
+    if is_way and mind[RED_STATION, v] <= line + AT_LIGHT:
+        return True
+    must = False
+    if is_way:
+        must = has_to_halt(v, strand, line, to_line, state, web, mind)
+        if not must and web.crosses[strand] == 1:
+            must = not has_room(v, d, last, own, world, state, parameter, web, first, place, at, drivers)
+    for m in range(web.first[strand], web.first[strand + 1]):
+        if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
+            continue
+        key = world * web.right.size + web.partner[m]
+        i, end = from_station(key, web.span[ITS_ENTER, m] - EARLIEST, first, place, at)
+        while i < end and place[KEY, i] == key:
+            other, there, i = place[WHO, i], at[i], i + 1
+            if other != v and not is_unseen(v, other, state, parameter, drivers) and meet(
+                v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web,
+                drivers, mind,
+            ):  # fmt: skip
+                must, mind[FIRST, v] = True, number[other]
+    if must and is_way and driver.must_stop(state[V_X, v], to_line):
+        mind[WAY_STATION, v] = min(mind[WAY_STATION, v], line)
+        return True
+    return False
+
+
+@inlined
+def has_to_halt(v, strand, line, to_line, state, web, mind):
+    """Whether a stop sign still asks for a halt."""
+    if web.right[strand] != STOP and web.right[strand] != ALL_WAY_STOP:
+        return False
+    if to_line < AT_LINE and state[V_X, v] < HALT:
+        mind[HALTED, v] = line
+    return mind[HALTED, v] != line
+
+
+@inlined
+def has_room(v, d, last, own, world, state, parameter, web, first, place, at, drivers):
+    """Whether there is room behind a way, for those who are on it and for oneself; who drives there makes room."""
+    if d + 1 == last:
+        return True
+    queue = world * web.right.size + web.strand[d + 1]
+    i, end = from_station(queue, -EARLIEST, first, place, at)
+    while i < end and place[KEY, i] == queue:
+        other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
+        if other != v and nose >= 0.0:
+            needed = parameter[LENGTH, v] + drivers[STANDSTILL, v] + taken(v, d, own, world, parameter, web, first, place, at, drivers)
+            return state[V_X, other] >= SLOW or nose - parameter[LENGTH, other] >= needed
+    return True
+
+
+@inlined
+def taken(v, d, own, world, parameter, web, first, place, at, drivers):
+    """What those who are on a way ahead will need behind it [m]."""
+    queue, found = world * web.right.size + web.strand[d], 0.0
+    i, end = from_station(queue, own, first, place, at)
+    while i < end and place[KEY, i] == queue:
+        other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
+        if other != v and 0.0 <= nose < web.drive[END, d]:
+            found += parameter[LENGTH, other] + drivers[STANDSTILL, other]
+    return found
+
+
+@inlined
+def free(v, state, drivers, mind):
+    """Acceleration [m/s²] of one whom nobody hinders."""
+    speed = max(state[V_X, v], 0.0)
+    return max(driver.free_acceleration(speed, mind[V_DESIRED, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v]), 0.0)
+
+
+@inlined
+def comes_in(v, distance, state, drivers, mind):
+    """When one is `distance` [m] on [s], if nobody hinders him."""
+    return arrival(distance, max(state[V_X, v], 0.0), free(v, state, drivers, mind))
+
+
+# -- two who meet ----------------------------------------------------------------------------------
+
+
+@lean
+def meet(v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web, drivers,
+         mind):  # fmt: skip
+    """What one who comes where two strands meet means for v; whether v has to wait for him before the line."""
+    nose, its_nose = own + parameter[FRONT, v], there + parameter[FRONT, other]
+    its_tail = its_nose - parameter[LENGTH, other]
+    enter, its_enter, its_leave = web.span[OWN_ENTER, m], web.span[ITS_ENTER, m], web.span[ITS_LEAVE, m]
+    if its_tail > its_leave:
+        return False
+    if its_nose < its_enter:
+        return nose < enter and lets_go(
+            v, other, m, strand, enter - nose, its_enter - its_nose, its_nose, to_line, state, parameter, number, entity, web, drivers, mind
+        )
+    if web.shape[m] == ALONG:
+        mine, its = together(m, web)
+        if its_nose - its > nose - mine:
+            lead(
+                v, other, its_tail - its - (nose - mine), state[V_X, other], state, parameter, places, points, path_first, path_count,
+                number, drivers, mind,
+            )  # fmt: skip
+        return False
+    if nose >= enter or leaves_in(other, its_leave - its_tail, state) + AFTER < comes_in(v, enter - nose, state, drivers, mind):
+        return False
+    lead(v, other, enter - nose, 0.0, state, parameter, places, points, path_first, path_count, number, drivers, mind)
+    return web.turn[m] != NONE
+
+
+@inlined
+def together(m, web):
+    """A place [m] on either strand where they are one: where they part, else where they have run together."""
+    if web.turn[m] == NONE:
+        return web.span[OWN_ENTER, m], web.span[ITS_ENTER, m]
+    return web.span[OWN_LEAVE, m], web.span[ITS_LEAVE, m]
+
+
+@inlined
+def lead(v, other, gap, speed, state, parameter, places, points, path_first, path_count, number, drivers, mind):
+    """Somebody is ahead where strands meet: he is followed, and if he is in the way he is who is ahead. Who stands beside is passed."""
+    is_in = is_in_the_way(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, parameter, places, points, path_first, path_count)
+    if (
+        gap > 0.0
+        or is_in
+        or state[V_X, other] > STANDING
+        or not is_clear(
+            v,
+            other,
+            mind[STATION, v] + parameter[FRONT, v] + gap + parameter[LENGTH, other],
+            parameter,
+            places,
+            points,
+            path_first,
+            path_count,
+        )
+    ):
+        follow(v, number[other], gap, speed, state, drivers, mind)
+    if gap > 0.0 and is_in:
+        is_ahead(v, other, number[other], gap, speed, mind)
+
+
+@inlined
+def is_clear(v, other, s_guess, parameter, places, points, path_first, path_count):
+    """Whether the front of another leaves room for the own body."""
+    x = places[REAR_X, other] + parameter[LENGTH, other] * places[COS, other]
+    y = places[REAR_Y, other] + parameter[LENGTH, other] * places[SIN, other]
+    _, e = project(points, path_first, path_count, x, y, s_guess)
+    return abs(e) > 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other]) + ELBOW_ROOM
+
+
+@inlined
+def leaves_in(other, distance, state):
+    """When somebody has left a place with as much as `distance` [m] to drive [s]."""
+    return distance / max(state[V_X, other], STANDING)
+
+
+@lean
+def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, state, parameter, number, entity, web, drivers, mind):
+    """What one means who is not there yet, `its_way` [m] before it; whether v has to wait for him before the line."""
+    red = mind[RED_STATION, other] - mind[STATION, other] - parameter[FRONT, other]
+    turn, partner = web.turn[m], web.partner[m]
+    is_committed = web.right[partner] == LANE or its_nose > 0.0
+    if red <= its_way or turn == NONE or (turn == TAKE and not is_committed):
+        return False
+    its_time = comes_in(other, its_way, state, drivers, mind)
+    at_light = web.right[strand] == SIGNAL
+    if turn == GIVE and (to_line >= 0.0 or at_light):
+        if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+            return False
+        if at_light:
+            follow(v, number[other], to_enter, 0.0, state, drivers, mind)
+        return not at_light
+    if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
+        return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
+    return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
+
+
+@inlined
+def has_stood_longer(v, other, entity, mind):
+    """Whether one has stood longer than another; of those who came to stand together it is the first by lot."""
+    return mind[STOOD, v] > mind[STOOD, other] or (mind[STOOD, v] == mind[STOOD, other] and entity[v] < entity[other])
+
+
+@lean
+def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+    """Whether v may go before one who goes first: he is far enough, he will be gone, or he stands and lets v go."""
+    if state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE and has_stood_longer(v, other, entity, mind):
+        return True
+    if mind[STOOD, v] > FAIR and is_crawling(other, its_way, state):
+        return True
+    length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
+    own_time = comes_in(v, to_enter, state, drivers, mind)
+    if its_time + leaves_in(other, length, state) + AFTER < own_time:
+        return True
+    a, to_wait = free(v, state, drivers, mind), max(to_line - driver.STOP_CLOSE, 0.0)
+    across = web.span[OWN_LEAVE, m] + parameter[LENGTH, v]
+    lag = its_time - arrival(to_wait, max(state[V_X, v], 0.0), a)
+    return is_enough(lag, wanted_gap(web.critical[strand], mind[STOOD, v]), across, state[V_X, v], drivers[COMFORT, v]) and is_safe(
+        v, other, m, to_enter, its_time, own_time, a, state, parameter, web
+    )
+
+
+@inlined
+def is_safe(v, other, m, to_enter, its_time, own_time, a, state, parameter, web):
+    """Whether v has left before the other comes; where lines run together, whether he need not brake hard behind v."""
+    speed = max(state[V_X, v], 0.0)
+    if web.shape[m] == ALONG:
+        return its_time > own_time + merging_headway(state[V_X, other], sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
+    way = to_enter + web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + parameter[LENGTH, v]
+    return its_time > arrival(way, speed, a) + AFTER
+
+
+@inlined
+def is_crawling(other, its_way, state):
+    """Whether one drives so slowly, and is so far yet, that he lets somebody in who has waited for long."""
+    speed = max(state[V_X, other], 0.0)
+    return speed < CRAWL and its_way > NEAREST + speed * speed / (2.0 * GENTLE)
+
+
+@lean
+def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+    """Of two of whom none has to wait, who is there first goes first; whether v has to wait for the other before the line."""
+    own_time = comes_in(v, to_enter, state, drivers, mind)
+    if state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other]):
+        return False
+    if web.shape[m] == ALONG:
+        let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)
+        return False
+    length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
+    if its_time + leaves_in(other, length, state) + AFTER < own_time:
+        return False
+    if to_line < 0.0:
+        follow(v, number[other], to_enter, 0.0, state, drivers, mind)
+    return True
+
+
+# -- changing lanes --------------------------------------------------------------------------------
+
+
+@lean
+def has_to_let_pass(v, own, enter, key, state, parameter, number, first, place, at, drivers, mind):
+    """Whether v has to wait where it would change to a lane, since somebody there is beside it, or comes from behind too fast.
+
+    Whoever is ahead there is followed as one who goes first.
+    """
+    nose, tail, blocked = own + parameter[FRONT, v], own + parameter[FRONT, v] - parameter[LENGTH, v], False
+    i, end = from_station(key, own - BEHIND, first, place, at)
+    while i < end and place[KEY, i] == key:
+        other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
+        if other == v or is_there == 0:
+            continue
+        its_nose = there + parameter[FRONT, other]
+        if there > own:
+            gap = its_nose - parameter[LENGTH, other] - nose
+            let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
+            blocked |= gap < BESIDE
+            break
+        blocked |= tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE
+    if blocked and driver.must_stop(state[V_X, v], enter - mind[STATION, v] - parameter[FRONT, v]):
+        mind[WAY_STATION, v] = min(mind[WAY_STATION, v], enter)
+        return True
+    return False
