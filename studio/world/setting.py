@@ -19,9 +19,11 @@ from studio.kind.driver import Driver
 from studio.kind.settings import references
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
+from studio.road.network.index import once
 from studio.road.ways import path as road_path
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
 from studio.road.ways.route import all_routes, connect
+from studio.road.ways.strand import driven, strands_of
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Gps, Intervention, Scenario
@@ -42,6 +44,7 @@ from studio.world.way import MOST_WORKS, Works
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
 CAR_LENGTH = 4.5  # [m] a car that starts nearer than this to works is about to be in them
 FAR = 60.0  # [m] east plus north, beyond which no two bodies meet
+BRAKING = 15.0  # [m] before a junction no traffic starts
 TRIES = 200  # to place one traffic car
 END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
 STYLE_SPREAD = 0.1  # traffic drivers want 90 % to 110 % of the usual speed
@@ -343,9 +346,8 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
     taken = [position(car.path, car.station) for car in named]
     bodies = [footprint(car.name, car.model, car.path, car.station) for car in named]
     cars: list[Car] = []
-    ways = [way for way in through_ways(network) if len(works.way(way).works) <= MOST_WORKS] if wanted.count else []
     for i in range(wanted.count):
-        found = free_place(i, scenario, ways, taken, bodies, models[wanted.model], works)
+        found = free_place(i, scenario, network, taken, bodies, models[wanted.model], works)
         if found is None:
             raise ScenarioError(
                 "The traffic does not fit on the map.",
@@ -375,14 +377,15 @@ def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel
     return cars
 
 
-_ways: dict[str, list[road_path.Path]] = {}
+through_ways = once(all_routes)  # from every arm to every other
+_paths: dict[tuple[str, int], road_path.Path] = {}
 
 
-def through_ways(network: Network) -> list[road_path.Path]:
-    """The paths from every arm to every other, made once per map."""
-    if network.digest not in _ways:
-        _ways[network.digest] = [road_path.path(network, way) for way in all_routes(network)]
-    return _ways[network.digest]
+def through_path(network: Network, number: int) -> road_path.Path:
+    """The path of one of these ways, made when it is needed, once."""
+    if (network.digest, number) not in _paths:
+        _paths[network.digest, number] = road_path.path(network, through_ways(network)[number])
+    return _paths[network.digest, number]
 
 
 def pose(path: road_path.Path, station: float) -> tuple[float, float, float]:
@@ -433,18 +436,31 @@ def overlapping(each: Overlap, starting: Collection[str], where: str) -> Problem
     return Problem(field, f"starts where {who} starts, their outlines overlap", gap, "≥ 0 m", remedy)
 
 
-def free_place(i: int, scenario: Scenario, ways, taken, bodies, model, works: Works) -> tuple[road_path.Path, float] | None:
+def junctions(network: Network, way: road_path.Path) -> np.ndarray:
+    """From where to where a path leads through junctions, float64[2, n] [m]."""
+    lanes = strands_of(network).lanes
+    return np.array([(each.enter, each.leave) for each in driven(network, way) if each.strand >= lanes]).reshape(-1, 2).T
+
+
+def in_junction(network: Network, way: road_path.Path, station: float) -> bool:
+    """Whether a car at a station [m] would start in a junction, or so near before it that it could not let others go first."""
+    enter, leave = junctions(network, way)
+    return bool(((station > enter - CAR_LENGTH - BRAKING) & (station < leave + CAR_LENGTH)).any())
+
+
+def free_place(i: int, scenario: Scenario, network: Network, taken, bodies, model, works: Works) -> tuple[road_path.Path, float] | None:
     """A way and a station for traffic car i that keeps the spacing to all that is placed, and overlaps nobody."""
-    usable = [way for way in ways if way.length > 2 * END_CLEARANCE]
-    if not usable:
-        return None
-    for attempt in range(TRIES):
-        way = usable[int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * len(usable))]
+    count = len(through_ways(network))
+    for attempt in range(TRIES if count else 0):
+        way = through_path(network, int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count))
+        if way.length <= 2 * END_CLEARANCE or len(works.way(way).works) > MOST_WORKS:
+            continue
         station = uniform(scenario.seed_of("traffic"), i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
-        in_works = works.way(way).is_touched(station, CAR_LENGTH, works.first)
-        if near_light or in_works or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+        if near_light or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+            continue
+        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(network, way, station):
             continue
         own = footprint("", model, way, station)
         if all(depth(own, other) <= 0.0 for other in bodies if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
