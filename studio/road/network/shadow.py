@@ -305,8 +305,7 @@ def steepest_in(shadow, at, last_column, last_row, rise, x, y, dx, dy):
     for k in range(shadow.grid.first[at], shadow.grid.first[at + 1]):
         b = shadow.grid.item[k]
         height = shadow.bodies[b, TOP] - EYE
-        is_known = is_over(shadow.spans, b, last_column, last_row)
-        if height > 0.0 and not is_known and may_rise(shadow, b, height, rise, x, y, dx, dy):
+        if height > 0.0 and may_rise(shadow, b, height, rise, x, y, dx, dy) and not is_over(shadow.spans, b, last_column, last_row):
             rise = max(rise, rise_of(shadow, b, height, x, y, dx, dy))
     return rise
 

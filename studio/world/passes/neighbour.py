@@ -20,6 +20,7 @@ from studio.vehicle.state import ACTIVE, PSI, X, Y
 
 CELL = 64.0  # [m]
 SCATTER, HALF = np.uint64(0x9E3779B97F4A7C15), np.uint64(32)  # Knuth, The Art of Computer Programming 3, section 6.4
+WORTH = 8  # vehicles that may be looked at instead of one cell
 SPAN = 2**21  # cells from west to east until their numbers begin again
 FIRST, ORDER, NUMBER, BUCKET = range(4)  # rows of a grid: where buckets begin, who is in them, in which cell; a vehicle's bucket
 
@@ -32,6 +33,7 @@ REAR_X = PLACE.row("rear_x", "m", "middle of the rear bumper")
 REAR_Y = PLACE.row("rear_y", "m", "middle of the rear bumper")
 IN_X = PLACE.row("x_in_order", "m", "the same as x, of the vehicle that has this place among all that are sorted")
 IN_Y = PLACE.row("y_in_order", "m", "the same as y, of the vehicle that has this place among all that are sorted")
+IN_BOX = PLACE.row("in_box", "1", "1 for the vehicle that has this place when it is in the box that was asked for last")
 
 
 @dataclass
@@ -137,7 +139,7 @@ def within(world, x, y, c, s, back, ahead, right, left, grid, places, found):
     x, y = x + middle * c - aside * s, y + middle * s + aside * c
     half_x, half_y = half_length * abs(c) + half_width * abs(s), half_length * abs(s) + half_width * abs(c)
     low, high, bottom, top = cell_of(x - half_x), cell_of(x + half_x), cell_of(y - half_y), cell_of(y + half_y)
-    if (high - low + 1) * (top - bottom + 1) > grid.shape[1]:
+    if (high - low + 1) * (top - bottom + 1) * WORTH > grid[FIRST, grid.shape[1] - 1]:
         return within_all(world, x, y, c, s, half_length, half_width, grid, places, found)
     margin, count = 0.5 * CELL * (abs(c) + abs(s)), 0
     for column in range(low, high + 1):
@@ -161,12 +163,15 @@ def in_cell(number, x, y, c, s, half_length, half_width, grid, places, found, co
 
 @lean
 def within_all(world, x, y, c, s, half_length, half_width, grid, places, found):
-    """The same for boxes that hold more cells than there are buckets."""
-    count = 0
-    for place in range(grid[FIRST, grid.shape[1] - 1]):
+    """The same for boxes of many cells: everybody is looked at, first without a branch, as nobody can tell who will be in it."""
+    count, sorted_ = 0, grid[FIRST, grid.shape[1] - 1]
+    for place in range(sorted_):
         dx, dy = places[IN_X, place] - x, places[IN_Y, place] - y
         is_of_world = grid[NUMBER, place] // (SPAN * SPAN) == world
-        if is_of_world and is_inside(dx, dy, c, s, half_length, half_width):
+        is_in = is_of_world & (abs(dx * c + dy * s) <= half_length) & (abs(dy * c - dx * s) <= half_width)
+        places[IN_BOX, place] = 1.0 if is_in else 0.0
+    for place in range(sorted_):
+        if places[IN_BOX, place] > 0.0:
             count = insert(grid[ORDER, place], count, found)
     return count
 
