@@ -34,10 +34,12 @@ from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source
 from studio.store.runs import Row, Runs
 from studio.vehicle.fleet import rows_of
+from studio.world.channel import CHANNELS
 from studio.world.setting import Setting, check_names, setting
 from studio.world.table.event import EVENTS
 
 LARGEST_SEED = 2**63 - 1
+MOST_RECORDED = 4e9  # [B] of samples that a run may keep, all in memory until it ends
 
 
 @dataclass(frozen=True)
@@ -170,6 +172,18 @@ def prepare(loaded: Loaded) -> Setting:
         return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
 
 
+def check_recording(prepared: Setting) -> None:
+    """What a run will keep of its vehicles must have room; raises ScenarioError, before anything has begun."""
+    scenario = prepared.scenario
+    vehicles = len(prepared.cars) if scenario.recording.traffic else len(scenario.vehicles)
+    size = 8.0 * len(CHANNELS) * vehicles * scenario.clock.duration / scenario.recording.period
+    if size > MOST_RECORDED:
+        what = f"would keep {size / 1e9:.1f} GB: {vehicles} vehicles for {scenario.clock.duration:g} s"
+        remedy = "a longer recording.period, a shorter clock.duration, or recording.traffic: false"
+        problem = Problem("recording", what, f"every {scenario.recording.period:g} s", f"at most {MOST_RECORDED / 1e9:g} GB", remedy)
+        raise ScenarioError("This run would record too much.", [problem])
+
+
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
     """Content hash of what is run: the document without its seed, the map, and the vehicles with their tyres."""
     return file.digest(loaded.document, f"{prepared.network.digest} {vehicles_digest(prepared)}")
@@ -253,6 +267,7 @@ def run(
     """
     loaded = seeded(loaded, seed)
     prepared = prepare(loaded)
+    check_recording(prepared)
     number = begin(loaded, prepared, runs, parent) if runs else None
     try:
         current = simulation(prepared)

@@ -45,3 +45,13 @@ def test_a_map_that_is_read_stays_and_one_that_is_not_goes(folder):
     assert kept.recall("maps", "read") == 1
     kept.keep("maps", "new", 3)
     assert {path.stem for path in (folder / "maps").iterdir()} == {"read", "new"}
+
+
+def test_of_too_much_what_was_used_least_lately_goes(tmp_path):
+    for age, name in enumerate(("newest", "older", "oldest")):
+        (tmp_path / name).write_bytes(b"x" * 100)
+        os.utime(tmp_path / name, (1e9 - age, 1e9 - age))
+    kept.make_room(tmp_path, 250)
+    assert {path.name for path in tmp_path.iterdir()} == {"newest", "older"}
+    kept.make_room(tmp_path, -1)
+    assert not list(tmp_path.iterdir())

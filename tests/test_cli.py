@@ -341,3 +341,10 @@ def test_a_vehicle_file_is_part_of_the_scenarios_hash(tmp_path, sample, root):
         loaded = job.load(path)
         hashes.append(job.scenario_hash(loaded, job.prepare(loaded)))
     assert hashes[0] != hashes[1]
+
+
+@pytest.mark.parametrize("place", ["/dev/null", "/dev/null/cache"])
+def test_a_cache_that_cannot_be_is_told(tmp_path, monkeypatch, place):
+    monkeypatch.setenv("STUDIO_CACHE", place)
+    code, _, told = studio("runs", cwd=tmp_path)
+    assert code == 2 and "STUDIO_CACHE" in told and place in told and "Traceback" not in told

@@ -5,12 +5,14 @@ with code 1. A command imports what it needs when it is called: a list of runs n
 """
 
 import gc
+import os
 import sys
 
 import typer
 
+from studio.cache import cache_root
 from studio.cli import kind, machine, mapping, running, serving, vehicle
-from studio.errors import RunError, StudioError
+from studio.errors import Problem, RunError, StoreError, StudioError
 
 app = typer.Typer(
     help="Cooperative ADAS Studio. Without a command it serves the page.",
@@ -38,7 +40,21 @@ def main(arguments: list[str] | None = None) -> None:
         print(code_version())
         return
     try:
+        check_cache()
         app(arguments, standalone_mode=True)
     except StudioError as error:
         print(error, file=sys.stderr)
         sys.exit(1 if isinstance(error, RunError) else 2)
+
+
+def check_cache() -> None:
+    """What is compiled must be kept somewhere; raises StoreError when the folder for it cannot be made, or not be written."""
+    folder = cache_root()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        what = "" if os.access(folder, os.W_OK | os.X_OK) else "may not be written"
+    except OSError as error:
+        what = f"cannot be made: {error.strerror or error}"
+    if what:
+        problem = Problem("STUDIO_CACHE", what, str(folder), "a folder of your own", "name another folder with STUDIO_CACHE")
+        raise StoreError("There is no folder for what can be made again.", [problem])

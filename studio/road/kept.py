@@ -1,7 +1,8 @@
 """What is made from a map, kept on disk: the second time it is only read back.
 
 A file is named by the digest of everything that it is made of, so those of several versions lie side by side; what nobody reads
-for long is removed. Anything unreadable counts as nothing and is made again; a full disk only costs the next making.
+for long is removed, and of too much what was used least lately. Anything unreadable counts as nothing and is made again; a full disk
+only costs the next making.
 """
 
 import hashlib
@@ -12,6 +13,8 @@ from pathlib import Path
 
 from studio.cache import cache_root, forget_old, touch
 from studio.source import closure
+
+MOST_KEPT = 2_000_000_000  # [B] of one kind
 
 
 def digest_of(*parts: object, maker: str) -> str:
@@ -47,6 +50,7 @@ def keep(kind: str, digest: str, thing: object) -> None:
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         forget_old(target.parent)
+        make_room(target.parent, MOST_KEPT - len(body))
         handle, beside = tempfile.mkstemp(dir=target.parent)
     except OSError:
         return
@@ -56,3 +60,13 @@ def keep(kind: str, digest: str, thing: object) -> None:
         os.replace(beside, target)
     except OSError:
         Path(beside).unlink(missing_ok=True)
+
+
+def make_room(folder: Path, most: int) -> None:
+    """Removes what was used least lately, until no more than `most` [B] is left; another program may be doing the same."""
+    found = sorted(((each, each.stat()) for each in folder.iterdir()), key=lambda pair: pair[1].st_mtime, reverse=True)
+    total = 0
+    for each, about in found:
+        total += about.st_size
+        if total > most:
+            each.unlink(missing_ok=True)

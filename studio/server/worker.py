@@ -222,6 +222,7 @@ def start(pipe: Connection, order: Order) -> None:
     try:
         loaded = job.seeded(job.load(order.path, order.changes), order.seed)
         prepared = job.prepare(loaded)
+        job.check_recording(prepared)
         runs = open_runs(order.db)
         number = job.begin(loaded, prepared, runs, order.parent)
     except StudioError as error:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from studio.kind.registry import Kind
     from studio.provenance import Provenance
 
+PIECE = 200_000_000  # [B] of a file that stand in one value; SQLite takes 1e9 in a row
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 WAITS = "The result waits in {} and is taken in by the next run, as soon as the database takes it."
 KILLED = "The process that ran it ended before the run did."
@@ -147,8 +148,9 @@ class Runs:
             "runs": [{"run": run} | ending],
             "metrics": metric_rows(run, metrics),
             "events": [event_row(run, each) for each in record.happenings],
-            "traces": [{"run": run, "parquet": parquet}],
-            "messages": [{"run": run, "sent": sent, "entries": entries}],
+            "traces": [{"run": run, "parquet": parquet[:PIECE]}],
+            "messages": [{"run": run, "sent": sent[:PIECE], "entries": entries[:PIECE]}],
+            "pieces": [*pieces(run, "parquet", parquet), *pieces(run, "sent", sent), *pieces(run, "entries", entries)],
         }
         try:
             self.put(result)
@@ -165,6 +167,7 @@ class Runs:
             self.database.table("events").insert_all(result["events"])
             for name in ("traces", "messages"):
                 self.database.table(name).insert_all(result[name], pk="run", replace=True)
+            self.database.table("pieces").insert_all(result["pieces"], pk=("run", "column", "number"), replace=True)
 
     def take_in(self) -> None:
         """Takes in the results that wait beside the database; what still cannot go in waits on."""
@@ -173,7 +176,7 @@ class Runs:
                 result = waiting.read(file)
                 (row,) = result["runs"]
                 if any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]])):
-                    self.put({"metrics": [], "events": []} | result)
+                    self.put({"metrics": [], "events": [], "pieces": []} | result)
                     file.unlink()
 
     def end(self, run: int, status: str, error: str) -> None:
@@ -274,7 +277,13 @@ class Runs:
         found = self.rows("select parquet from traces where run = ?", [run])
         if not found:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
-        return found[0]["parquet"]
+        return self.whole(run, "parquet", found[0]["parquet"])
+
+    def whole(self, run: int, column: str, first: bytes) -> bytes:
+        """A file with the pieces that did not go into its first value."""
+        query = "select bytes from pieces where run = ? and column = ? order by number"
+        rest = [row["bytes"] for row in self.rows(query, [run, column])]
+        return b"".join([first, *rest]) if rest else first
 
     def record(self, run: int) -> "Record":
         """All that is kept of a run in one piece, but for the ages of links; raises UnknownError when there is none."""
@@ -293,7 +302,7 @@ class Runs:
         if not found:
             raise UnknownError(f"Run {run} has no log of messages: it did not come to its end, or an older studio ran it.")
         with self.intact(run, "messages"):
-            return message.read(found[0]["sent"], found[0]["entries"])
+            return message.read(*(self.whole(run, column, found[0][column]) for column in ("sent", "entries")))
 
     def channels(self, run: int) -> list[dict[str, str]]:
         """Recorded channels of a run; none when it has no traces."""
@@ -302,7 +311,7 @@ class Runs:
         self.find(run)
         found = self.rows("select parquet from traces where run = ?", [run])
         with self.intact(run, "traces"):
-            return trace.channels(found[0]["parquet"]) if found else []
+            return trace.channels(self.whole(run, "parquet", found[0]["parquet"])) if found else []
 
     def trace(self, run: int, names: list[str]) -> dict[str, "np.ndarray"]:
         """Time and channels of a run."""
@@ -339,6 +348,12 @@ def read_runs(path: Path) -> Runs:
 def reopen_runs(path: Path) -> Runs:
     """Another connection to a database that `open_runs` has opened before, for one request."""
     return Runs(path, reopen_database(path))
+
+
+def pieces(run: int, column: str, data: bytes) -> list[dict[str, Any]]:
+    """The rows of what of a file does not go into its first value."""
+    starts = range(PIECE, len(data), PIECE)
+    return [{"run": run, "column": column, "number": i, "bytes": data[at : at + PIECE]} for i, at in enumerate(starts)]
 
 
 def metric_rows(run: int, metrics: dict[str, Measured]) -> list[dict[str, Any]]:

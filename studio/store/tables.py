@@ -5,6 +5,7 @@
     metrics     run, name → value, unit, goal, subject, time, kind, about
     events      run → time, kind, text, vehicle, units, x, y, numbers, words
     traces      run → one Parquet file with a column per channel
+    pieces      run, column, number → the rest of a file that is too long for one value of SQLite
     messages    run → two Parquet files: what was sent, and what became of it at everybody in range
     kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
     texts       digest → text                  files of kinds, and patches; equal ones stand once
@@ -21,7 +22,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 4
+LAYOUT = 5
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -86,6 +87,7 @@ TABLES = {
     ),
     "traces": ({"run": int, "parquet": bytes}, "run", (("run", "runs", "run"),)),
     "messages": ({"run": int, "sent": bytes, "entries": bytes}, "run", (("run", "runs", "run"),)),
+    "pieces": ({"run": int, "column": str, "number": int, "bytes": bytes}, ("run", "column", "number"), (("run", "runs", "run"),)),
     "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
     "texts": ({"digest": str, "text": str}, "digest", ()),
 }  # fmt: skip

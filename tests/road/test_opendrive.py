@@ -434,6 +434,21 @@ def test_a_lane_opens_and_sections_join(tmp_path):
     assert len(way.lanes) == 2 and path(network, way).length == pytest.approx(200.0, abs=1.0)
 
 
+@pytest.mark.parametrize(("begin", "length"), [(0.2, 200.0), (100.0, 100.3), (100.0, 100.0005), (150.0, 100.0)])
+def test_a_section_may_be_shorter_than_a_car_or_lie_beyond_the_end_of_its_road(tmp_path, begin, length):
+    """Then it is a short piece, or none."""
+    lane = lanes("driving", inner=LINKED.format(-1))
+    sections = f'<laneSection s="0">{lane}</laneSection><laneSection s="{begin}">{lane}</laneSection>'
+    network = load(written(tmp_path, road(length=length, sections=sections, plan=LINE.replace("200", str(length)))))
+    assert sum(lane.length for lane in network.lanes) == pytest.approx(length, abs=0.01)
+
+
+@pytest.mark.parametrize("length", [0.1, 0.4])
+def test_a_road_shorter_than_a_stop_line_needs(tmp_path, length):
+    roads = road("1", link='<successor elementType="road" elementId="2" contactPoint="start"/>'), road("2", length=length)
+    assert load(written(tmp_path, *roads)).roads.keys() >= {"1"}
+
+
 def test_links_between_roads_follow_their_contact(tmp_path):
     """Two roads end to end, the second one drawn backwards: its left lane goes on where the first one's right lane ends."""
     there = '<link><successor id="{}"/></link>'

@@ -12,8 +12,10 @@ import pytest
 import yaml
 
 from studio import job
+from studio.errors import ServerError
 from studio.road import load
 from studio.server import maps as server_maps
+from studio.server.maps import job as map_job
 from tests.patience import PATIENCE, until
 from tests.road.test_download import RECORDED
 from tests.road.test_download import server as answering
@@ -250,6 +252,13 @@ def test_more_than_a_hundred_megabytes_are_refused(client, folder):
         refused = client.post("/api/maps?name=vast.osm", content=content)
         assert refused.status_code == 413 and "at most 100 MiB" in refused.text
     assert not leftovers(folder)
+
+
+def test_an_upload_without_room_is_refused_before_it_comes(tmp_path):
+    """One that would fill the disk by itself: there is no room for what is made of it."""
+    map_job.check_disk(tmp_path, 1000)
+    with pytest.raises(ServerError, match=r"no room(.|\n)*MB free"):
+        map_job.check_disk(tmp_path, shutil.disk_usage(tmp_path).free)
 
 
 def test_an_upload_that_breaks_off_leaves_nothing(client, folder):

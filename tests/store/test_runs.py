@@ -12,7 +12,7 @@ import pytest
 from pydantic import BaseModel
 
 from studio import job
-from studio.errors import StoreError, UnknownError
+from studio.errors import ScenarioError, StoreError, UnknownError
 from studio.execution.happening import Happening, happening
 from studio.scenario.schema import json_schema
 from studio.store import trace
@@ -213,6 +213,27 @@ def test_a_killed_run_says_so(sample, tmp_path):
     assert row.status == "killed" and "process" in row.error
     assert row.metrics == {} and runs.channels(1) == []
     assert job.run(job.load(sample, {"clock.duration": 1}), runs=runs).row.run == 2
+
+
+def test_what_is_too_long_for_one_value_stands_in_pieces(sample, tmp_path, monkeypatch):
+    """SQLite takes a thousand million bytes; here a value holds a thousand."""
+    from studio.store import runs as module
+
+    monkeypatch.setattr(module, "PIECE", 1000)
+    runs = open_runs(tmp_path / "runs.db")
+    result = job.run(job.load(sample, {"clock.duration": 1}), runs=runs)
+    assert runs.rows("select max(length(parquet)) as most from traces")[0]["most"] == 1000
+    assert runs.trace(1, ["leader.speed"])["leader.speed"].tobytes() == result.trace("leader.speed").tobytes()
+    assert runs.messages(1).kinds == result.record.messages.kinds and runs.record(1).vehicles == result.record.vehicles
+
+
+def test_what_would_not_fit_into_memory_is_refused_before_it_begins(sample, tmp_path):
+    runs = open_runs(tmp_path / "runs.db")
+    wanted = {"clock.duration": 3600, "recording.traffic": True, "traffic.count": 100}
+    with pytest.raises(ScenarioError, match=r"(?s)too much.*GB.*105 vehicles for 3600 s.*recording.period"):
+        job.run(job.load(sample, wanted), runs=runs)
+    assert runs.select() == []
+    job.check_recording(job.prepare(job.load(sample, wanted | {"recording.traffic": False})))
 
 
 def test_only_the_wanted_channels_are_kept(sample, tmp_path):

@@ -94,7 +94,7 @@ def cut(road: XRoad, limit: Limit) -> Iterator[Piece]:
     for section, end in zip(road.sections, ends, strict=True):
         cuts = {section.s, *(s for s, *_ in road.kinds), *(light.s for light in road.lights)}
         cuts |= {section.s + s for strip in section.strips.values() for s, _ in strip.speeds}
-        inside = sorted(s for s in cuts if section.s <= s < end - AT_END and (s == section.s or s > section.s + AT_END))
+        inside = sorted(s for s in cuts if s == section.s or section.s + AT_END < s < end - AT_END)
         for a, b in zip(inside, [*inside[1:], end], strict=True):
             speeds = {
                 name: speed_of(road, section, strip, a, limit) for name, strip in section.strips.items() if is_used(section, strip, end)

@@ -32,6 +32,7 @@ MOST_WAITING = 16  # imports, each with its file
 MOST_KEPT = 100  # imports that are over
 END_PATIENCE = 10.0  # [s] for folders that are being written when the server ends
 SCRATCH = ".job"  # how the folders of imports begin
+COPIES = 3  # of an upload: as it came, in its folder, and the network that is made of it
 WAITING = "waiting for other imports"
 
 
@@ -170,6 +171,7 @@ class MapJobs:
             osm.bounding_box(bbox)
         if size > osm.LARGEST_FILE:
             raise too_large()
+        check_disk(self.maps.folder.parent, size)
         scratch = await run_in_threadpool(self.scratch)
         try:
             source = scratch / f"{base}{ending}"
@@ -333,6 +335,16 @@ async def received(body: AsyncIterator[bytes], target: Path) -> None:
                 await run_in_threadpool(file.write, part)
     except OSError as error:
         raise ServerError(f"The file cannot be kept ({error.strerror or error}).") from None
+
+
+def check_disk(folder: Path, size: int) -> None:
+    """Raises ServerError when a file of this size, and what is made of it, will not find room."""
+    needed, free = COPIES * size, shutil.disk_usage(folder).free
+    if needed > free:
+        problem = Problem(
+            "disk", "has no room for the map", f"{free / 1e6:.0f} MB free", f"{needed / 1e6:.0f} MB", f"make room in {folder}"
+        )
+        raise ServerError("There is no room for this map.", [problem])
 
 
 def too_large() -> SizeError:
