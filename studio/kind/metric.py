@@ -46,6 +46,12 @@ class Moment(Part):
         return self.event is not None or self.entry is not None
 
     @model_validator(mode="after")
+    def is_in_the_run(self):
+        if self.at < 0.0 and not self.is_of_an_event:
+            raise ValueError(f"a run begins at 0 s, not at {self.at:g} s: give a later time, or an event that it is before")
+        return self
+
+    @model_validator(mode="after")
     def unit_of_an_event(self):
         if self.unit is not None and not self.is_of_an_event:
             raise ValueError("`unit` says which event is meant: give `event` or `entry` too")
