@@ -19,8 +19,10 @@ def measure_all(
 ) -> dict[str, Measured]:
     """The measures that are listed, as the scenario has them, then every metric that none of them has the name of.
 
-    One that raises measures nothing, and is told with its traceback.
+    Everything is looked at in the order of names, so that nothing hangs on the order in a scenario's file. One that raises measures
+    nothing, and is told with its traceback.
     """
+    record = record.ordered()
     known, listed = registry.known("metric"), listed or {}
     asked = {name: known[each.kind] for name, each in listed.items()} | {name: known[name] for name in known if name not in listed}
     return {name: measured(each, record, listed.get(name), tell) for name, each in asked.items()}
