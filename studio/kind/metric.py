@@ -11,7 +11,7 @@ A metric is a file with
     measure      measure(record) -> number or Found, or measure(record, settings) where it has Settings of its own
 
 `measure` gets the record of a run, cut to the window and to the vehicles that the scenario asks for, and gives one number; not a number
-where there is nothing to measure. A `Found` says besides which vehicles it is about, and when it was so.
+where there is nothing to measure. A `Found` says besides which vehicles it is about, and when it was so; or why there was nothing.
 """
 
 from math import nan
@@ -23,11 +23,15 @@ from studio.kind.settings import EntryName, Name, Part, UnitName, VehicleName, n
 
 
 class Found(NamedTuple):
-    """What a metric has found: the value, the vehicles that it is about, and when; no time where it is about the whole run."""
+    """What a metric has found: the value, the vehicles that it is about, and when; no time where it is about the whole run.
+
+    Where the value is no number, because there was nothing to measure, `why` says so in words.
+    """
 
     value: float
     subject: tuple[str, ...] = ()
     time: float = nan  # [s]
+    why: str = ""
 
 
 class Moment(Part):
