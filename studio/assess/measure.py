@@ -19,8 +19,10 @@ def measure_all(
 ) -> dict[str, Measured]:
     """The measures that are listed, as the scenario has them, then every metric that none of them has the name of.
 
-    One that raises measures nothing, and is told with its traceback.
+    Everything is looked at in the order of names, so that nothing hangs on the order in a scenario's file. One that raises measures
+    nothing, and is told with its traceback.
     """
+    record = record.ordered()
     known, listed = registry.known("metric"), listed or {}
     asked = {name: known[each.kind] for name, each in listed.items()} | {name: known[name] for name in known if name not in listed}
     return {name: measured(each, record, listed.get(name), tell) for name, each in asked.items()}
@@ -34,7 +36,7 @@ def measured(kind: Kind, record: Record, scope: Scope | None, tell: Callable[[st
         tell(f"The metric {kind.name!r} raised:\n{traceback.format_exc()}")
         found = Found(math.nan)
     if not math.isfinite(found.value):
-        return Measured(None, kind.module.UNIT, kind.module.BETTER, kind=kind.name)
+        return Measured(None, kind.module.UNIT, kind.module.BETTER, kind=kind.name, about=found.why)
     time = round(float(found.time), 6) if math.isfinite(found.time) else None
     subject, about = tuple(found.subject), told(kind, found, time)
     return Measured(float(found.value), kind.module.UNIT, kind.module.BETTER, subject, time, kind.name, about)
@@ -51,7 +53,7 @@ def found_by(kind: Kind, record: Record, scope: Scope) -> Found:
     """What a metric finds in the part of a record that it is to look at."""
     part = scoped(record, scope)
     if part is None or not part.time.size:
-        return Found(math.nan)
+        return Found(math.nan, why="its window never began" if part is None else "nothing was recorded in its window")
     found = kind.module.measure(part, scope) if hasattr(kind.module, "Settings") else kind.module.measure(part)
     return found if isinstance(found, Found) else Found(float(found))
 
@@ -72,7 +74,7 @@ def unmet(goals: dict[str, Goal], metrics: dict[str, Measured]) -> list[str]:
 def failing(name: str, goal: Goal, found: Measured | None) -> str:
     """Why a goal is not met, or nothing."""
     if found is None or found.value is None:
-        return f"{name} could not be measured"
+        return f"{name} could not be measured" + (f": {found.about}" if found and found.about else "")
     about = f" ({found.about})" if found.about else ""
     if goal.least is not None and found.value < goal.least:
         return f"{name} is {found.value:.4g} {found.unit}{about}, at least {goal.least:g} is wanted"

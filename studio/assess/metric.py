@@ -11,7 +11,7 @@ class Measured:
     """The value of a metric in a run; None when there was nothing to measure. `goal` says which direction is better.
 
     `subject` are the vehicles that it is about, `time` [s] is when; None when it is about the whole run. `kind` names the metric, and
-    `about` tells subject and time in words.
+    `about` tells subject and time in words, or why there was nothing to measure.
     """
 
     value: float | None

@@ -135,12 +135,14 @@ def check(scenario: ScenarioFile, set_: Sets = None, kinds: Kinds = None) -> Non
     """Checks a scenario file: fields, names, map, routes and starts."""
     with progress("checking"):
         from studio import job
+        from studio.execution.event import hopeless
 
         load_kinds(kinds)
         loaded = job.load(scenario, changes(set_))
         prepared = job.prepare(loaded)
     tell_migrated(loaded)
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
+    print("".join(f"note: {event.text}\n" for event in hopeless(prepared)), end="")
 
 
 @commands.command()

@@ -22,6 +22,7 @@ from studio.world.channel import CHANNELS, catalogue
 from studio.world.world import World
 
 ROW = {each.name: row for row, each in enumerate(CHANNELS)}
+NAMED = ("ahead", "minded")  # channels whose numbers stand for names
 CHUNK = 8 << 20  # [bytes] for which room is made at a time: from this size on numpy asks for large pages, which are faster to come by
 SAME_TIME = 1e-6  # [s] times that differ by less are the same
 
@@ -182,6 +183,20 @@ class Record:
             links=tuple(self.links[i] for i in links),
             ages=self.ages[links],
             messages=self.messages.part(np.ones(self.messages.time.size, dtype=bool), np.isin(self.messages.receiver, units)),
+        )
+
+    def ordered(self) -> "Record":
+        """The same with vehicles, chains, links and probes in the order of their names."""
+        rows, links = (sorted(range(len(each)), key=each.__getitem__) for each in (self.vehicles, self.links))
+        return replace(
+            self,
+            values=self.values if rows == list(range(len(rows))) else self.values[:, rows],
+            vehicles=tuple(self.vehicles[i] for i in rows),
+            chains=tuple(sorted(self.chains, key=lambda each: each.group)),
+            links=tuple(self.links[i] for i in links),
+            ages=self.ages if links == list(range(len(links))) else self.ages[links],
+            probes=dict(sorted(self.probes.items())),
+            bodies=dict(sorted(self.bodies.items())),
         )
 
     def names(self) -> list[str]:

@@ -11,7 +11,7 @@ from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.hearing import hearing
 from studio.execution.message import messages
-from studio.execution.record import Body, Mount, Record, Recorder
+from studio.execution.record import NAMED, ROW, Body, Mount, Record, Recorder
 from studio.execution.trail import Trail
 from studio.kind.sensor import Looking
 from studio.scenario.schema import Scenario
@@ -188,7 +188,7 @@ class Simulation:
         links = self.links(number)
         return Record(
             time=recorder.times(count),
-            values=recorder.values(number, count),
+            values=self.renumbered(recorder.values(number, count), number),
             vehicles=self.recorded(number),
             happenings=tuple(case.happenings),
             chains=chains(case.setting),
@@ -212,7 +212,7 @@ class Simulation:
     def record_of(self, samples: list[int]) -> Record:
         """A record of some samples of the first world only, by their numbers."""
         time, values = self.recorder.samples(samples)
-        shown = values[:, self.recorder.vehicle_share[0]]
+        shown = self.renumbered(values[:, self.recorder.vehicle_share[0]], 0)
         probes = self.recorder.traced(0, samples)
         return Record(time=time, values=shown, vehicles=self.recorded(), happenings=(), probes=probes)
 
@@ -227,9 +227,28 @@ class Simulation:
         }
 
     def called(self, number: int) -> dict[int, str]:
-        """Names of the vehicles and objects of one world by the numbers that the channel `ahead` has for them."""
-        objects = self.world.object_numbers(number)
-        return dict(enumerate(self.world.names[number])) | {each: self.world.name_of(each, number) for each in objects}
+        """Names of the vehicles and objects of one world by the numbers that the channel `ahead` has for them, in the order of names."""
+        return {new: self.world.name_of(old, number) for old, new in self.numbers(number).items()}
+
+    def numbers(self, number: int) -> dict[int, int]:
+        """The numbers of vehicles and objects in a record, which go by their names, by those that they have in the file."""
+        found = {}
+        for olds in (range(len(self.world.names[number])), self.world.object_numbers(number)):
+            by_name = sorted(olds, key=lambda old: self.world.name_of(old, number))
+            found |= dict(zip(by_name, olds, strict=True))
+        return found
+
+    def renumbered(self, values: np.ndarray, number: int) -> np.ndarray:
+        """Channels of one world, in which the numbers that stand for names are those of a record."""
+        numbers = self.numbers(number)
+        low = min([-1, *numbers])
+        new = np.arange(low, len(numbers) + 1, dtype=float)  # who is nobody stays so
+        new[np.array(list(numbers), dtype=np.int64) - low] = list(numbers.values())
+        for name in NAMED:
+            row = values[ROW[name]]
+            known = np.isfinite(row)
+            row[known] = new[row[known].astype(np.int64) - low]
+        return values
 
     def bodies(self, number: int) -> dict[str, Body]:
         """The bodies of all vehicles of one world."""

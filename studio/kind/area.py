@@ -26,6 +26,8 @@ class Area(Part):
         circle = [self.x is not None, self.y is not None, self.radius is not None]
         if [any(circle), bool(self.corners), self.road is not None].count(True) != 1 or any(circle) != all(circle):
             raise ValueError("give either `x`, `y` and `radius`, or `corners`, or `road`")
+        if crosses_itself(self.corners):
+            raise ValueError("the outline crosses itself: give its corners in the order in which one goes around it")
         if self.corners and extent(self.corners) <= 0.0:
             raise ValueError("the area has no extent: give at least three corners that do not lie on one line")
         if self.end is not None and self.end <= self.start:
@@ -33,7 +35,23 @@ class Area(Part):
         return self
 
 
+def crosses_itself(corners: list[tuple[float, float]]) -> bool:
+    """Whether two sides of a polygon that do not follow each other cross."""
+    sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
+    return any(cross(*sides[i], *sides[j]) for i in range(len(sides)) for j in range(i + 2, len(sides)) if (i, j) != (0, len(sides) - 1))
+
+
+def cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]) -> bool:
+    """Whether the ways from a to b and from c to d cross, not only touch."""
+    return side(a, b, c) * side(a, b, d) < 0.0 and side(c, d, a) * side(c, d, b) < 0.0
+
+
+def side(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
+    """On which side of the line from a to b another place is: left positive."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
 def extent(corners: list[tuple[float, float]]) -> float:
-    """Content [m²] of a polygon, of one that crosses itself what it has more on one side."""
+    """Content [m²] of a polygon."""
     pairs = zip(corners, corners[1:] + corners[:1], strict=True)
     return 0.5 * abs(sum(x * b - a * y for (x, y), (a, b) in pairs))

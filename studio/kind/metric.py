@@ -11,7 +11,7 @@ A metric is a file with
     measure      measure(record) -> number or Found, or measure(record, settings) where it has Settings of its own
 
 `measure` gets the record of a run, cut to the window and to the vehicles that the scenario asks for, and gives one number; not a number
-where there is nothing to measure. A `Found` says besides which vehicles it is about, and when it was so.
+where there is nothing to measure. A `Found` says besides which vehicles it is about, and when it was so; or why there was nothing.
 """
 
 from math import nan
@@ -23,11 +23,15 @@ from studio.kind.settings import EntryName, Name, Part, UnitName, VehicleName, n
 
 
 class Found(NamedTuple):
-    """What a metric has found: the value, the vehicles that it is about, and when; no time where it is about the whole run."""
+    """What a metric has found: the value, the vehicles that it is about, and when; no time where it is about the whole run.
+
+    Where the value is no number, because there was nothing to measure, `why` says so in words.
+    """
 
     value: float
     subject: tuple[str, ...] = ()
     time: float = nan  # [s]
+    why: str = ""
 
 
 class Moment(Part):
@@ -44,6 +48,12 @@ class Moment(Part):
     def is_of_an_event(self) -> bool:
         """Whether it waits for something to happen."""
         return self.event is not None or self.entry is not None
+
+    @model_validator(mode="after")
+    def is_in_the_run(self):
+        if self.at < 0.0 and not self.is_of_an_event:
+            raise ValueError(f"a run begins at 0 s, not at {self.at:g} s: give a later time, or an event that it is before")
+        return self
 
     @model_validator(mode="after")
     def unit_of_an_event(self):

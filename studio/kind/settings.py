@@ -11,8 +11,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple, get_args
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 from pydantic.fields import FieldInfo
+
+from studio.kind import meant
 
 
 def number(default: Any, *, unit: str, title: str, description: str = "", **bounds: Any) -> Any:
@@ -21,9 +23,10 @@ def number(default: Any, *, unit: str, title: str, description: str = "", **boun
 
 
 class Part(BaseModel):
-    """Base of all parts: unknown fields are refused, numbers must be finite."""
+    """Base of all parts: unknown fields are refused, numbers must be finite, and no texts or truth values."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, str_strip_whitespace=True)
+    is_meant = field_validator("*", mode="before")(classmethod(meant.checked))
 
 
 # -- names ---------------------------------------------------------------------------------------------

@@ -1,11 +1,13 @@
 """What pydantic finds wrong, told as ours: the field's path, what is wrong, the value, what is allowed, the nearest name."""
 
+from collections.abc import Mapping
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from studio.errors import Problem, nearest
+from studio.kind.meant import mistakes
 from studio.scenario.schema import json_schema, located
 
 MOST_TOLD = 100  # problems of one document
@@ -31,7 +33,21 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
         remedy = nearest(str(finding["loc"][-1]), fields_at(model, finding["loc"][:-1]))
     elif finding["type"] == "missing":
         what, value, remedy = "is missing", "", "add it"
+    elif finding["type"] == "mistaken":
+        remedy = "write it without quotes" if isinstance(finding["input"], str) else ""
     return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
+
+
+def of_values(model: type[BaseModel], values: Mapping[str, Any], where: str, under: str) -> list[Problem]:
+    """What is wrong with values for a model, those of it too that it would read as what they are not."""
+    found = mistakes(model, values)
+    slips = [Problem(f"{where}: {under}{name}", f"is {given}", short(value), wanted) for name, value, given, wanted in found]
+    try:
+        model.model_validate(values)
+    except ValidationError as error:
+        told = {each.where for each in slips}
+        return slips + [each for each in problems(error, where, model, under=under) if each.where not in told]
+    return slips
 
 
 def kind_problem(finding: ErrorDetails, where: str, known: list[str]) -> Problem:

@@ -324,6 +324,12 @@ class Goal(Part):
     least: float | None = Field(None, title="At least", allow_inf_nan=False)
     most: float | None = Field(None, title="At most", allow_inf_nan=False)
 
+    @model_validator(mode="after")
+    def can_be_met(self):
+        if self.least is not None and self.most is not None and self.least > self.most:
+            raise ValueError(f"no value is at least {self.least:g} and at most {self.most:g}: exchange them")
+        return self
+
 
 class Seeds(Part):
     """Seeds of single streams of chance; where none is given the scenario's counts. So one of them can be varied while the rest stays."""

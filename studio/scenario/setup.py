@@ -6,8 +6,6 @@ change(document, {path: value})        an exchange of a kind keeps the settings 
 
 from typing import Any
 
-from pydantic import ValidationError
-
 from studio.errors import Problem, ScenarioError, UnknownError
 from studio.kind import preset, registry
 from studio.scenario import edit, file, finding
@@ -37,11 +35,10 @@ def filled(where: str, path: str, group: Application) -> tuple[Application, list
         allowed = ", ".join(known) or f"none: {application.name!r} has no presets"
         return group, [Problem(f"{where}: {path}.preset", "is no preset of the application", repr(group.preset), allowed)]
     values = known[group.preset].values if group.preset else {}
-    try:
-        given = application.module.Parameters.model_validate(values | group.parameters)
-        return group.model_copy(update={"parameters": given.model_dump()}), []
-    except ValidationError as error:
-        return group, finding.problems(error, where, application.module.Parameters, under=f"{path}.parameters.")
+    values, model = values | group.parameters, application.module.Parameters
+    if wrong := finding.of_values(model, values, where, f"{path}.parameters."):
+        return group, wrong
+    return group.model_copy(update={"parameters": model.model_validate(values).model_dump()}), []
 
 
 def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from studio.execution.happening import Happening
 from studio.kind import registry
 from studio.kind.given import given
+from studio.kind.preset import presets
 from studio.scenario.text.patch import Operation, is_text
 
 Pace = float | Literal["fast"]
@@ -130,6 +131,15 @@ class Given(BaseModel):
     meaning: str
 
 
+class Preset(BaseModel):
+    """Settings of a kind that belong together, by the name that a scenario gives as `preset`."""
+
+    name: str
+    title: str
+    source: str
+    values: dict[str, Any]
+
+
 class Kind(BaseModel):
     """A kind that can be named in a scenario, and what may be set of it."""
 
@@ -142,6 +152,7 @@ class Kind(BaseModel):
         description="JSON schema of its settings, or of an application's parameters; null when it has none"
     )
     gives: list[Given]
+    presets: list[Preset]
 
 
 class BrokenKind(BaseModel):
@@ -170,6 +181,7 @@ def kind(known: registry.Kind) -> Kind:
         description=known.explanation,
         settings=known.settings.model_json_schema() if known.settings else None,
         gives=[Given(name=each.name, unit=each.unit, size=each.size, meaning=each.meaning) for each in given(known)],
+        presets=[Preset(name=name, **each._asdict()) for name, each in presets(known.module).items()],
     )
 
 

@@ -25,6 +25,7 @@ STAGE: dict[str, Any] = {
     "vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway", "body": "ahead", "value": "own.speed",
     "message": "awareness",
 }  # fmt: skip
+OTHERS = {"body": "behind", "unit": "far"}  # where settings name two of a sort
 POOL = np.array([np.arange(0.0, 40.0), np.linspace(10.0, 30.0, 40)])  # of pairs, where settings are told apart from their lists
 USUAL = {  # range of a quantity by its unit, wider than any that is met
     "m": (-10.0, 300.0), "m/s": (-10.0, 60.0), "m/s²": (-10.0, 6.0), "rad": (-0.6, 0.6), "rad/s": (-1.0, 1.0), "1/m": (-0.1, 0.1),
@@ -42,11 +43,13 @@ def settings(model: type[BaseModel], draw: np.random.Generator) -> BaseModel:
 
 def given(model: type[BaseModel], draw: np.random.Generator) -> dict[str, Any]:
     """A drawn value for every field, each for itself; names are those of the stage."""
-    schema = model.model_json_schema()["properties"]
-    return {
-        name: staged(named(field), schema[name]) or whole(field, draw) or value(schema[name], draw, name)
-        for name, field in model.model_fields.items()
-    }
+    schema, met = model.model_json_schema()["properties"], set()
+    found = {}
+    for name, field in model.model_fields.items():
+        what = named(field)
+        found[name] = staged(what, schema[name], what in met) or whole(field, draw) or value(schema[name], draw, name)
+        met.add(what)
+    return found
 
 
 def whole(field: FieldInfo, draw: np.random.Generator) -> Any:
@@ -60,9 +63,9 @@ def whole(field: FieldInfo, draw: np.random.Generator) -> Any:
     return [(10.0 * i, float(draw.uniform(0.0, 30.0))) for i in range(4)] if marks(field, Pooled) else None
 
 
-def staged(what: str, node: dict[str, Any]) -> Any:
-    """The name of the stage for a field that names something; a list of names stays as it is at first."""
-    return None if node.get("type") == "array" else STAGE.get(what)
+def staged(what: str, node: dict[str, Any], is_second: bool) -> Any:
+    """The name of the stage for a field that names something, another one for a second; a list of names stays as it is at first."""
+    return None if node.get("type") == "array" else (OTHERS.get(what) if is_second else None) or STAGE.get(what)
 
 
 def settings_tuple(module: ModuleType, settings: BaseModel) -> Any:

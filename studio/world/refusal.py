@@ -5,8 +5,6 @@ deed_problems(effect, scenario, at)   →  Problem, ...
 
 from collections.abc import Iterator
 
-from pydantic import ValidationError
-
 from studio.errors import Problem, nearest
 from studio.kind import registry
 from studio.scenario import finding
@@ -43,8 +41,7 @@ def parameter_problems(effect: Tune, scenario: Scenario, at: str) -> Iterator[Pr
     """Parameters that the application does not have, or out of their range."""
     group = scenario.applications[effect.group]
     model = registry.find("application", group.application).module.Parameters
-    try:
-        model.model_validate(group.parameters | effect.parameters)
-    except ValidationError as error:
-        where, _, path = at.partition(": ")
-        yield from finding.problems(error, where, model, under=f"{path}.parameters.")
+    where, _, path = at.partition(": ")
+    yield from finding.of_values(model, group.parameters | effect.parameters, where, f"{path}.parameters.")
+    if not effect.parameters:
+        yield Problem(f"{at}.parameters", "names no parameter", "{}", ", ".join(model.model_fields), "give those that are to change")

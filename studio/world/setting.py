@@ -231,7 +231,7 @@ def reserved(scenario: Scenario, where: str) -> list[Problem]:
 
 
 def untimely(scenario: Scenario, where: str) -> list[Problem]:
-    """Periods must be whole ticks; delays must fit into what is kept of the past."""
+    """Periods must be whole ticks; delays must fit into what is kept of the past; windows must begin within the run."""
     tick, found = scenario.clock.tick, []
     spans = {
         "clock.duration": scenario.clock.duration,
@@ -242,6 +242,11 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         ratio = period / tick
         if ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6:
             found.append(Problem(f"{where}: {path}", "is not a whole number of ticks", f"{period} s", f"n · {tick} s"))
+    for name, measure in scenario.measures.items():
+        begin = getattr(measure, "begin", None)
+        if begin is not None and not begin.is_of_an_event and begin.at >= scenario.clock.duration:
+            latest = f"< {scenario.clock.duration:g} s"
+            found.append(Problem(f"{where}: measures.{name}.begin.at", "is after the end of the run", f"{begin.at:g} s", latest))
     for name, group in scenario.applications.items():
         parts = tick / (group.cycle or tick)
         if parts < 1 - 1e-9 or abs(parts - round(parts)) > 1e-6 * parts:

@@ -179,6 +179,7 @@ def place_problems(scenario: Scenario, network: Network, where: str) -> list[Pro
             found += effect_problems(effect, place, f"{at}.do") or work_problems(effect, closed, place, f"{at}.do")
         for path, part in conditions(entry, at):
             found += station_problems(part, scenario, network, path) + ground_problems(part, place, path)
+        found += off_map_problems(entry.do, place, f"{at}.do")
         found += ground_problems(entry.do, place, f"{at}.do") + station_problems(entry.do, scenario, network, f"{at}.do")
         found += [each for effect in effects[name] for each in deed_problems(effect, scenario, f"{at}.do")]
     return found + list(overlap_problems(effects, place, where))
@@ -264,6 +265,16 @@ def ground_problems(part: Any, place: Place, at: str) -> list[Problem]:
         elif value is not None and named(field) == "signal" and value not in place.lit:
             found.append(Problem(f"{at}.{name}", "names no road of this map with lights", repr(value), remedy=nearest(value, place.lit)))
     return found
+
+
+def off_map_problems(action: Any, place: Place, at: str) -> Iterator[Problem]:
+    """Areas in which an action would do nothing; that a condition never holds in one is told as an event."""
+    for name in type(action).model_fields:
+        value = getattr(action, name)
+        if isinstance(value, Area) and value.road is None and place.is_off_map(value):
+            west, south, east, north = place.network.bounds
+            allowed = f"east {west:.0f} to {east:.0f} m, north {south:.0f} to {north:.0f} m"
+            yield Problem(f"{at}.{name}", "lies off the map", allowed=allowed)
 
 
 def area_problem(area: Area, place: Place, at: str) -> list[Problem]:

@@ -114,6 +114,9 @@ def test_measures_of_messages():
     assert found["inter_reception"].value == pytest.approx(0.2, abs=1e-6) and found["inter_reception"].subject == ("a", "b")
     first = measure_all(made, {"first": chosen(metrics["packet_delivery"])(end={"at": 0.15})})["first"]
     assert first.value == 0.5
+    far = measure_all(made, {"far": chosen(metrics["packet_delivery"])(nearest=5000)})["far"]
+    assert far.value is None and far.about == "nobody was 5000 to 100000 m from a sender, and in range of its radio"
+    assert measure_all(replace(made, messages=none()))["packet_delivery"].about == "no message was sent"
     nobody = measure_all(made, {"to_a": chosen(metrics["packet_delivery"])(vehicles=["a"])})["to_a"]
     assert nobody.value is None
 

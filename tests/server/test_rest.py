@@ -69,6 +69,8 @@ def test_kinds(client):
     assert own["source"].endswith("flawless.py") and "A radar without noise" in own["description"]
     clearance = {"name": "clearance", "unit": "m", "size": 1, "meaning": "to the rear of the car ahead"}
     assert own["gives"][0] == clearance and [each["name"] for each in own["gives"]] == ["clearance", "closing"]
+    series = {each["name"]: each for each in kinds["sensor", "front_radar"]["presets"]}["series_acc_radar"]
+    assert series["source"] and series["values"] and own["presets"] == []
     assert {"begin", "end", "vehicles"} == set(kinds["metric", "min_ttc"]["settings"]["properties"])
     assert kinds["metric", "time_exposed_ttc"]["settings"]["properties"]["limit"]["unit"] == "s"
     (broken,) = found["broken"]

@@ -143,7 +143,7 @@ def age(road, script, seconds=6.0, **parts):
 def test_the_radio_is_jammed_in_an_area(road):
     """While the entry acts and the unit is in the area its messages grow old; before and after they are young."""
     x, y = (float(each) for each in build([prepared(road, {})]).vehicles.state[:2, 1])
-    near, far = {"x": x, "y": y, "radius": 500.0}, {"x": x, "y": y - 1000.0, "radius": 50.0}
+    near, far = {"x": x, "y": y, "radius": 500.0}, {"x": x + (400.0 if x < 0.0 else -400.0), "y": y, "radius": 50.0}
     usual = age(road, {})
     jammed = age(road, {"jam": entry(2, 4, "jam", area=near)})
     beside = age(road, {"jam": entry(2, 4, "jam", area=far)})
@@ -175,7 +175,7 @@ def test_messages_are_sent_received_and_lost(road):
     times, _ = marked(road, {
         "sent": {"was": "sent", "sender": "front"},
         "came": {"was": "received", "message": "awareness", "sender": "front", "receiver": "own"},
-        "wrong_way": {"was": "received", "sender": "own", "receiver": "own"},
+        "wrong_way": {"was": "received", "sender": "own", "receiver": "front"},
         "lost": {"was": "lost", "sender": "front", "receiver": "own"},
     }, script={"drop": entry(1.5, None, "drop_messages", unit="front", count=3)})  # fmt: skip
     assert np.diff(times["sent"]) == pytest.approx(0.1) and 28 <= len(times["sent"]) <= 30

@@ -45,6 +45,27 @@ def test_a_hard_brake_names_whom_the_driver_minds(road):
     assert named["car"] == ("standing",)
 
 
+def test_numbers_of_a_record_go_by_names(road):
+    """Whatever the order in the file: nearest 1, standing 2, after them the objects of the script, from -2 on downwards."""
+    script = {
+        name: {"do": {"kind": "mover", "who": "box", "route": "way", "line": [[at, 20.0]]}} for name, at in (("zed", 300), ("ann", 320))
+    }
+    told = []
+    for turn in (1, -1):
+        document = yaml.safe_load(road.read_text(encoding="utf-8")) | {"script": dict(list(script.items())[::turn])}
+        document["vehicles"] = dict(list(document["vehicles"].items())[::turn])
+        turned = road.with_name("turned.yaml")
+        turned.write_text(yaml.safe_dump(document, sort_keys=False), encoding="utf-8")
+        made = job.run(job.load(turned))
+        told.append(made)
+        assert made.record.called == {0: "car", 1: "nearest", 2: "standing", -2: "ann", -3: "zed"}
+        assert set(made.record.trace("car.ahead")[1:-1]) <= {1.0} and made.record.trace("car.minded")[1] == 2.0
+    one, other = told
+    assert one.metrics == other.metrics
+    for name in one.record.names():
+        assert one.record.trace(name).tobytes() == other.record.trace(name).tobytes(), name
+
+
 def test_where_an_application_brakes_the_nearest_is_named(road):
     """It does not ask whom the driver minds."""
     acc = {"application": "acc", "units": ["car"], "parameters": {"headway": 0.8}}

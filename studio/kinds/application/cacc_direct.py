@@ -13,7 +13,8 @@ With k_a = 1 and cars that do what they are asked the speeds follow each other b
 so the gain is below 1 at every frequency, and the lag that of the message; a car of Ploeg's law (cacc) comes a headway later. The price
 is the spacing, which is off until the slow poles have brought it back.
 
-When the link is silent for longer than `timeout`, the feed-forward is dropped and the headway rises to `fallback_headway`.
+When the link is silent for longer than `timeout`, the feed-forward is dropped and the headway rises to `fallback_headway`, by 0.1 s
+in a second, as one that is tuned does.
 """
 
 from typing import Annotated, NamedTuple

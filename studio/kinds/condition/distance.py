@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from studio.compiled import compiled
 from studio.kind.settings import BodyName, Part, number
@@ -19,6 +19,12 @@ class Settings(Part):
     other: BodyName = Field(..., title="The other")
     side: Literal["above", "below"] = Field("below", title="Side", description="of the distance")
     distance: float = number(..., unit="m", title="Distance", description="between their outlines; 0 while they touch", ge=0, le=10_000)
+
+    @model_validator(mode="after")
+    def are_two(self):
+        if self.vehicle == self.other:
+            raise ValueError(f"`vehicle` and `other` are both {self.vehicle!r}: nobody has a distance to himself; name two")
+        return self
 
 
 @compiled

@@ -5,7 +5,7 @@ A message is lost for a unit when it is sent and will not come in: by chance, be
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from studio.compiled import compiled
 from studio.kind.settings import MessageName, Part, UnitName
@@ -23,6 +23,12 @@ class Settings(Part):
     message: MessageName | None = Field(None, title="Kind of message", description="left out: any")
     sender: UnitName | None = Field(None, title="From", description="left out: anybody")
     receiver: UnitName | None = Field(None, title="To", description="left out: anybody; of a message that was sent nothing is asked")
+
+    @model_validator(mode="after")
+    def are_two(self):
+        if self.sender is not None and self.sender == self.receiver and self.was != "sent":
+            raise ValueError(f"`sender` and `receiver` are both {self.sender!r}: nobody hears himself; name two, or leave one out")
+        return self
 
 
 @compiled

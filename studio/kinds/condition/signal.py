@@ -29,6 +29,11 @@ class Settings(Part):
         return self
 
 
+def never(settings, place):
+    """Not where there are none."""
+    return "" if place.lit else "there are no lights on this map"
+
+
 @compiled
 def next_light(view, v):
     """The number of the first light ahead of a vehicle's front; -1 when there is none."""

@@ -4,7 +4,7 @@ Without `other` it is that to what is ahead on the own path, bumper to bumper (J
 scale of danger, 1972); with it that between the outlines of the two, each going straight on.
 """
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from studio.compiled import compiled
 from studio.kind.settings import BodyName, Part, VehicleName, number
@@ -23,6 +23,12 @@ class Settings(Part):
     vehicle: VehicleName = Field(..., title="Vehicle")
     other: BodyName | None = Field(None, title="The other", description="left out: what is ahead on the path of the vehicle")
     below: float = number(..., unit="s", title="Time below", gt=0, le=60)
+
+    @model_validator(mode="after")
+    def are_two(self):
+        if self.vehicle == self.other:
+            raise ValueError(f"`vehicle` and `other` are both {self.vehicle!r}: nobody hits himself; name another, or leave `other` out")
+        return self
 
 
 @compiled

@@ -5,6 +5,7 @@ What the drive puts in, over how the vehicles went; engines and motors need more
 """
 
 from studio.assess.effort import energy_of
+from studio.assess.total import total
 
 KIND = "metric"
 TITLE = "Energy at the wheels"
@@ -14,4 +15,4 @@ BETTER = "lower"
 
 def measure(record):
     """Energy [J]."""
-    return energy_of(record).sum()
+    return total(energy_of(record))

@@ -4,9 +4,10 @@ Jerk is the change of acceleration over 0.2 s (studio/assess/comfort.py says why
 acceleration itself.
 """
 
-import numpy as np
+from math import sqrt
 
 from studio.assess.comfort import WINDOW, is_long_enough, jerk
+from studio.assess.total import mean
 
 KIND = "metric"
 TITLE = "Jerk of the followers, root mean square"
@@ -18,4 +19,4 @@ def measure(record):
     """Jerk [m/s³]; nothing when the record is shorter than the window."""
     if not is_long_enough(record.time, WINDOW):
         return float("nan")
-    return np.sqrt(np.nanmean(jerk(record.of_followers("acceleration"), record.time) ** 2))
+    return sqrt(mean(jerk(record.of_followers("acceleration"), record.time) ** 2))

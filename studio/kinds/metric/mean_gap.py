@@ -1,6 +1,6 @@
 """Mean gap of the followers, while somebody is ahead: how much road a platoon needs."""
 
-import numpy as np
+from studio.assess.total import mean
 
 KIND = "metric"
 TITLE = "Mean gap of the followers"
@@ -10,5 +10,4 @@ BETTER = "lower"
 
 def measure(record):
     """Gap [m]; nothing when nobody followed anybody."""
-    gap = record.of_followers("gap")
-    return np.mean(gap[np.isfinite(gap)]) if np.isfinite(gap).any() else float("nan")
+    return mean(record.of_followers("gap"))

@@ -14,6 +14,7 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import Field, model_validator
 
 from studio.compiled import compiled
+from studio.kind.area import crosses_itself, extent
 from studio.kind.preset import Preset
 from studio.kind.settings import Part, number
 from studio.model.radio import arrival, cell
@@ -57,15 +58,11 @@ class Settings(Part):
     @model_validator(mode="after")
     def has_extent(self) -> "Settings":
         """A polygon covers something."""
-        if self.coverage == "polygon" and area(self.corners) == 0.0:
+        if self.coverage == "polygon" and crosses_itself(self.corners):
+            raise ValueError("corners: the outline crosses itself: give its corners in the order in which one goes around it")
+        if self.coverage == "polygon" and extent(self.corners) == 0.0:
             raise ValueError("corners: a polygon has at least three corners and an area, such as [[0, 0], [500, 0], [500, 300]]")
         return self
-
-
-def area(corners: list[tuple[float, float]]) -> float:
-    """That of a polygon [m²]."""
-    around = zip(corners, corners[1:] + corners[:1], strict=True)
-    return 0.5 * abs(sum(x * y_2 - x_2 * y for (x, y), (x_2, y_2) in around))
 
 
 class Cell(NamedTuple):

@@ -31,8 +31,9 @@ GAP = MIND.row(
 )  # fmt: skip
 AHEAD_SPEED = MIND.row("ahead_speed", "m/s", "speed of what is ahead", label="Speed of the car ahead")
 AHEAD = MIND.row(
-    "ahead", "1", "number in its world of the vehicle ahead, or OBJECT - i; -1 when there is none", label="Number of the vehicle ahead"
-)
+    "ahead", "1", "number of the vehicle ahead, in a record in the order of names, or -2 - i of an object; -1 when there is none",
+    label="Number of the vehicle ahead",
+)  # fmt: skip
 RED_STATION = MIND.row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none")
 WAY_STATION = MIND.row("way_station", "m", "station before which the driver waits for those who go first; infinite when for nobody")
 STOOD = MIND.row("stood", "s", "how long the vehicle has stood, and has not driven faster than 2 m/s since", role=Role.STATE)
@@ -44,8 +45,8 @@ YIELDING = MIND.row("yielding", "m/s²", "acceleration that cars permit which re
 FIRST_GAP = MIND.row("first_gap", "m", "gap to the one of these that permits least, as if it drove ahead; infinite when there is none")
 FIRST_SPEED = MIND.row("first_speed", "m/s", "speed of the same")
 MINDED = MIND.row(
-    "minded", "1", "number in its world of the vehicle that permits the driver least, ahead or first at a merge or crossing, or "
-    "OBJECT - i; -1 when nobody does, or a stop line permits less", label="Number of whom the driver minds",
+    "minded", "1", "number, as of `ahead`, of the vehicle or object that permits the driver least, ahead or first at a merge or "
+    "crossing; -1 when nobody does, or a stop line permits less", label="Number of whom the driver minds",
 )  # fmt: skip
 STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next stop line permits")
 FIRST = MIND.row("first", "1", "number in its world of who goes first, and is waited for; -1 for nobody")

@@ -91,7 +91,7 @@ describe("the form", () => {
         until: { anyOf: [{ oneOf: [time], sort: "condition" }, { type: "null" }], title: "Until" },
       },
     };
-    const kind = (sort: string, name: string) => ({ sort, name, title: name, description: "", source: "", settings: null, gives: [] });
+    const kind = (sort: string, name: string) => ({ sort, name, title: name, description: "", source: "", settings: null, gives: [], presets: [] });
     const happening = {
       ...source(),
       kinds: [kind("action", "limit"), kind("action", "friction"), kind("condition", "time"), kind("condition", "gap")],

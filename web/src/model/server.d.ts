@@ -1025,6 +1025,8 @@ export interface components {
             } | null;
             /** Gives */
             gives: components["schemas"]["Given"][];
+            /** Presets */
+            presets: components["schemas"]["Preset"][];
         };
         /**
          * Kinds
@@ -1960,6 +1962,22 @@ export interface components {
              * @description [m]
              */
             height: number;
+        };
+        /**
+         * Preset
+         * @description Settings of a kind that belong together, by the name that a scenario gives as `preset`.
+         */
+        Preset: {
+            /** Name */
+            name: string;
+            /** Title */
+            title: string;
+            /** Source */
+            source: string;
+            /** Values */
+            values: {
+                [key: string]: unknown;
+            };
         };
         /**
          * Problem

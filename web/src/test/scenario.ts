@@ -130,6 +130,7 @@ const kind = (sort: string, name: string, title: string, description: string, pr
   source: "built in",
   settings: { type: "object", properties } as Schema,
   gives: [],
+  presets: [],
 });
 
 export const kinds: KnownKind[] = [
