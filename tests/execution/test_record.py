@@ -9,6 +9,7 @@ from studio import job
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.simulation import simulation
 from studio.road.ways.path import PATH_SPEED
+from tests.changing import scenario
 
 
 def result(sample, **changes):
@@ -79,14 +80,32 @@ def test_an_entry_of_the_script_may_have_any_name(sample):
     assert [event.time for event in run.cases[0].happenings if event.kind == "script_begun"] == [0.5]
 
 
+def test_who_is_between_is_told(sample):
+    """Somebody drives between a car and the one that it listens to, and is taken away at 3 s."""
+    vehicles = {
+        name: {"route": "east_to_west", "position": {"along": along}, "speed": 8.0}
+        for name, along in {"leader": 150, "stranger": 130, "follower_1": 100}.items()
+    }
+    platoon = {"platoon": {"application": "cacc", "units": ["follower_1"], "listens_to": ["leader"]}}
+    script = {"gone": {"when": {"kind": "time", "at": 3}, "do": {"kind": "remove", "vehicle": "stranger"}}}
+    run = simulation(
+        scenario(sample, script, alone=False, vehicles=vehicles, applications=platoon, traffic={"count": 0}, clock={"duration": 4})
+    )
+    as_fast_as_possible(run)
+    told = {event.text: (event.vehicle, event.time) for event in run.cases[0].happenings if "between" in event.text}
+    assert told == {
+        "stranger is between it and leader": ("follower_1", pytest.approx(0.0, abs=0.1)),
+        "nobody is between it and leader any more": ("follower_1", pytest.approx(3.0, abs=0.1)),
+    }
+
+
 def test_what_happens_to_the_platoon_is_told(sample):
-    """A driver minds a light, so that somebody comes between; a car waits at red: at the times at which the traces say so."""
+    """A driver minds a light, and takes over; a car waits at red: at the times at which the traces say so."""
     minding = {"reasons": ["red_light", "right_of_way"], "reaction_time": 0.5}
     run = job.run(job.load(sample, {"vehicles.follower_4.intervention": minding}))
     told = {(event.vehicle, event.text): event.time for event in run.record.happenings}
     waits = told["leader", "waits at a red light"]
     assert np.interp(waits, run.time, run.trace("leader.speed")) < 0.15
-    assert any("is between it and" in text for _, text in told)
     takes_over = told["follower_4", "driver takes over: red light"]
     acting = run.trace("follower_4.intervening")
     assert run.time[acting == 1.0][0] == pytest.approx(takes_over)
