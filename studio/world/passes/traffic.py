@@ -111,12 +111,19 @@ def clip(s, count):
 
 
 @inlined
+def will_stop(v, distance, station, state, mind):
+    """Whether the driver stops for a light that is not green; who has decided to at a tick before stays with it."""
+    decided = mind[RED_STATION, v] == station and driver.can_stop(state[V_X, v], distance)
+    return decided or driver.must_stop(state[V_X, v], distance)
+
+
+@inlined
 def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown, sight):
     """Station [m] of the next stop line in sight ahead of the bumper that shows no green and at which the driver will stop."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     for i in range(stop_first, stop_first + stop_count):
         distance = stop_station[i] - bumper
-        if 0.0 < distance <= sight and shown[stop_link[i]] != GREEN and driver.must_stop(state[V_X, v], distance):
+        if 0.0 < distance <= sight and shown[stop_link[i]] != GREEN and will_stop(v, distance, stop_station[i], state, mind):
             return stop_station[i]
     return inf
 

@@ -33,7 +33,12 @@ AHEAD_SPEED = MIND.row("ahead_speed", "m/s", "speed of what is ahead", label="Sp
 AHEAD = MIND.row(
     "ahead", "1", "number in its world of the vehicle ahead, or OBJECT - i; -1 when there is none", label="Number of the vehicle ahead"
 )
-RED_STATION = MIND.row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none")
+RED_STATION = MIND.row(
+    "red_station",
+    "m",
+    "station of the next stop line without green at which the driver stops; infinite when there is none",
+    role=Role.STATE,
+)
 FOLLOWING = MIND.row("following", "m/s²", "acceleration that traffic ahead permits")
 FOLLOW_GAP = MIND.row("follow_gap", "m", "gap to whoever ahead permits least; infinite when there is nobody")
 FOLLOW_SPEED = MIND.row("follow_speed", "m/s", "speed of the same")
