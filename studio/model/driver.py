@@ -13,7 +13,7 @@ from studio.compiled import compiled
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STOP_FIRM = 4.0  # [m/s²] a driver who would have to brake harder than this for an amber drives on
 STOP_HARD = 7.0  # [m/s²] and one who has decided to stop does so while no more than this is needed
-STOP_CLOSE = 2.0  # [m] where a driver stops before the line
+STOP_CLOSE, STOP_LAST = 2.0, 0.5  # [m] where a driver stops before the line; and where at the latest
 BRAKE_TIME = 0.3  # [s] that brakes take, which a driver knows
 ROLLING_OUT = 1.0  # [s] time constant of the last metres
 NEARLY = 0.1  # [m] from there on a driver lets the car come to rest
@@ -64,24 +64,21 @@ def can_stop(v, distance):
 
 
 @compiled
-def braking_needed(v, distance, b):
-    """Deceleration [m/s²] that brings a car to rest at its place before the line, once its brakes have taken hold.
-
-    No more than STOP_FIRM, unless the line itself takes more: rather a place that is missed by a little.
-    """
-    at_place = v * v / (2.0 * max(distance - STOP_CLOSE - v * BRAKE_TIME, NEARLY))
-    return min(at_place, max(v * v / (2.0 * max(distance, NEARLY)), max(STOP_FIRM, b)))
+def braking_needed(v, distance):
+    """Deceleration [m/s²] that brings a car to rest within a distance [m]."""
+    return v * v / (2.0 * max(distance, NEARLY))
 
 
 @compiled
 def stopping_acceleration(v, distance, a, b):
     """Acceleration [m/s²] towards a stop line `distance` [m] ahead of the front bumper.
 
-    Like the IDM it lets the deceleration d that is needed rise to the comfortable b: u = a - (a + b) d²/b² while d < b. From there on it
-    is d, which then stays what it is. The last metres are rolled out.
+    Like the IDM it lets the deceleration d that is needed, once the brakes have taken hold, rise to the comfortable b, with
+    u = a - (a + b) d²/b² while d < b. From there on it is d, which then stays what it is, and no more than STOP_FIRM unless the line
+    itself takes more: rather a place that is missed by a little. The last metres are rolled out.
     """
-    if distance - STOP_CLOSE < NEARLY:
-        return -max(v * v / (2.0 * max(distance, NEARLY)), b)
-    d = braking_needed(v, distance, b)
-    last = ((distance - STOP_CLOSE) / ROLLING_OUT - v) / SETTLING
-    return -d if d > b else min(a - (a + b) * d * d / (b * b), last)
+    left, line = distance - STOP_CLOSE, braking_needed(v, distance - STOP_LAST)
+    if left < NEARLY:
+        return -max(line, b)
+    d = min(braking_needed(v, left - v * BRAKE_TIME), max(line, max(STOP_FIRM, b)))
+    return -d if d > b else min(a - (a + b) * d * d / (b * b), (left / ROLLING_OUT - v) / SETTLING)
