@@ -12,7 +12,11 @@ from studio.compiled import compiled
 
 COURTESY = 3.0  # [m/s²] strongest braking for a car that only will be first
 STOP_FIRM = 4.0  # [m/s²] a driver who would have to brake harder than this for an amber drives on
-STOP_CLOSE = 2.0  # [m] where a driver stops before the line
+STOP_HARD = 7.0  # [m/s²] and one who has decided to stop does so while no more than this is needed
+STOP_CLOSE, STOP_LAST = 2.0, 0.5  # [m] where a driver stops before the line; and where at the latest
+BRAKE_TIME = 0.3  # [s] that brakes take, which a driver knows
+ROLLING_OUT = 1.0  # [s] time constant of the last metres
+NEARLY = 0.1  # [m] from there on a driver lets the car come to rest
 SETTLING = 0.7  # [s] in which a speed above the desired one dies away
 REACTION = 1.0  # [s] from seeing to braking
 FOG, FOG_SPEED = 50.0, 50.0 / 3.6  # [m], [m/s]
@@ -49,12 +53,32 @@ def following_acceleration(v, v_desired, gap, closing, s_0, T, a, b):
 
 @compiled
 def must_stop(v, distance):
-    """Whether a driver at v [m/s] who sees a light that is not green `distance` [m] ahead stops for it."""
-    return v * v < 2.0 * STOP_FIRM * max(distance, 0.0)
+    """Whether a driver at v [m/s] who sees a light `distance` [m] ahead that is not green decides to stop: v t + v²/(2 b) is there."""
+    return v * BRAKE_TIME + v * v / (2.0 * STOP_FIRM) < distance - min(STOP_CLOSE, 0.5 * distance)
 
 
 @compiled
-def stopping_acceleration(v, distance, s_0, T, a, b):
-    """Acceleration [m/s²] towards a stop line `distance` [m] ahead of the front bumper."""
-    pressure = desired_gap(v, v, STOP_CLOSE, 0.0, a, b) / max(distance, 0.1)
-    return a * (1.0 - pressure * pressure)
+def can_stop(v, distance):
+    """Whether a driver who has decided to stop stays with it: brakes and road would do it."""
+    return v * v < 2.0 * STOP_HARD * distance
+
+
+@compiled
+def braking_needed(v, distance):
+    """Deceleration [m/s²] that brings a car to rest within a distance [m]."""
+    return v * v / (2.0 * max(distance, NEARLY))
+
+
+@compiled
+def stopping_acceleration(v, distance, a, b):
+    """Acceleration [m/s²] towards a stop line `distance` [m] ahead of the front bumper.
+
+    Like the IDM it lets the deceleration d that is needed, once the brakes have taken hold, rise to the comfortable b, with
+    u = a - (a + b) d²/b² while d < b. From there on it is d, which then stays what it is, and no more than STOP_FIRM unless the line
+    itself takes more: rather a place that is missed by a little. The last metres are rolled out.
+    """
+    left, line = distance - STOP_CLOSE, braking_needed(v, distance - STOP_LAST)
+    if left < NEARLY:
+        return -max(line, b)
+    d = min(braking_needed(v, left - v * BRAKE_TIME), max(line, max(STOP_FIRM, b)))
+    return -d if d > b else min(a - (a + b) * d * d / (b * b), (left / ROLLING_OUT - v) / SETTLING)

@@ -5,12 +5,25 @@ A shift is: open the clutch over the old gear's time, wait while it is open, eng
 up and one down per gear; the distance between them is the hysteresis.
 """
 
+from math import sqrt
+
 from studio.compiled import compiled
 
 TOUCH = 0.01  # [1] pedal position that counts as pressed
 DRAGS = 1.7  # [1] of the idle speed, above which a clutch closes with the pedal lifted
 SLACK = 0.05  # [m/s²] that a higher gear may lose
+CALMING = 5.0  # [s] after which half of a full pedal is forgotten
 WALKING = 1.0  # [m/s] above this nobody shifts between forward and reverse
+
+
+@compiled
+def kept(before, pedal, dt):
+    """Pedal position [1] by which the schedule shifts up: what it was more before, d, fades as dd/dt = -d²/CALMING.
+
+    So a swing of the pedal shifts nothing, and one that is left for good is soon forgotten.
+    """
+    over = max(before - pedal, 0.0)
+    return pedal + over - over * over * dt / CALMING
 
 
 @compiled
@@ -30,6 +43,12 @@ def automatic(gear, top, w_in, up, down):
 
 
 @compiled
+def pedal_after(pedal, fall):
+    """Pedal position [1] that gives the same drive in the next higher gear, of `fall` [1] times the ratio; it counts as u (2 - u)."""
+    return 1.0 - sqrt(1.0 - min(pedal * (2.0 - pedal) / fall, 1.0))
+
+
+@compiled
 def can_hold(a, a_drive, fall, time, w_out, i_next, R, w_down, pedal):
     """Whether the next higher gear would be kept: it still holds the speed, and the shift does not lose too much of it.
 
@@ -37,9 +56,7 @@ def can_hold(a, a_drive, fall, time, w_out, i_next, R, w_down, pedal):
     one, time [s] without drive, w_out [rad/s] speed of the driven wheels of radius R [m], i_next the next ratio, w_down
     [rad/s] its shift down.
     """
-    if pedal < TOUCH:
-        return True
-    holds = a - a_drive * (1.0 - fall) > -SLACK
+    holds = pedal < TOUCH or a - a_drive * (1.0 - fall) > -SLACK
     w_after = i_next * (w_out + min(a - a_drive, 0.0) * time / R)
     return holds and w_after > w_down
 

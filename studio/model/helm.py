@@ -111,7 +111,7 @@ def ahead(car, psi, gain, yaw_damping):
     error, drifts = chi - psi, atan2(car.sideways, max(v, 1.0))
     kappa = bend + back
     angle = error + (quickened(v, per) - 1.0) * (error - drifts) + per * v * v * kappa + yaw_damping * (v * kappa - car.yaw_rate)
-    per_bend = car.wheelbase + car.understeer * v * v  # [m] angle of a steady bend over its curvature
+    per_bend = car.wheelbase + max(car.understeer, 0.0) * v * v  # [m] angle of a steady bend over its curvature
     return per_bend * bounded(angle / per_bend, car.curvature, urged(v, error), v, car.steering_rate, car.wheelbase)
 
 

@@ -159,6 +159,8 @@ def engine_step(v, w_out, T_p, T_t, T_cap, state, parameter, command, dt):
     is_out = i == 0.0 and w_next > 0.0
     T_slips = engine.matched(T_slips, w, w_next, parameter[J_E, v]) if is_out else T_slips
     T = T_slips if slips else T
+    hands_over = parameter[COUPLING, v] == CONVERTER and w_next > abs(i * w_out)
+    T = engine.matched(T, w, parameter[FLUID_RATIO, v] * w_next, parameter[J_E, v]) if hands_over else T
     T = engine.idled(T, w, parameter[IDLE, v], parameter[J_E, v])
     T_low = engine.lowest(w, T_drag, parameter[REGEN, v])
     state[ACCELERATOR, v] = pedal

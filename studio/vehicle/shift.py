@@ -46,6 +46,7 @@ from studio.vehicle.state import (
     OMEGA,
     OMEGA_E,
     OPEN_TIME,
+    PEDAL_KEPT,
     PITCH,
     PSI,
     Q_W,
@@ -93,10 +94,10 @@ def output_speed(v, n, wheels, parameter):
 @inlined
 def scheduled(v, w_out, top, state, parameter, gears):
     """The gear of the schedule; one up only where it will be kept."""
-    gear, pedal = int(state[GEAR, v]), state[ACCELERATOR, v]
+    gear = int(state[GEAR, v])
     w_in = of_gear(G_RATIO, gear, v, gears) * w_out
-    up = gearbox.threshold(of_gear(G_UP_LIGHT, gear, v, gears), of_gear(G_UP_FULL, gear, v, gears), pedal)
-    found = gearbox.automatic(gear, top, w_in, up, down_speed(v, gear, pedal, gears))
+    up = gearbox.threshold(of_gear(G_UP_LIGHT, gear, v, gears), of_gear(G_UP_FULL, gear, v, gears), state[PEDAL_KEPT, v])
+    found = gearbox.automatic(gear, top, w_in, up, down_speed(v, gear, state[ACCELERATOR, v], gears))
     return gear if found > gear and not keeps(v, gear + 1, w_out, state, parameter, gears) else found
 
 
@@ -113,8 +114,8 @@ def keeps(v, gear, w_out, state, parameter, gears):
     a_drive = state[TORQUE_DRIVE, v] / (R * parameter[MASS, v])
     time = of_gear(G_DISENGAGE, gear - 1, v, gears) + of_gear(G_OPEN, gear, v, gears) + of_gear(G_ENGAGE, gear, v, gears)
     interrupted = time if parameter[COUPLING, v] == CLUTCHED else 0.0
-    w_down = down_speed(v, gear, state[ACCELERATOR, v], gears)
     fall = i / of_gear(G_RATIO, gear - 1, v, gears)
+    w_down = down_speed(v, gear, gearbox.pedal_after(state[PEDAL_KEPT, v], fall), gears)
     return gearbox.can_hold(state[A_X, v], a_drive, fall, interrupted, w_out, i, R, w_down, state[ACCELERATOR, v])
 
 
@@ -194,6 +195,7 @@ def shifts(k, tick, state, wheels, parameter, gears, commands):
     """Every gearbox decides."""
     n = state.shape[1]
     for v in range(n):
+        state[PEDAL_KEPT, v] = gearbox.kept(state[PEDAL_KEPT, v], state[ACCELERATOR, v], tick)
         w_out = output_speed(v, n, wheels, parameter)
         if state[NEXT_GEAR, v] != state[GEAR, v]:
             shift(v, w_out, tick, state, parameter, gears)

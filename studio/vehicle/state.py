@@ -29,6 +29,9 @@ PRESSURE_R = VEHICLE.row("pressure_rear", "Pa", "brake pressure, rear")
 OMEGA_E = VEHICLE.row("engine_speed", "rad/s", "of engine or motor", label="Engine speed")
 T_ENGINE = VEHICLE.row("engine_torque", "Nm", "at the shaft, negative when it brakes", label="Engine torque")
 ACCELERATOR = VEHICLE.row("accelerator", "1", "pedal position that gives the torque asked for")
+PEDAL_KEPT = VEHICLE.row(
+    "accelerator_kept", "1", "pedal position by which the gearbox shifts up: pressed it counts at once, lifted it is forgotten slowly"
+)
 CLUTCH = VEHICLE.row("clutch", "1", "transmissibility of clutch or lock-up: 0 open, 1 closed")
 CLUTCH_RATE = VEHICLE.row("clutch_rate", "1/s", "how fast it moves")
 OPEN_TIME = VEHICLE.row("open_time", "s", "since when the clutch has been open for a shift")

@@ -35,7 +35,7 @@ from studio.world.script import script_of
 from studio.world.seat import seats
 from studio.world.setting import Car, Setting, pose
 from studio.world.snapshot import gather, origin_of
-from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION
+from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION, WAY_STATION
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_DRIVE, LINE_DRIVES, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.table.web import Web
 from studio.world.web import web_of
@@ -123,7 +123,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     mind[GAP] = np.nan  # nobody has looked yet
-    mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY]] = np.inf
+    mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, WAY_STATION]] = np.inf
     return Vehicles(
         **vars(fleet(starts, ground=ground_of(cars))),
         drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),

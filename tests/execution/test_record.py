@@ -104,8 +104,8 @@ def test_what_happens_to_the_platoon_is_told(sample):
     minding = {"reasons": ["red_light", "right_of_way"], "reaction_time": 0.5}
     run = job.run(job.load(sample, {"vehicles.follower_4.intervention": minding}))
     told = {(event.vehicle, event.text): event.time for event in run.record.happenings}
-    waits = told["leader", "waits at a red light"]
-    assert np.interp(waits, run.time, run.trace("leader.speed")) < 0.15
+    waits = told["follower_4", "waits at a red light"]
+    assert np.interp(waits, run.time, run.trace("follower_4.speed")) < 0.15
     takes_over = told["follower_4", "driver takes over: red light"]
     acting = run.trace("follower_4.intervening")
     assert run.time[acting == 1.0][0] == pytest.approx(takes_over)

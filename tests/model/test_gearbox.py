@@ -26,6 +26,24 @@ def test_between_the_curves_the_gear_is_kept(w_in, gear):
     assert gearbox.automatic(gear, TOP, w_in, UP, DOWN) == gear
 
 
+def test_a_pedal_counts_at_once_and_is_forgotten_slowly():
+    """dd/dt = -d²/CALMING: d = d_0/(1 + d_0 t/CALMING), exact but for the steps."""
+    assert gearbox.kept(0.2, 0.7, 0.02) == 0.7
+    pedal = 1.0
+    for _ in range(round(gearbox.CALMING / 0.02)):
+        pedal = gearbox.kept(pedal, 0.0, 0.02)
+    assert pedal == pytest.approx(0.5, rel=0.01)
+    assert 0.92 < gearbox.kept(0.5, 0.2, 1.0) / 0.5 < 1.0  # a swing of some seconds hardly counts
+
+
+@given(st.floats(0, 1), st.floats(0.4, 1))
+def test_the_next_gear_needs_more_pedal_for_the_same(pedal, fall):
+    """u (2 - u) is what the pedal counts; where full pedal is not enough it is full."""
+    after = gearbox.pedal_after(pedal, fall)
+    assert pedal - 1e-12 <= after <= 1.0
+    assert after * (2.0 - after) * fall == pytest.approx(min(pedal * (2.0 - pedal), fall), abs=1e-9)
+
+
 def permitted(wanted, gear, v=0.0, *, w_wanted=100.0, w_present=100.0):
     return gearbox.permitted(wanted, gear, TOP, v, w_wanted, w_present, LIMIT)
 

@@ -21,7 +21,7 @@ from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
 from studio.world.setting import Car, Setting
-from studio.world.table.mind import STATION
+from studio.world.table.mind import OFFSET, STATION
 from studio.world.tick import tick
 from studio.world.way import Works
 
@@ -41,13 +41,15 @@ NEARBY = 40.0  # [m] along the way, by which its parts may be longer or shorter 
 
 @dataclass
 class Driven:
-    """One way with what its car did: where it was now and then, the most over the limit, lateral acceleration, red lights."""
+    """One way with what its car did: where it was now and then, the most over the limit, lateral acceleration,
+    from its path, red lights."""
 
     lanes: LanePath
     path: road_path.Path
     places: list
     over: float = 0.0
     lateral: float = 0.0
+    beside: float = 0.0
     red: int = 0
     arrived: bool = False
 
@@ -101,6 +103,7 @@ def drive(network: Network, ways: list[Driven]) -> None:
             way.arrived = v.state[ACTIVE, i] == 0.0
             if world.clock.time > SETTLED:
                 way.over, way.lateral = max(way.over, over[i]), max(way.lateral, lateral[i])
+                way.beside = max(way.beside, abs(v.mind[OFFSET, i]))
             stops = range(r.stop_first[i], r.stop_first[i] + r.stop_count[i])
             passed = [k for k in stops if before[i] + v.parameter[FRONT, i] < r.stop_station[k] <= s[i] + v.parameter[FRONT, i]]
             way.red += sum(shown[r.stop_link[k]] in (RED, RED_AMBER) for k in passed)
@@ -143,11 +146,13 @@ def test_random_ways_are_driven_as_the_road_is_built(place):
     assert len(drivable) >= 0.95 * ROUTES  # the rest has a turn that the map draws narrower than a car's lock
     offsets = np.array([offset(network, way) for way in drivable])
     print(f"{name}: {len(drivable)} of {ROUTES} ways, {sum(way.path.length for way in drivable) / 1000:.0f} km; "
-          f"offset {np.median(offsets):.2f} m, at most {offsets.max():.2f} m; over the limit at most "
+          f"offset {np.median(offsets):.2f} m, at most {offsets.max():.2f} m; "
+          f"from the path at most {max(way.beside for way in drivable):.2f} m; over the limit at most "
           f"{max(way.over for way in drivable):.2f} m/s; "
           f"lateral acceleration at most {max(way.lateral for way in drivable):.2f} m/s²")  # fmt: skip
     assert all(way.arrived for way in drivable)
     assert sum(way.red for way in drivable) == 0
     assert offsets.max() < 0.5
+    assert max(way.beside for way in drivable) < 0.3  # 0.38 m where the front axle drives the path
     assert max(way.over for way in drivable) < 0.6
     assert max(way.lateral for way in drivable) < 1.2 * LATERAL

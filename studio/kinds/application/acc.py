@@ -47,7 +47,7 @@ OPENACC = (
     "1.3 to 1.8 s, 0.9 to 1.05 at 2.3 to 2.6 s"
 )
 PRESETS = {
-    "series": Preset("Series ACC", OPENACC, {"headway": 1.3, "gap_gain": 0.55, "response_time": 0.48, "deceleration_max": 3.5}),
+    "series": Preset("Series ACC", OPENACC, {"headway": 1.3, "gap_gain": 0.55, "response_time": 0.51, "deceleration_max": 3.5}),
 }
 
 

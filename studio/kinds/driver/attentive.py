@@ -35,9 +35,7 @@ def behind(settings, sees, gap, speed):
 @inlined
 def towards(settings, sees):
     """Acceleration [m/s²] towards a stop line."""
-    return driver.stopping_acceleration(
-        sees.speed, sees.stop_distance, settings.standstill_gap, settings.time_headway, settings.acceleration, settings.deceleration
-    )
+    return driver.stopping_acceleration(sees.speed, sees.stop_distance, settings.acceleration, settings.deceleration)
 
 
 @inlined

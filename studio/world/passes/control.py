@@ -4,7 +4,7 @@ Order of precedence on pedals and wheel: a scripted maneuver, then the applicati
 command stays the driver's. He overrules it only where the scenario says so (intervention.py).
 
 An acceleration is turned into torques by inverting the resistances: F = m_eff u + F_air + F_roll + m g sin(slope). The
-engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain does not do.
+engine gets F R as a request at the wheels, negative ones too; the brake gets what the powertrain cannot do.
 """
 
 from math import cos, isnan, nan, sin
@@ -12,12 +12,28 @@ from math import cos, isnan, nan, sin
 from studio.application.port import ACTUATORS
 from studio.compiled import inlined, lean
 from studio.conventions import GRAVITY
-from studio.model import actuator, aerodynamics
+from studio.model import actuator, aerodynamics, engine, transmission
 from studio.model.driver import NO_LIMIT
 from studio.vehicle.command import RING, U_BRAKE, U_DRIVE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER, U_STEER_TORQUE, U
 from studio.vehicle.contact import SLOPE_X, SLOPE_Y
-from studio.vehicle.parameter import AREA, C_D, C_ROLL, J_E, J_WF, J_WR, MASS, RADIUS, STEER_MAX
-from studio.vehicle.state import ACCELERATOR, ACTIVE, CLUTCH, J_GEAR, PSI, RATIO, TORQUE_DRIVE, V_X
+from studio.vehicle.parameter import (
+    AREA,
+    C_D,
+    C_ROLL,
+    DRAG,
+    DRAG_SLOPE,
+    IDLE,
+    J_E,
+    J_WF,
+    J_WR,
+    LOSS_SHARE,
+    LOSS_TORQUE,
+    MASS,
+    RADIUS,
+    REGEN,
+    STEER_MAX,
+)  # fmt: skip
+from studio.vehicle.state import ACCELERATOR, ACTIVE, CLUTCH, J_GEAR, OMEGA_E, PSI, RATIO, TORQUE_DRIVE, V_X
 from studio.world.passes.intervention import attended, is_minding, let_go
 from studio.world.table.mind import (
     COMMANDS_BRAKE,
@@ -100,13 +116,30 @@ def wheel_torque(v, u, state, ground, parameter):
 
 
 @inlined
-def brake_torque(v, T, state):
-    """Torque [Nm] that is left to the brakes when T [Nm] is wanted at the wheels: what the powertrain does not take away.
+def least_joined(v, state, parameter):
+    """Torque [Nm] at the wheels with the pedal lifted, or with all that a motor takes back, but for what turns with the engine."""
+    w = state[OMEGA_E, v]
+    T = engine.lowest(w, engine.drag(w, parameter[DRAG, v], parameter[DRAG_SLOPE, v]), parameter[REGEN, v])
+    carried = transmission.efficiency(T, parameter[LOSS_SHARE, v]) * T - transmission.constant_loss(w, parameter[LOSS_TORQUE, v])
+    return carried * state[RATIO, v]
 
-    What still drives while the pedal is pressed is about to fade, and is not braked against.
+
+@inlined
+def least_torque(v, state, parameter):
+    """Torque [Nm] at the wheels that is left when no drive is asked for: known where engine and wheels are one, else as it is now.
+
+    What still drives while the pedal is pressed, or though the wheels turn faster than an idling engine, is about to fade.
     """
-    fades = state[TORQUE_DRIVE, v] > 0.0 and state[ACCELERATOR, v] > 0.0
-    return max((0.0 if fades else state[TORQUE_DRIVE, v]) - T, 0.0)
+    if state[CLUTCH, v] >= 1.0 and state[RATIO, v] > 0.0:
+        return least_joined(v, state, parameter)
+    creeps = state[RATIO, v] * state[V_X, v] < parameter[IDLE, v] * parameter[RADIUS, v] and state[ACCELERATOR, v] == 0.0
+    return 0.0 if state[TORQUE_DRIVE, v] > 0.0 and not creeps else state[TORQUE_DRIVE, v]
+
+
+@inlined
+def brake_torque(v, T, state, parameter):
+    """Torque [Nm] that is left to the brakes when T [Nm] is wanted at the wheels: what the powertrain cannot take away."""
+    return max(least_torque(v, state, parameter) - T, 0.0)
 
 
 @inlined
@@ -129,7 +162,7 @@ def pedals(v, column, u, state, ground, parameter, commands):
     commands[U, column] = u
     commands[U_DRIVE, column] = nan if held else T
     commands[U_PEDAL, column] = commands[U_ENGINE, column] = nan
-    commands[U_BRAKE, column] = holding_torque(v, state, ground, parameter) if held else brake_torque(v, T, state)
+    commands[U_BRAKE, column] = holding_torque(v, state, ground, parameter) if held else brake_torque(v, T, state, parameter)
 
 
 @inlined

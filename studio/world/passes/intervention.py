@@ -27,7 +27,6 @@ from studio.world.table.mind import (
     COMFORT,
     FOLLOWING,
     GAP,
-    HEADWAY,
     INTERVENING,
     MINDS_COLLISION,
     MINDS_RED,
@@ -37,7 +36,6 @@ from studio.world.table.mind import (
     NEEDED_WAY,
     REACTION_TIME,
     RED_STATION,
-    STANDSTILL,
     STATION,
     YIELDING,
 )  # fmt: skip
@@ -68,9 +66,7 @@ def stopping(v, state, parameter, drivers, mind):
     distance = mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
     if distance == inf:
         return driver.NO_LIMIT
-    return driver.stopping_acceleration(
-        state[V_X, v], distance, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v]
-    )
+    return driver.stopping_acceleration(state[V_X, v], distance, drivers[COMFORT, v], drivers[BRAKE_COMFORT, v])
 
 
 @inlined

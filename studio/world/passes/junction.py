@@ -49,8 +49,8 @@ AT_LIGHT = 1.0  # [m] from a line, a stop line is that of its light
 
 
 @lean
-def waits(v, d, last, own, to_line, state, parameter, places, points, path_first, path_count, world, number, entity, web, first, place, at,
-          drivers, mind):  # fmt: skip
+def waits(v, d, last, own, to_line, decided, state, parameter, places, points, path_first, path_count, world, number, entity, web, first,
+          place, at, drivers, mind):  # fmt: skip
     """Whether a driver has to wait before the line of a strand, `to_line` [m] ahead; minds all whom he meets on it."""
     strand = web.strand[d]
     is_way, line = web.right[strand] != LANE and to_line >= 0.0, web.drive[ENTER, d]
@@ -73,7 +73,14 @@ def waits(v, d, last, own, to_line, state, parameter, places, points, path_first
                 drivers, mind,
             ):  # fmt: skip
                 must, mind[FIRST, v] = True, number[other]
-    if must and is_way and driver.must_stop(state[V_X, v], to_line):
+    return must and is_way and is_held(v, line, to_line, decided, state, mind)
+
+
+@inlined
+def is_held(v, line, to_line, decided, state, mind):
+    """Whether a driver stops before a line; who would have to brake too hard goes on, but who had `decided` to stop there stays with it."""
+    speed = state[V_X, v]
+    if driver.must_stop(speed, to_line) or (decided == line and driver.can_stop(speed, to_line)):
         mind[WAY_STATION, v] = min(mind[WAY_STATION, v], line)
         return True
     return False
@@ -290,7 +297,7 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
 
 
 @lean
-def has_to_let_pass(v, own, enter, key, state, parameter, number, first, place, at, drivers, mind):
+def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first, place, at, drivers, mind):
     """Whether v has to wait where it would change to a lane, since somebody there is beside it, or comes from behind too fast.
 
     Whoever is ahead there is followed as one who goes first.
@@ -308,7 +315,4 @@ def has_to_let_pass(v, own, enter, key, state, parameter, number, first, place, 
             blocked |= gap < BESIDE
             break
         blocked |= tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE
-    if blocked and driver.must_stop(state[V_X, v], enter - mind[STATION, v] - parameter[FRONT, v]):
-        mind[WAY_STATION, v] = min(mind[WAY_STATION, v], enter)
-        return True
-    return False
+    return blocked and is_held(v, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind)

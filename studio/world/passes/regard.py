@@ -26,7 +26,6 @@ from studio.world.table.mind import (
     STANDSTILL,
     STOPPING,
     V_DESIRED,
-    WAY_STATION,
     YIELDING,
 )  # fmt: skip
 
@@ -38,7 +37,7 @@ def forget(v, mind):
     mind[AHEAD, v] = mind[MINDED, v] = -1.0
     mind[AHEAD_SPEED, v] = 0.0
     mind[FOLLOWING, v] = mind[YIELDING, v] = driver.NO_LIMIT
-    mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = mind[WAY_STATION, v] = inf
+    mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = inf
     mind[FIRST, v] = -1.0
 
 

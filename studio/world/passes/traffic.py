@@ -40,7 +40,6 @@ from studio.world.table.mind import (
     FOLLOW_SPEED,
     FRONT_OFFSET,
     GAP,
-    HEADWAY,
     MINDED,
     OFFSET,
     PATH_KAPPA,
@@ -48,7 +47,6 @@ from studio.world.table.mind import (
     SIGHT,
     SIGHT_SPEED,
     SPEED_FACTOR,
-    STANDSTILL,
     STATION,
     STEER_WISH,
     STOOD,
@@ -116,12 +114,19 @@ def clip(s, count):
 
 
 @inlined
+def will_stop(v, distance, station, state, mind):
+    """Whether the driver stops for a light that is not green; who has decided to at a tick before stays with it."""
+    decided = mind[RED_STATION, v] == station and driver.can_stop(state[V_X, v], distance)
+    return decided or driver.must_stop(state[V_X, v], distance)
+
+
+@inlined
 def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown, sight):
     """Station [m] of the next stop line in sight ahead of the bumper that shows no green and at which the driver will stop."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     for i in range(stop_first, stop_first + stop_count):
         distance = stop_station[i] - bumper
-        if 0.0 < distance <= sight and shown[stop_link[i]] != GREEN and driver.must_stop(state[V_X, v], distance):
+        if 0.0 < distance <= sight and shown[stop_link[i]] != GREEN and will_stop(v, distance, stop_station[i], state, mind):
             return stop_station[i]
     return inf
 
@@ -152,9 +157,8 @@ def before_line(v, state, parameter, drivers, mind):
     if mind[RED_STATION, v] == inf:
         return driver.NO_LIMIT
     return driver.stopping_acceleration(
-        state[V_X, v], mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v], drivers[STANDSTILL, v], drivers[HEADWAY, v],
-        drivers[COMFORT, v], drivers[BRAKE_COMFORT, v],
-    )  # fmt: skip
+        state[V_X, v], mind[RED_STATION, v] - mind[STATION, v] - parameter[FRONT, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v]
+    )
 
 
 @inlined
@@ -192,9 +196,7 @@ def yield_at_line(v, state, parameter, drivers, mind):
     """Waiting before a line is giving way as well."""
     if mind[WAY_STATION, v] < inf:
         distance = mind[WAY_STATION, v] - mind[STATION, v] - parameter[FRONT, v]
-        permitted = driver.stopping_acceleration(
-            state[V_X, v], distance, drivers[STANDSTILL, v], drivers[HEADWAY, v], drivers[COMFORT, v], drivers[BRAKE_COMFORT, v]
-        )
+        permitted = driver.stopping_acceleration(state[V_X, v], distance, drivers[COMFORT, v], drivers[BRAKE_COMFORT, v])
         if is_least(v, permitted, mind):
             mind[MINDED, v] = mind[FIRST, v]
         mind[YIELDING, v] = min(mind[YIELDING, v], permitted)
@@ -207,7 +209,8 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
     station, speed = mind[STATION, v], max(state[V_X, v], 0.0)
     bumper = station + parameter[FRONT, v]
     rear, far, near = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING, bumper + max(HORIZON, AHEAD_TIME * speed)
-    is_open, may_go = True, True
+    is_open, may_go, decided = True, True, mind[WAY_STATION, v]
+    mind[WAY_STATION, v] = inf
     for d in range(first_drive(rear, drive_first, drive_count, web), drive_first + drive_count):
         enter, strand = web.drive[ENTER, d], web.strand[d]
         if enter > far or not (is_open or (may_go and enter <= near)):
@@ -222,12 +225,12 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
             )  # fmt: skip
         if may_go and bumper < enter and is_changed_to(d, bumper, speed, web):
             may_go = not has_to_let_pass(
-                v, own, enter, world * web.right.size + strand, state, parameter, number, first, place, at, drivers, mind
+                v, own, enter, decided, world * web.right.size + strand, state, parameter, number, first, place, at, drivers, mind
             )
         if may_go and enter <= near and is_met(strand, web):
             may_go = not waits(
-                v, d, drive_first + drive_count, own, enter - bumper, state, parameter, places, points, path_first, path_count, world,
-                number, entity, web, first, place, at, drivers, mind,
+                v, d, drive_first + drive_count, own, enter - bumper, decided, state, parameter, places, points, path_first, path_count,
+                world, number, entity, web, first, place, at, drivers, mind,
             )  # fmt: skip
 
 

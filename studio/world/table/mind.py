@@ -34,8 +34,15 @@ AHEAD = MIND.row(
     "ahead", "1", "number of the vehicle ahead, in a record in the order of names, or -2 - i of an object; -1 when there is none",
     label="Number of the vehicle ahead",
 )  # fmt: skip
-RED_STATION = MIND.row("red_station", "m", "station of the next stop line that shows no green; infinite when there is none")
-WAY_STATION = MIND.row("way_station", "m", "station before which the driver waits for those who go first; infinite when for nobody")
+RED_STATION = MIND.row(
+    "red_station",
+    "m",
+    "station of the next stop line without green at which the driver stops; infinite when there is none",
+    role=Role.STATE,
+)
+WAY_STATION = MIND.row(
+    "way_station", "m", "station before which the driver waits for those who go first; infinite when for nobody", role=Role.STATE
+)
 STOOD = MIND.row("stood", "s", "how long the vehicle has stood, and has not driven faster than 2 m/s since", role=Role.STATE)
 HALTED = MIND.row("halted", "m", "station of the last line at which the vehicle has come to a halt", role=Role.STATE)
 FOLLOWING = MIND.row("following", "m/s²", "acceleration that traffic ahead permits")
