@@ -82,6 +82,12 @@ def has_the_way(v, mind):
 
 
 @inlined
+def needs_way(v, asked, mind):
+    """Whether a car that goes first asks for braking, or one that did until it came in front just now: reacting to it goes on."""
+    return mind[YIELDING, v] < asked or (mind[NEEDED_WAY, v] < inf and mind[FOLLOWING, v] < asked)
+
+
+@inlined
 def attend(v, minds, since, acts, is_needed, is_over, time, drivers, mind):
     """Whether the driver acts for one of the reasons, whose rows are given."""
     if drivers[minds, v] == 0.0:
@@ -105,7 +111,7 @@ def attended(v, time, asked, state, parameter, drivers, mind):
         permitted = min(permitted, min(near, mind[FOLLOWING, v]))
     if attend(v, MINDS_RED, NEEDED_RED, ACTS_RED, red < min(asked, 0.0), red == driver.NO_LIMIT, time, drivers, mind):
         permitted = min(permitted, red)
-    if attend(v, MINDS_WAY, NEEDED_WAY, ACTS_WAY, way < min(asked, 0.0), has_the_way(v, mind), time, drivers, mind):
+    if attend(v, MINDS_WAY, NEEDED_WAY, ACTS_WAY, needs_way(v, min(asked, 0.0), mind), has_the_way(v, mind), time, drivers, mind):
         permitted = min(permitted, min(way, mind[FOLLOWING, v]))
     mind[INTERVENING, v] = 1.0 if permitted < driver.NO_LIMIT else 0.0
     return permitted
