@@ -12,7 +12,7 @@ Before the line of a way, where its strand begins, he decides whether he may go;
 
 from math import sqrt
 
-from studio.compiled import inlined, lean
+from studio.compiled import inlined
 from studio.model import driver
 from studio.model.passage import AFTER, arrival, is_enough, merging_headway, wanted_gap
 from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
@@ -41,6 +41,7 @@ STANDING = 0.5  # [m/s] a car slower than this stands
 HALT, AT_LINE = 0.1, 4.0  # [m/s], [m] slower than this, and so near to a line, one has halted there
 FAIR, CRAWL, GENTLE, NEAREST = 10.0, 3.0, 2.0, 1.0  # [s], [m/s], [m/s²], [m] in slow traffic who has waited so long is let in
 SLOW = 2.0  # [m/s] who drives slower than this behind a junction may leave no room
+LONG = 15.0  # [m] from the centre of gravity no front is farther
 EARLIEST = 150.0  # [m] before a place where ways meet others are looked for
 BEHIND = 60.0  # [m] behind oneself others are minded before a lane change
 BESIDE, SAFE = 1.0, 3.0  # [m], [m/s²] nearer than this is beside; harder than this nobody is made to brake by a lane change
@@ -48,7 +49,7 @@ ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body
 AT_LIGHT = 1.0  # [m] from a line, a stop line is that of its light
 
 
-@lean
+@inlined
 def waits(v, d, last, own, to_line, decided, state, parameter, places, points, path_first, path_count, world, number, entity, web, first,
           place, at, drivers, mind):  # fmt: skip
     """Whether a driver has to wait before the line of a strand, `to_line` [m] ahead; minds all whom he meets on it."""
@@ -65,15 +66,23 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
             continue
         key = world * web.right.size + web.partner[m]
-        i, end = from_station(key, web.span[ITS_ENTER, m] - EARLIEST, first, place, at)
+        i, end = from_station(key, earliest(m, web), first, place, at)
         while i < end and place[KEY, i] == key:
             other, there, i = place[WHO, i], at[i], i + 1
-            if other != v and not is_unseen(v, other, state, parameter, drivers) and meet(
+            if other != v and meet(
                 v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web,
                 drivers, mind,
             ):  # fmt: skip
                 must, mind[FIRST, v] = True, number[other]
     return must and is_way and is_held(v, line, to_line, decided, state, mind)
+
+
+@inlined
+def earliest(m, web):
+    """From which station on [m] who drives on the partner of a strand matters: who gives way only once he has passed his line."""
+    if web.turn[m] == NONE:
+        return web.span[ITS_ENTER, m] - LONG
+    return -LONG if web.turn[m] == TAKE else web.span[ITS_ENTER, m] - EARLIEST
 
 
 @inlined
@@ -139,14 +148,14 @@ def comes_in(v, distance, state, drivers, mind):
 # -- two who meet ----------------------------------------------------------------------------------
 
 
-@lean
+@inlined
 def meet(v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web, drivers,
          mind):  # fmt: skip
     """What one who comes where two strands meet means for v; whether v has to wait for him before the line."""
     nose, its_nose = own + parameter[FRONT, v], there + parameter[FRONT, other]
     its_tail = its_nose - parameter[LENGTH, other]
     enter, its_enter, its_leave = web.span[OWN_ENTER, m], web.span[ITS_ENTER, m], web.span[ITS_LEAVE, m]
-    if its_tail > its_leave:
+    if its_tail > its_leave or is_unseen(v, other, state, parameter, drivers):
         return False
     if its_nose < its_enter:
         return nose < enter and lets_go(
@@ -213,7 +222,7 @@ def leaves_in(other, distance, state):
     return distance / max(state[V_X, other], STANDING)
 
 
-@lean
+@inlined
 def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, state, parameter, number, entity, web, drivers, mind):
     """What one means who is not there yet, `its_way` [m] before it; whether v has to wait for him before the line."""
     red = mind[RED_STATION, other] - mind[STATION, other] - parameter[FRONT, other]
@@ -240,7 +249,7 @@ def has_stood_longer(v, other, entity, mind):
     return mind[STOOD, v] > mind[STOOD, other] or (mind[STOOD, v] == mind[STOOD, other] and entity[v] < entity[other])
 
 
-@lean
+@inlined
 def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
     """Whether v may go before one who goes first: he is far enough, he will be gone, or he stands and lets v go."""
     if state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE and has_stood_longer(v, other, entity, mind):
@@ -276,7 +285,7 @@ def is_crawling(other, its_way, state):
     return speed < CRAWL and its_way > NEAREST + speed * speed / (2.0 * GENTLE)
 
 
-@lean
+@inlined
 def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
     """Of two of whom none has to wait, who is there first goes first; whether v has to wait for the other before the line."""
     own_time = comes_in(v, to_enter, state, drivers, mind)
@@ -296,7 +305,7 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
 # -- changing lanes --------------------------------------------------------------------------------
 
 
-@lean
+@inlined
 def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first, place, at, drivers, mind):
     """Whether v has to wait where it would change to a lane, since somebody there is beside it, or comes from behind too fast.
 

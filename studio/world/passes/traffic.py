@@ -72,7 +72,7 @@ from studio.world.table.web import ENTER, LEAVE
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
-HORIZON, AHEAD_TIME = 60.0, 4.0  # [m], [s] how far before a way drivers mind who meets them there
+MARGIN, DECIDING = 12.0, 3.0  # [m], [m/s²] how far before a way drivers mind who meets them there: MARGIN + v · 1 s + v²/DECIDING
 LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives there: LOOK + v²/LOOKING
 AWAY = 2.0  # [m/s] who has become faster than this stands no more
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
@@ -202,13 +202,14 @@ def yield_at_line(v, state, parameter, drivers, mind):
         mind[YIELDING, v] = min(mind[YIELDING, v], permitted)
 
 
-@lean
+@inlined
 def look_along(v, state, parameter, places, points, path_first, path_count, world, number, entity, drive_first, drive_count, web, first,
                place, at, drivers, mind):  # fmt: skip
     """Strand after strand, until somebody is ahead and no way is near that is still to be decided about."""
     station, speed = mind[STATION, v], max(state[V_X, v], 0.0)
     bumper = station + parameter[FRONT, v]
-    rear, far, near = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING, bumper + max(HORIZON, AHEAD_TIME * speed)
+    rear, far = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING
+    near = bumper + MARGIN + speed + speed * speed / DECIDING
     is_open, may_go, decided = True, True, mind[WAY_STATION, v]
     mind[WAY_STATION, v] = inf
     for d in range(first_drive(rear, drive_first, drive_count, web), drive_first + drive_count):
