@@ -309,4 +309,5 @@ def come_in(world: World) -> tuple:
     """At the beginning of its path."""
     v, r, w, g = world.vehicles, world.roads, world.worlds, world.neighbours
     paths, near = (r.points, r.path_first, r.path_count, r.raised), (g.grid, g.places, g.found, g.entered)
-    return traffic.recirculate, v.returns, *paths, w.of, *near, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
+    drives = (r.drive_first, r.drive_count, r.web)
+    return traffic.recirculate, v.returns, *paths, *drives, w.of, *near, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind

@@ -77,6 +77,7 @@ LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives 
 AWAY = 2.0  # [m/s] who has become faster than this stands no more
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
+ENTRY_BRAKING = 2.0  # [m/s²]
 ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
 
@@ -353,9 +354,19 @@ def is_close(other, x, y, state):
     return state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE
 
 
+@inlined
+def entry_speed(v, permitted, first, count, web, parameter):
+    """Speed [m/s] with which a car comes in: it can stop in comfort at the end of its first lane."""
+    if count < 2:
+        return permitted
+    room = max(web.drive[ENTER, first + 1] - parameter[FRONT, v] - driver.STOP_CLOSE, 0.0)
+    return min(permitted, sqrt(2.0 * ENTRY_BRAKING * room))
+
+
 @lean
 def recirculate(
-    returns, points, path_first, path_count, raised, world_of, grid, places, found, entered, state, wheels, ground, parameter, gears, mind
+    returns, points, path_first, path_count, raised, drive_first, drive_count, web, world_of, grid, places, found, entered, state, wheels,
+    ground, parameter, gears, mind,
 ):  # fmt: skip
     """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
     count, reach = 0, 0.0
@@ -369,7 +380,8 @@ def recirculate(
         if is_free(x, y, world_of[v], reach, world_of, state, grid, places, found, entered, count):
             if raised[v] != 0:
                 touch_all(v, state.shape[1], 0.0, points, at, path_count[v], ground)
-            start(v, x, y, points[PATH_HEADING, at], points[PATH_SPEED, at], state, wheels, ground, parameter, gears)
-            mind[STATION, v] = 0.0
+            speed = entry_speed(v, points[PATH_SPEED, at], drive_first[v], drive_count[v], web, parameter)
+            start(v, x, y, points[PATH_HEADING, at], speed, state, wheels, ground, parameter, gears)
+            mind[STATION, v] = mind[STOOD, v] = 0.0
             entered[count] = v
             count += 1
