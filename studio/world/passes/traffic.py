@@ -73,6 +73,7 @@ from studio.world.table.web import ENTER, LEAVE
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
 MARGIN, DECIDING = 12.0, 3.0  # [m], [m/s²] how far before a way drivers mind who meets them there: MARGIN + v · 1 s + v²/DECIDING
+AHEAD_OF_ONE = 2  # of those ahead are minded: the next, and the one before him
 LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives there: LOOK + v²/LOOKING
 AWAY = 2.0  # [m/s] who has become faster than this stands no more
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
@@ -206,24 +207,24 @@ def yield_at_line(v, state, parameter, drivers, mind):
 @inlined
 def look_along(v, state, parameter, places, points, path_first, path_count, world, number, entity, drive_first, drive_count, web, first,
                place, at, drivers, mind):  # fmt: skip
-    """Strand after strand, until somebody is ahead and no way is near that is still to be decided about."""
+    """Strand after strand, until enough are ahead and no way is near that is still to be decided about."""
     station, speed = mind[STATION, v], max(state[V_X, v], 0.0)
     bumper = station + parameter[FRONT, v]
     rear, far = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING
     near = bumper + MARGIN + speed + speed * speed / DECIDING
-    is_open, may_go, decided = True, True, mind[WAY_STATION, v]
+    left, may_go, decided = AHEAD_OF_ONE, True, mind[WAY_STATION, v]
     mind[WAY_STATION, v] = inf
     for d in range(first_drive(rear, drive_first, drive_count, web), drive_first + drive_count):
         enter, strand = web.drive[ENTER, d], web.strand[d]
-        if enter > far or not (is_open or (may_go and enter <= near)):
+        if enter > far or not (left > 0 or (may_go and enter <= near)):
             return
         if web.drive[LEAVE, d] <= rear:
             continue
         own = station_on(d, station, web)
-        if is_open or enter <= bumper:
-            is_open &= not is_led(
-                v, own, world * web.right.size + strand, state, parameter, places, points, path_first, path_count, number, first, place, at,
-                drivers, mind,
+        if left > 0 or enter <= bumper:
+            left -= led_by(
+                v, own, max(left, 1), world * web.right.size + strand, state, parameter, places, points, path_first, path_count, number,
+                first, place, at, drivers, mind,
             )  # fmt: skip
         if may_go and bumper < enter and is_changed_to(d, bumper, speed, web):
             may_go = not has_to_let_pass(
@@ -237,11 +238,11 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
 
 
 @inlined
-def is_led(v, own, key, state, parameter, places, points, path_first, path_count, number, first, place, at, drivers, mind):
-    """Whether somebody is ahead on one strand; he is followed, and the first of them who is in the way is who is ahead."""
-    nose, found = own + parameter[FRONT, v], False
+def led_by(v, own, most, key, state, parameter, places, points, path_first, path_count, number, first, place, at, drivers, mind):
+    """How many are ahead on one strand, of so many at most; they are followed, and the first who is in the way is who is ahead."""
+    nose, found = own + parameter[FRONT, v], 0
     i, end = from_station(key, own, first, place, at)
-    while i < end and place[KEY, i] == key:
+    while i < end and place[KEY, i] == key and found < most:
         other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
         if other == v or is_unseen(v, other, state, parameter, drivers):
             continue
@@ -251,11 +252,9 @@ def is_led(v, own, key, state, parameter, places, points, path_first, path_count
                 let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
             continue
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
-        found = True
-        if gap <= 0.0 or is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):
-            if gap > 0.0:
-                is_ahead(v, other, number[other], gap, state[V_X, other], mind)
-            return True
+        found += 1
+        if gap > 0.0 and is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):
+            is_ahead(v, other, number[other], gap, state[V_X, other], mind)
     return found
 
 
