@@ -133,3 +133,12 @@ def nearest(name: str, known: Iterable[str]) -> str:
         return f"did you mean {close[0]!r}?"
     shown = ", ".join(names[:8]) + (", …" if len(names) > 8 else "")
     return f"known: {shown}" if names else "there is none"
+
+
+def short(value: object, limit: int = 60) -> str:
+    """A value that fits into a message; of a whole number with more digits than Python writes, the length."""
+    try:
+        text = repr(value)
+    except ValueError:
+        text = "a number of thousands of digits"
+    return text if len(text) <= limit else text[: limit - 1] + "…"

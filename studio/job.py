@@ -21,14 +21,13 @@ import numpy as np
 from studio.assess.danger import with_dangers
 from studio.assess.measure import measure_all, unmet
 from studio.assess.metric import Measured
-from studio.errors import Problem, ScenarioError, StoreError, UnknownError, nearest
+from studio.errors import Problem, ScenarioError, StoreError, UnknownError, nearest, short
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
 from studio.provenance import provenance
 from studio.scenario import file, setup
-from studio.scenario.finding import short
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source

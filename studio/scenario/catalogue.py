@@ -17,8 +17,8 @@ from typing import Any, Literal
 
 from pydantic import ValidationError
 
-from studio.errors import Problem, ScenarioError, UnknownError, nearest
-from studio.scenario import datasheet, edit, finding, tir
+from studio.errors import Problem, ScenarioError, UnknownError, nearest, short
+from studio.scenario import datasheet, edit, tir
 from studio.scenario.text.patch import patched
 from studio.scenario.tir import PropertyFile
 from studio.scenario.vehicle import Origin, Vehicle
@@ -151,7 +151,7 @@ def changed_origins(model: VehicleModel, full: dict[str, Any], changes: Iterable
     for path in changes:
         quantity = ".".join(path.split(".")[:2])
         if quantity in origins:
-            given = finding.short(edit.get(full, quantity))
+            given = short(edit.get(full, quantity))
             was = model.origins[quantity]
             origins[quantity] = replace(was, origin="set", source=f"in place of {given} ({was.origin}: {was.source})")
     return origins

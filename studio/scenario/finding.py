@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from studio.errors import Problem, nearest
+from studio.errors import Problem, nearest, short
 from studio.kind.meant import mistakes
 from studio.scenario.schema import json_schema, located
 
@@ -60,15 +60,6 @@ def kind_problem(finding: ErrorDetails, where: str, known: list[str]) -> Problem
 def lower(text: str) -> str:
     """Pydantic's sentence as a clause."""
     return text[:1].lower() + text[1:]
-
-
-def short(value: Any, limit: int = 60) -> str:
-    """A value that fits into a message; of a whole number with more digits than Python writes, the length."""
-    try:
-        text = repr(value)
-    except ValueError:
-        text = "a number of thousands of digits"
-    return text if len(text) <= limit else text[: limit - 1] + "…"
 
 
 def allowed(finding: ErrorDetails) -> str:

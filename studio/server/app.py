@@ -13,8 +13,19 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import Response
 
-from studio.errors import ConflictError, Problem, SealedError, ServerError, SizeError, StaleError, StoreError, StudioError, UnknownError
-from studio.scenario.finding import MOST_TOLD, allowed, short
+from studio.errors import (
+    ConflictError,
+    Problem,
+    SealedError,
+    ServerError,
+    SizeError,
+    StaleError,
+    StoreError,
+    StudioError,
+    UnknownError,
+    short,
+)
+from studio.scenario.finding import MOST_TOLD, allowed
 from studio.server import relay, routes
 from studio.server.desk import Desk
 from studio.server.maps import routes as map_routes

@@ -6,11 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from studio import job, sample
-from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest
+from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest, short
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road.library import place
-from studio.scenario.finding import short
 from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
 from studio.server.frame import Frame

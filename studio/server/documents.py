@@ -7,10 +7,9 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import studio
 from studio import job
-from studio.errors import Problem, ScenarioError, SealedError, StaleError
+from studio.errors import Problem, ScenarioError, SealedError, StaleError, short
 from studio.job import Loaded
 from studio.scenario import edit, file
-from studio.scenario.finding import short
 from studio.scenario.schema import VERSION
 from studio.scenario.text.document import applied, digest
 from studio.scenario.text.migration import version_of

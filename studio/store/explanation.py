@@ -1,8 +1,7 @@
 """The explanation of what happened in a saved run, for the command line and REST."""
 
 from studio.assess.cause import EXPLAINED, Explanation, explain
-from studio.errors import UnknownError, nearest
-from studio.scenario.finding import short
+from studio.errors import UnknownError, nearest, short
 from studio.store.runs import Runs
 
 LONGEST = 9  # digits of the number of an event

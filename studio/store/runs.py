@@ -21,9 +21,8 @@ from typing import TYPE_CHECKING, Any
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
-from studio.errors import Problem, StoreError, UnknownError
+from studio.errors import Problem, StoreError, UnknownError, short
 from studio.execution.happening import Happening, Number
-from studio.scenario.finding import short
 from studio.store import owner, waiting
 from studio.store.tables import open_database, read_database, reopen_database, unusable
 

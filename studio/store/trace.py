@@ -10,12 +10,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from tsdownsample import MinMaxDownsampler
 
-from studio.errors import Problem, UnknownError, nearest
+from studio.errors import Problem, UnknownError, nearest, short
 from studio.execution.brought import Brought, Fault
 from studio.execution.happening import Happening
 from studio.execution.message import Messages
 from studio.execution.record import Body, Chain, Mount, Record, Traced
-from studio.scenario.finding import short
 from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"

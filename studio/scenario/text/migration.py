@@ -9,8 +9,7 @@ moves is written anew, without its comments; what version n did not know is refu
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from studio.errors import Problem, ScenarioError
-from studio.scenario.finding import short
+from studio.errors import Problem, ScenarioError, short
 from studio.scenario.schema import VERSION
 from studio.scenario.text import doors as part
 from studio.scenario.text import script

@@ -16,8 +16,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
-from studio.errors import ConflictError, Problem, ScenarioError
-from studio.scenario.finding import problems, short
+from studio.errors import ConflictError, Problem, ScenarioError, short
+from studio.scenario.finding import problems
 from studio.scenario.text import pointer
 from studio.scenario.text.source import same
 

@@ -3,8 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from studio.errors import Problem, ScenarioError
-from studio.scenario.finding import short
+from studio.errors import Problem, ScenarioError, short
 from studio.scenario.schema import VERSION
 from studio.scenario.text.patch import Operation, operation
 from studio.scenario.text.section import free, section
