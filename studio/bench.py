@@ -38,7 +38,8 @@ from studio.execution.simulation import Simulation, simulation
 from studio.road.assembly.plan import Wish
 from studio.road.library.place import imported
 from studio.road.library.reader import reader_of
-from studio.road.ways.conflict import zones
+from studio.road.ways.meeting import made
+from studio.road.ways.strand import drawn
 from studio.scenario import catalogue
 from studio.scene import pose
 from studio.scene.fleet import Look
@@ -206,12 +207,8 @@ def whole_import(path: Path) -> float:
 
 
 def conflicts(sample: Setting) -> float:
-    """Seconds to find where the ways of all vehicles run close to each other, each pair in both orders."""
-    ways = [car.path.points for car in sample.cars]
-    points, count = np.concatenate(ways, axis=1), np.array([way.shape[1] for way in ways])
-    first = np.cumsum(count) - count
-    pairs = [(i, j) for i in range(count.size) for j in range(count.size) if i != j]
-    return median_seconds(lambda: [zones(points, first[i], count[i], first[j], count[j]) for i, j in pairs])
+    """Seconds to draw all lanes and ways of the map as strands, and to find where they meet."""
+    return median_seconds(lambda: (drawn(sample.network), made(sample.network)))
 
 
 def picture(sample: Setting) -> float:

@@ -22,7 +22,8 @@ from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from studio.errors import Problem, ScenarioError, nearest, short
+from studio.errors import Problem, ScenarioError, nearest
+from studio.errors import short as of_value
 from studio.scenario import file, finding
 from studio.scenario.text.source import Source
 from studio.scenario.vehicle import ORIGINS, RPM, Origin, Part, Vehicle
@@ -246,7 +247,7 @@ def scaled(value: Any, factor: float) -> Any:
 
 def short(value: Any) -> str:
     """A value that fits into a message, however nested it is."""
-    return short(value) if isinstance(value, (str, int, float)) else SHORT.repr(value)
+    return of_value(value) if isinstance(value, (str, int, float)) else SHORT.repr(value)
 
 
 # --- the schema's findings as ours ---------------------------------------------------------------------------------------
