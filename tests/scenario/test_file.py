@@ -34,7 +34,7 @@ def test_a_preset_gives_what_is_not_given(document):
     group = document["applications"]["platoon"] | {"application": "acc", "preset": "series", "parameters": {"headway": 2.0}}
     group.pop("listens_to", None)
     found = setup.complete(document | {"applications": {"platoon": group}}, "sample").applications["platoon"].parameters
-    assert (found["headway"], found["response_time"], found["cruise_gain"]) == (2.0, 0.48, 0.5)
+    assert (found["headway"], found["response_time"], found["cruise_gain"]) == (2.0, 0.51, 0.5)
     group["preset"] = "serial"
     assert "series" in refusal(document | {"applications": {"platoon": group}})
 
