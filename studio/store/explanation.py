@@ -13,11 +13,11 @@ def explanation(runs: Runs, run: int, event: str = "") -> list[Explanation]:
     Raises UnknownError for a run without record, for a kind that is not explained, and for a number that there is not.
     """
     if event and not event.isdecimal() and event not in EXPLAINED:
-        raise UnknownError(f"Events {short(event)} are not explained; {nearest(event, EXPLAINED)} (explained: {', '.join(EXPLAINED)})")
+        raise UnknownError(f"Events {short(event)} are not explained; {nearest(event, EXPLAINED)}")
     found = explain(runs.record(run), (event,) if event in EXPLAINED else EXPLAINED)
     if not event.isdecimal():
         return found
     if len(event) > LONGEST or not 1 <= int(event) <= len(found):
         count = f"1 to {len(found)}" if found else "none: no collision, near miss or hard brake"
-        raise UnknownError(f"Run {run} has no event {short(event)} to explain; there is {count}.")
+        raise UnknownError(f"Run {run} has no event {event if len(event) <= LONGEST else short(event)} to explain; there is {count}.")
     return [found[int(event) - 1]]
