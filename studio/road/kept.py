@@ -9,11 +9,15 @@ import hashlib
 import os
 import pickle
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 from studio.cache import cache_root, forget_old, touch
 from studio.source import closure
 
+DIGEST_LENGTH = 64  # hexadecimal digits of SHA-256, as an import gives its map
+Made = TypeVar("Made")
 MOST_KEPT = 2_000_000_000  # [B] of one kind
 
 
@@ -41,6 +45,19 @@ def recall(kind: str, digest: str) -> object | None:
         return pickle.loads(body) if hashlib.sha256(body).digest() == checksum else None
     except Exception:  # a damaged pickle can raise anything
         return None
+
+
+def of_map(digest: str, kind: str, sort: type[Made], make: Callable[[], Made], *parts: object, maker: str) -> Made:
+    """What is made of the map of a digest and of `parts`: kept, or made anew and kept; for a map that no import made nothing is."""
+    if len(digest) != DIGEST_LENGTH:
+        return make()
+    name = digest_of(digest, *parts, maker=maker)
+    found = recall(kind, name)
+    if isinstance(found, sort):
+        return found
+    made = make()
+    keep(kind, name, made)
+    return made
 
 
 def keep(kind: str, digest: str, thing: object) -> None:

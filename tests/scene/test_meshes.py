@@ -10,6 +10,7 @@ import pytest
 import trimesh
 from PIL import Image
 
+from studio.road import kept
 from studio.road.network import Post, Wall
 from studio.scene import city, obstacle, signal, vehicle
 from studio.scene.city import building, tree, upright
@@ -212,7 +213,7 @@ def test_the_city_of_an_imported_map_is_kept_and_that_of_a_hand_made_one_is_not(
     monkeypatch.setenv("STUDIO_CACHE", str(tmp_path))
     made = city.city(town)
     assert not list(tmp_path.rglob("*.pickle"))
-    imported = replace(town, digest="0" * city.DIGEST_LENGTH)
+    imported = replace(town, digest="0" * kept.DIGEST_LENGTH)
     first, second = city.city(imported), city.city(imported)
     assert len(list(tmp_path.rglob("*.pickle"))) == 1
     assert [layer.data for layer in made.layers] == [layer.data for layer in first.layers] == [layer.data for layer in second.layers]

@@ -42,12 +42,7 @@ class Meetings:
 @once
 def meetings_of(network: Network) -> Meetings:
     """The meetings of a map; kept on disk."""
-    digest = kept.digest_of(network.digest, maker=__file__)
-    found = kept.recall("meetings", digest)
-    if not isinstance(found, Meetings):
-        found = made(network)
-        kept.keep("meetings", digest, found)
-    return found
+    return kept.of_map(network.digest, "meetings", Meetings, lambda: made(network), maker=__file__)
 
 
 def made(network: Network) -> Meetings:

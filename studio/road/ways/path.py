@@ -97,12 +97,10 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
         lateral_acceleration: what PATH_SPEED allows in bends [m/s²].
         deceleration: what PATH_SPEED needs before slower places [m/s²].
     """
-    digest = kept.digest_of(network.digest, lane_path.lanes, lateral_acceleration, deceleration, maker=__file__)
-    found = kept.recall("paths", digest)
-    if not isinstance(found, Path):
-        found = made(network, lane_path, lateral_acceleration, deceleration)
-        kept.keep("paths", digest, found)
-    return found
+    parts = lane_path.lanes, lateral_acceleration, deceleration
+    return kept.of_map(
+        network.digest, "paths", Path, lambda: made(network, lane_path, lateral_acceleration, deceleration), *parts, maker=__file__
+    )
 
 
 def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float) -> Path:

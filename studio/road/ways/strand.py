@@ -69,12 +69,7 @@ class Drive(NamedTuple):
 @once
 def strands_of(network: Network) -> Strands:
     """The strands of a map; kept on disk."""
-    digest = kept.digest_of(network.digest, maker=__file__)
-    found = kept.recall("strands", digest)
-    if not isinstance(found, Strands):
-        found = drawn(network)
-        kept.keep("strands", digest, found)
-    return found
+    return kept.of_map(network.digest, "strands", Strands, lambda: drawn(network), maker=__file__)
 
 
 def drawn(network: Network) -> Strands:

@@ -30,7 +30,6 @@ COLOURS = {
     "road": "#55585c",
     "markings": "#eceae3",
 }
-DIGEST_LENGTH = 64  # of a map that was imported; one made by hand has no digest that tells of its content
 BEYOND = 2000.0  # [m] of ground around the map
 SPACE_MARGIN = 0.35  # [m] of ground around a space, to its neighbour and to the lane
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
@@ -55,14 +54,7 @@ class City:
 
 def city(network: Network) -> City:
     """The city of a map; that of an imported map is kept on disk, since a large one takes seconds to make."""
-    if len(network.digest) != DIGEST_LENGTH:
-        return City(layers(network), tree.places(network))
-    digest = kept.digest_of(network.digest, maker=__file__)
-    found = kept.recall("cities", digest)
-    if not isinstance(found, City):
-        found = City(layers(network), tree.places(network))
-        kept.keep("cities", digest, found)
-    return found
+    return kept.of_map(network.digest, "cities", City, lambda: City(layers(network), tree.places(network)), maker=__file__)
 
 
 def layers(network: Network) -> list[Layer]:
