@@ -20,14 +20,14 @@ def place_at(centre, x, y):
     return centre[0] + y * METRE, centre[1] + x * METRE / np.cos(np.radians(centre[0]))
 
 
-def crossing(draft, centre, *, classes=None, sign=None):
+def crossing(draft, centre, *, classes=None, sign=None, reach=120, **tags):
     """Four streets that meet; the sign stands 15 m before the crossing on the one from the south."""
     middle = draft.node(*place_at(centre, 0, 0))
     for number, (arm, (x, y)) in enumerate(ARMS.items(), start=1):
-        end = draft.node(*place_at(centre, 120 * x, 120 * y))
+        end = draft.node(*place_at(centre, reach * x, reach * y))
         between = draft.node(*place_at(centre, 15 * x, 15 * y), **(sign or {})) if arm == "south" else None
         nodes = [end, between, middle] if between else [end, middle]
-        draft.way(number, nodes, highway=(classes or {}).get(arm, "residential"))
+        draft.way(number, nodes, highway=(classes or {}).get(arm, "residential"), **tags)
     return draft
 
 

@@ -9,7 +9,7 @@ from studio.road import load
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, V_X
 from studio.world.build import build
-from studio.world.table.mind import STATION, WAY_STATION
+from studio.world.table.mind import MINDED, STATION, WAY_STATION
 from studio.world.tick import tick
 from tests.road.conftest import Draft
 from tests.road.test_priority import AHEAD, BERLIN, PERTH, RIGHT_OF, TOKYO, arms_of, crossing
@@ -21,29 +21,32 @@ LEFT_OF = {there: here for here, there in RIGHT_OF.items()}
 class Run:
     """Cars on a crossing, tick by tick: noses, speeds, and when each passed the middle and came to its line."""
 
-    def __init__(self, folder, ways, *, centre=BERLIN, starts=None, seconds=40.0, speed=8.0, **drawn):
-        """`ways` are the arms that each car comes from and goes to; `starts` the station of each [m], else all the same."""
+    def __init__(self, folder, ways, *, centre=BERLIN, starts=None, seconds=40.0, speeds=None, **drawn):
+        """`ways` are the arms that each car comes from and goes to; `starts` and `speeds` where and how each begins, else all the same."""
         network = load(crossing(Draft(), centre, **drawn).write(folder / "cross.osm"))
         roads = {arms_of(network, c): (network.lanes[c.from_lane].road, network.lanes[c.to_lane].road) for c in network.connections}
         named = {f"car_{i}_{a}_{b}": list(roads[a, b]) for i, (a, b) in enumerate(ways)}
-        starts = starts or [40.0] * len(ways)
+        starts, speeds = starts or [40.0] * len(ways), speeds or [8.0] * len(ways)
         scenario = {
             "version": 3, "title": "Crossing", "map": {"file": "cross.osm"}, "clock": {"duration": seconds},
             "routes": {name: {"roads": road} for name, road in named.items()},
             "vehicles": {
-                name: {"route": name, "position": {"along": start}, "speed": speed} for name, start in zip(named, starts, strict=True)
+                name: {"route": name, "position": {"along": start}, "speed": speed}
+                for name, start, speed in zip(named, starts, speeds, strict=True)
             },
         }  # fmt: skip
         (folder / "cross.yaml").write_text(yaml.safe_dump(scenario), encoding="utf-8")
         self.world = world = build([job.prepare(job.load(folder / "cross.yaml"))])
-        nose, speed, held, active = [], [], [], []
+        nose, speed, held, active, minded = [], [], [], [], []
         for _ in range(round(seconds / world.clock.tick)):
             tick(world)
             nose.append(world.vehicles.mind[STATION] + world.vehicles.parameter[FRONT])
             speed.append(world.vehicles.state[V_X].copy())
             held.append(np.isfinite(world.vehicles.mind[WAY_STATION]))
             active.append(world.vehicles.state[ACTIVE] > 0)
-        self.nose, self.speed, self.held, self.active = (np.array(each).T for each in (nose, speed, held, active))
+            minded.append(world.vehicles.mind[MINDED].copy())
+        made = (np.array(each).T for each in (nose, speed, held, active, minded))
+        self.nose, self.speed, self.held, self.active, self.minded = made
         r = world.roads
         self.line = np.array([r.web.drive[0, d + 1] for d in r.drive_first])  # where the way through the junction begins
         self.time = np.arange(self.nose.shape[1]) * world.clock.tick
@@ -74,6 +77,7 @@ def test_equal_streets(tmp_path, centre, first_from, arm):
     run = Run(tmp_path, [(arm, AHEAD[arm]), (other, AHEAD[other])], centre=centre)
     assert run.is_fine() and run.passes(0) > run.passes(1) + 1.0
     assert not run.held[1].any() and run.held[0].any() and run.slowest(0) < run.slowest(1)
+    assert {1.0} <= set(run.minded[0, run.held[0]]) <= {1.0, -1.0}  # he minds the other, or nobody while he need not brake
 
 
 def test_four_at_once(tmp_path):
@@ -102,7 +106,17 @@ def test_at_a_stop_sign_one_halts_with_nobody_there(tmp_path):
         run = Run(tmp_path, [("south", "north")], classes=MAJOR, sign={"highway": sign})
         assert run.is_fine()
         speeds[sign] = run.slowest(0)
+        assert (run.minded == -1.0).all()  # there is nobody
     assert speeds["stop"] < 0.1 and speeds["give_way"] > 3.0
+
+
+def test_who_comes_fast_is_waited_for_from_afar(tmp_path):
+    """At 100 km/h 155 m are 5.6 s, and 6.5 s are wanted: who stands at the line does not begin to go."""
+    drawn = {"classes": MAJOR, "reach": 330, "maxspeed": "100"}
+    starts, speeds = [312.0, 165.0], [0.0, 27.8]
+    run = Run(tmp_path, [("south", "north"), ("west", "east")], starts=starts, speeds=speeds, **drawn)
+    assert run.line[1] - run.nose[1, 0] == pytest.approx(155.0, abs=12.0) and run.line[0] - run.nose[0, 0] < 6.0
+    assert run.is_fine() and run.held[0, 0] and not run.held[1].any() and run.passes(0) > run.passes(1)
 
 
 @pytest.mark.parametrize(("apart", "goes_between"), [(25.0, False), (96.0, True)])

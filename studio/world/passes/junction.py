@@ -10,7 +10,7 @@ Before the line of a way, where its strand begins, he decides whether he may go;
     nobody goes          of those who have stood a while, who has stood longest goes before one who stands as well
 """
 
-from math import sqrt
+from math import inf, sqrt
 
 from studio.compiled import inlined
 from studio.model import driver
@@ -36,13 +36,13 @@ from studio.world.table.mind import (
 )  # fmt: skip
 from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE, SIGNAL, STOP
 
+NOBODY = -1
 PATIENCE = 2.0  # [s] that one stands before who has stood longer goes first
 STANDING = 0.5  # [m/s] a car slower than this stands
 HALT, AT_LINE = 0.1, 4.0  # [m/s], [m] slower than this, and so near to a line, one has halted there
 FAIR, CRAWL, GENTLE, NEAREST = 10.0, 3.0, 2.0, 1.0  # [s], [m/s], [m/s²], [m] in slow traffic who has waited so long is let in
 SLOW = 2.0  # [m/s] who drives slower than this behind a junction may leave no room
 LONG = 15.0  # [m] from the centre of gravity no front is farther
-EARLIEST = 150.0  # [m] before a place where ways meet others are looked for
 BEHIND = 60.0  # [m] behind oneself others are minded before a lane change
 BESIDE, SAFE = 1.0, 3.0  # [m], [m/s²] nearer than this is beside; harder than this nobody is made to brake by a lane change
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body
@@ -57,11 +57,12 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
     is_way, line = web.right[strand] != LANE and to_line >= 0.0, web.drive[ENTER, d]
     if is_way and mind[RED_STATION, v] <= line + AT_LIGHT:
         return True
-    must = False
+    must, who = False, NOBODY
     if is_way:
         must = has_to_halt(v, strand, line, to_line, state, web, mind)
         if not must and web.crosses[strand] == 1:
-            must = not has_room(v, d, last, own, world, state, parameter, web, first, place, at, drivers)
+            who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers)
+            must = who != NOBODY
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
             continue
@@ -73,8 +74,8 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
                 v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web,
                 drivers, mind,
             ):  # fmt: skip
-                must, mind[FIRST, v] = True, number[other]
-    return must and is_way and is_held(v, line, to_line, decided, state, mind)
+                must, who = True, number[other]
+    return must and is_way and is_held(v, who, line, to_line, decided, state, mind)
 
 
 @inlined
@@ -82,15 +83,18 @@ def earliest(m, web):
     """From which station on [m] who drives on the partner of a strand matters: who gives way only once he has passed his line."""
     if web.turn[m] == NONE:
         return web.span[ITS_ENTER, m] - LONG
-    return -LONG if web.turn[m] == TAKE else web.span[ITS_ENTER, m] - EARLIEST
+    return -LONG if web.turn[m] == TAKE else -inf
 
 
 @inlined
-def is_held(v, line, to_line, decided, state, mind):
-    """Whether a driver stops before a line; who would have to brake too hard goes on, but who had `decided` to stop there stays with it."""
+def is_held(v, who, line, to_line, decided, state, mind):
+    """Whether a driver stops before a line, for `who` if it is for somebody.
+
+    Who would have to brake too hard goes on, but who had `decided` to stop there stays with it.
+    """
     speed = state[V_X, v]
     if driver.must_stop(speed, to_line) or (decided == line and driver.can_stop(speed, to_line)):
-        mind[WAY_STATION, v] = min(mind[WAY_STATION, v], line)
+        mind[WAY_STATION, v], mind[FIRST, v] = line, who
         return True
     return False
 
@@ -106,18 +110,18 @@ def has_to_halt(v, strand, line, to_line, state, web, mind):
 
 
 @inlined
-def has_room(v, d, last, own, world, state, parameter, web, first, place, at, drivers):
-    """Whether there is room behind a way, for those who are on it and for oneself; who drives there makes room."""
+def leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers):
+    """Who leaves no room behind a way, for those who are on it and for oneself, by his number; who drives there makes room."""
     if d + 1 == last:
-        return True
+        return NOBODY
     queue = world * web.right.size + web.strand[d + 1]
-    i, end = from_station(queue, -EARLIEST, first, place, at)
+    i, end = from_station(queue, -inf, first, place, at)
     while i < end and place[KEY, i] == queue:
         other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
         if other != v and nose >= 0.0:
             needed = parameter[LENGTH, v] + drivers[STANDSTILL, v] + taken(v, d, own, world, parameter, web, first, place, at, drivers)
-            return state[V_X, other] >= SLOW or nose - parameter[LENGTH, other] >= needed
-    return True
+            return NOBODY if state[V_X, other] >= SLOW or nose - parameter[LENGTH, other] >= needed else number[other]
+    return NOBODY
 
 
 @inlined
@@ -186,22 +190,11 @@ def together(m, web):
 @inlined
 def lead(v, other, gap, speed, state, parameter, places, points, path_first, path_count, number, drivers, mind):
     """Somebody is ahead where strands meet: he is followed, and if he is in the way he is who is ahead. Who stands beside is passed."""
-    is_in = is_in_the_way(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, parameter, places, points, path_first, path_count)
-    if (
-        gap > 0.0
-        or is_in
-        or state[V_X, other] > STANDING
-        or not is_clear(
-            v,
-            other,
-            mind[STATION, v] + parameter[FRONT, v] + gap + parameter[LENGTH, other],
-            parameter,
-            places,
-            points,
-            path_first,
-            path_count,
-        )
-    ):
+    rear = mind[STATION, v] + parameter[FRONT, v] + gap
+    is_in = is_in_the_way(v, other, rear, parameter, places, points, path_first, path_count)
+    if gap > 0.0 or is_in or state[V_X, other] > STANDING or not is_clear(
+        v, other, rear + parameter[LENGTH, other], parameter, places, points, path_first, path_count
+    ):  # fmt: skip
         follow(v, number[other], gap, speed, state, drivers, mind)
     if gap > 0.0 and is_in:
         is_ahead(v, other, number[other], gap, speed, mind)
@@ -311,7 +304,7 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
 
     Whoever is ahead there is followed as one who goes first.
     """
-    nose, tail, blocked = own + parameter[FRONT, v], own + parameter[FRONT, v] - parameter[LENGTH, v], False
+    nose, tail, who = own + parameter[FRONT, v], own + parameter[FRONT, v] - parameter[LENGTH, v], NOBODY
     i, end = from_station(key, own - BEHIND, first, place, at)
     while i < end and place[KEY, i] == key:
         other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
@@ -321,7 +314,8 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
         if there > own:
             gap = its_nose - parameter[LENGTH, other] - nose
             let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
-            blocked |= gap < BESIDE
+            who = number[other] if gap < BESIDE else who
             break
-        blocked |= tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE
-    return blocked and is_held(v, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind)
+        if tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
+            who = number[other]
+    return who != NOBODY and is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind)
