@@ -50,7 +50,7 @@ from studio.vehicle.command import RING, U_DRIVE, U_STEER
 from studio.vehicle.fleet import Fleet, Start
 from studio.world.build import build
 from studio.world.channel import CHANNELS
-from studio.world.passes import notice
+from studio.world.passes import census, notice
 from studio.world.setting import Setting
 from studio.world.tick import (
     act,
@@ -187,6 +187,7 @@ def parts_of_tick(running: Simulation) -> Iterator[tuple[str, Callable[[], Any]]
     clock.k += 1
     yield "check", running.check
     yield "report", lambda: notice.notice(world, running.watch)
+    yield "count", lambda: census.take(world, running.census)
 
 
 def seconds(action: Callable[[], Any]) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.brought import Brought, Fault, acting_since, turns_of
+from studio.execution.counted import Counted
 from studio.execution.happening import Happening
 from studio.execution.hearing import Hearing
 from studio.execution.message import Messages, none
@@ -80,7 +81,8 @@ class Record:
     `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
     of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channels `ahead` and `minded` stand for,
     `commanders` those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
-    `brought` is what the script may bring to the road, by name; `faults` are those of sensors that it may make.
+    `brought` is what the script may bring to the road, by name; `faults` are those of sensors that it may make. `counted` is what was
+    counted of all vehicles, recorded or not; it is there while a run is measured, and is not kept.
     """
 
     time: np.ndarray
@@ -98,6 +100,7 @@ class Record:
     mounts: dict[str, Mount] = field(default_factory=dict)
     brought: dict[str, Brought] = field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
+    counted: tuple[Counted, ...] = ()
 
     @cached_property
     def derived(self) -> "Derived":
@@ -162,6 +165,7 @@ class Record:
             time=self.time[where],
             values=self.values[:, :, where],
             happenings=tuple(event for event in self.happenings if begin <= event.time <= end),
+            counted=tuple(each for each in self.counted if begin <= each.time <= end),
             ages=self.ages[:, where],
             messages=self.messages.part(
                 (self.messages.time >= begin) & (self.messages.time <= end), np.ones(self.messages.receiver.size, dtype=bool)
@@ -179,6 +183,7 @@ class Record:
             values=self.values[:, rows],
             vehicles=tuple(self.vehicles[i] for i in rows),
             happenings=tuple(event for event in self.happenings if not event.units or set(event.units) & set(vehicles)),
+            counted=tuple(each for each in self.counted if each.who in vehicles or each.other in vehicles),
             chains=tuple(part for chain in self.chains for part in chain.parts(vehicles)),
             links=tuple(self.links[i] for i in links),
             ages=self.ages[links],

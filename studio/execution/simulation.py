@@ -2,11 +2,13 @@
 
 import time
 from dataclasses import dataclass, field
+from math import inf
 
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
 from studio.execution.brought import brought, faults
+from studio.execution.counted import counted
 from studio.execution.event import Teller, chains, hopeless, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.hearing import hearing
@@ -20,7 +22,8 @@ from studio.world.board.host import Fault
 from studio.world.build import build
 from studio.world.commander import commanders
 from studio.world.line import starts
-from studio.world.passes import notice
+from studio.world.passes import census, notice
+from studio.world.passes.census import Census
 from studio.world.passes.notice import Watch
 from studio.world.probe import Reader, probes
 from studio.world.setting import Setting
@@ -43,6 +46,7 @@ class Case:
     time: float = 0.0
     samples: int = 0
     state_hash: str = ""
+    unfinished: np.ndarray = field(default_factory=census.nothing)  # what still went on when it was over, as counted
 
     @property
     def is_over(self) -> bool:
@@ -63,7 +67,9 @@ class Simulation:
     recorder: Recorder
     watch: Watch
     teller: Teller
+    census: Census
     ticks: int  # length of the whole run
+    counts: list[np.ndarray] = field(default_factory=list)  # what was counted, [row, event]
     started: float = field(default_factory=time.perf_counter)
     running: int = field(init=False)  # worlds that are not over
     may_end: bool = field(init=False)  # whether the script may end some world
@@ -86,7 +92,7 @@ class Simulation:
         for _ in range(ticks):
             if not self.is_over:
                 self.tick()
-            if self.watch.is_nearly_full:
+            if self.watch.is_nearly_full or self.census.is_nearly_full:
                 self.tell()
         self.tell()
 
@@ -105,6 +111,7 @@ class Simulation:
         self.check_wishes()
         self.check()
         notice.notice(self.world, self.watch)
+        census.take(self.world, self.census)
         if self.world.clock.k >= self.ticks and not self.is_over:
             self.end("done")
 
@@ -124,6 +131,7 @@ class Simulation:
         for world, event in self.teller.tell(self.watch):
             if not self.cases[world].is_over:
                 self.cases[world].happen(event)
+        self.counts.append(self.census.taken())
 
     def end(self, status: str) -> None:
         """The runs are over: everybody looks around once more, and a last sample is taken."""
@@ -142,6 +150,7 @@ class Simulation:
         """A world is over: what is recorded from now on is not its own."""
         case = self.cases[number]
         self.running -= 1
+        case.unfinished = census.unfinished(self.world, self.census)
         case.status, case.time, case.samples, case.state_hash = status, self.time, self.recorder.count, self.world.digest(number)
 
     def stop(self) -> None:
@@ -202,6 +211,7 @@ class Simulation:
             mounts=mounts(case.setting.scenario),
             brought=brought(case.setting),
             faults=faults(case.setting),
+            counted=counted([*self.counts, case.unfinished], self.world, number, case.time if case.is_over else inf),
         )
 
     def recorded(self, number: int = 0) -> tuple[str, ...]:
@@ -272,6 +282,7 @@ def simulation(*settings: Setting) -> Simulation:
         recorder=recorder(settings, world),
         watch=watched(settings, world),
         teller=Teller(settings, world),
+        census=census.census(world),
         ticks=round(scenario.clock.duration / scenario.clock.tick),
     )
 
