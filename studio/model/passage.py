@@ -21,6 +21,15 @@ def arrival(d, v, a):
 
 
 @compiled
+def arrival_below(d, v, a, top):
+    """The same for one who accelerates no further than to a speed `top` [m/s], as in a bend, and slows down to it where he is faster."""
+    if v >= top or a <= 0.0:
+        return d / max(min(v, top), SLOWEST) if d > 0.0 else 0.0
+    until = (top * top - v * v) / (2.0 * a)
+    return arrival(d, v, a) if d <= until else (top - v) / a + (d - until) / top
+
+
+@compiled
 def saved(d, v, a):
     """Time [s] that rolling with v saves over starting from rest, on d [m]."""
     return arrival(d, 0.0, a) - arrival(d, v, a)

@@ -14,9 +14,9 @@ from math import inf, sqrt
 
 from studio.compiled import inlined
 from studio.model import driver
-from studio.model.passage import AFTER, arrival, is_enough, merging_headway, wanted_gap
+from studio.model.passage import AFTER, arrival, arrival_below, is_enough, merging_headway, wanted_gap
 from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
-from studio.road.ways.path import project
+from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import V_X
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
@@ -28,6 +28,7 @@ from studio.world.table.mind import (
     FIRST,
     HALTED,
     RED_STATION,
+    SPEED_FACTOR,
     STANDSTILL,
     STATION,
     STOOD,
@@ -63,6 +64,7 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
         if not must and web.crosses[strand] == 1:
             who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers)
             must = who != NOBODY
+    top = top_speed(v, d, drivers, points, path_first, path_count, web)
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
             continue
@@ -71,8 +73,8 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
         while i < end and place[KEY, i] == key:
             other, there, i = place[WHO, i], at[i], i + 1
             if other != v and meet(
-                v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web,
-                drivers, mind,
+                v, other, m, strand, own, there, to_line, top, state, parameter, places, points, path_first, path_count, number, entity,
+                web, drivers, mind,
             ):  # fmt: skip
                 must, who = True, number[other]
     return must and is_way and is_held(v, who, line, to_line, decided, state, mind)
@@ -144,6 +146,19 @@ def free(v, state, drivers, mind):
 
 
 @inlined
+def top_speed(v, d, drivers, points, path_first, path_count, web):
+    """Speed [m/s] that v will drive in the middle of a way, where its bend permits it."""
+    middle = min(web.drive[ENTER, d] + 0.5 * web.drive[END, d], (path_count - 1.001) * PATH_SPACING)
+    return max(drivers[SPEED_FACTOR, v] * interpolate(points, path_first, PATH_SPEED, middle), CRAWL)
+
+
+@inlined
+def own_arrival(v, distance, top, state, drivers, mind):
+    """When v itself is `distance` [m] on [s]."""
+    return arrival_below(distance, max(state[V_X, v], 0.0), free(v, state, drivers, mind), top)
+
+
+@inlined
 def comes_in(v, distance, state, drivers, mind):
     """When one is `distance` [m] on [s], if nobody hinders him."""
     return arrival(distance, max(state[V_X, v], 0.0), free(v, state, drivers, mind))
@@ -153,8 +168,8 @@ def comes_in(v, distance, state, drivers, mind):
 
 
 @inlined
-def meet(v, other, m, strand, own, there, to_line, state, parameter, places, points, path_first, path_count, number, entity, web, drivers,
-         mind):  # fmt: skip
+def meet(v, other, m, strand, own, there, to_line, top, state, parameter, places, points, path_first, path_count, number, entity, web,
+         drivers, mind):  # fmt: skip
     """What one who comes where two strands meet means for v; whether v has to wait for him before the line."""
     nose, its_nose = own + parameter[FRONT, v], there + parameter[FRONT, other]
     its_tail = its_nose - parameter[LENGTH, other]
@@ -163,8 +178,9 @@ def meet(v, other, m, strand, own, there, to_line, state, parameter, places, poi
         return False
     if its_nose < its_enter:
         return nose < enter and lets_go(
-            v, other, m, strand, enter - nose, its_enter - its_nose, its_nose, to_line, state, parameter, number, entity, web, drivers, mind
-        )
+            v, other, m, strand, enter - nose, its_enter - its_nose, its_nose, to_line, top, state, parameter, number, entity, web, drivers,
+            mind,
+        )  # fmt: skip
     if web.shape[m] == ALONG:
         mine, its = together(m, web)
         if its_nose - its > nose - mine:
@@ -173,10 +189,19 @@ def meet(v, other, m, strand, own, there, to_line, state, parameter, places, poi
                 number, drivers, mind,
             )  # fmt: skip
         return False
-    if nose >= enter or leaves_in(other, its_leave - its_tail, state) + AFTER < comes_in(v, enter - nose, state, drivers, mind):
+    gone = leaves_in(other, its_leave - its_tail, state) + AFTER
+    if nose >= enter or gone < own_arrival(v, enter - nose, top, state, drivers, mind):
         return False
-    lead(v, other, enter - nose, 0.0, state, parameter, places, points, path_first, path_count, number, drivers, mind)
+    let_across(v, other, enter - nose, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind)
     return web.turn[m] != NONE
+
+
+@inlined
+def let_across(v, other, gap, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind):
+    """Somebody is on a place `gap` [m] ahead, and will be gone after so long [s]: v follows one who would be there just then."""
+    follow(v, number[other], gap, gap / gone, state, drivers, mind)
+    if is_in_the_way(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, parameter, places, points, path_first, path_count):
+        is_ahead(v, other, number[other], gap, 0.0, mind)
 
 
 @inlined
@@ -216,7 +241,7 @@ def leaves_in(other, distance, state):
 
 
 @inlined
-def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, state, parameter, number, entity, web, drivers, mind):
+def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, state, parameter, number, entity, web, drivers, mind):
     """What one means who is not there yet, `its_way` [m] before it; whether v has to wait for him before the line."""
     red = mind[RED_STATION, other] - mind[STATION, other] - parameter[FRONT, other]
     turn, partner = web.turn[m], web.partner[m]
@@ -226,14 +251,14 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, state, pa
     its_time = comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
     if turn == GIVE and (to_line >= 0.0 or at_light):
-        if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+        if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
             return False
         if at_light:
             follow(v, number[other], to_enter, 0.0, state, drivers, mind)
         return not at_light
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
-    return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
+    return comes_first(v, other, m, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind)
 
 
 @inlined
@@ -243,32 +268,32 @@ def has_stood_longer(v, other, entity, mind):
 
 
 @inlined
-def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
     """Whether v may go before one who goes first: he is far enough, he will be gone, or he stands and lets v go."""
     if state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE and has_stood_longer(v, other, entity, mind):
         return True
     if mind[STOOD, v] > FAIR and is_crawling(other, its_way, state):
         return True
     length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
-    own_time = comes_in(v, to_enter, state, drivers, mind)
+    own_time = own_arrival(v, to_enter, top, state, drivers, mind)
     if its_time + leaves_in(other, length, state) + AFTER < own_time:
         return True
     a, to_wait = free(v, state, drivers, mind), max(to_line - driver.STOP_CLOSE, 0.0)
     across = web.span[OWN_LEAVE, m] + parameter[LENGTH, v]
-    lag = its_time - arrival(to_wait, max(state[V_X, v], 0.0), a)
+    lag = its_time - arrival_below(to_wait, max(state[V_X, v], 0.0), a, top)
     return is_enough(lag, wanted_gap(web.critical[strand], mind[STOOD, v]), across, state[V_X, v], drivers[COMFORT, v]) and is_safe(
-        v, other, m, to_enter, its_time, own_time, a, state, parameter, web
+        v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web
     )
 
 
 @inlined
-def is_safe(v, other, m, to_enter, its_time, own_time, a, state, parameter, web):
+def is_safe(v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web):
     """Whether v has left before the other comes; where lines run together, whether he need not brake hard behind v."""
     speed = max(state[V_X, v], 0.0)
     if web.shape[m] == ALONG:
         return its_time > own_time + merging_headway(state[V_X, other], sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
     way = to_enter + web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + parameter[LENGTH, v]
-    return its_time > arrival(way, speed, a) + AFTER
+    return its_time > arrival_below(way, speed, a, top) + AFTER
 
 
 @inlined
@@ -279,9 +304,9 @@ def is_crawling(other, its_way, state):
 
 
 @inlined
-def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
+def comes_first(v, other, m, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
     """Of two of whom none has to wait, who is there first goes first; whether v has to wait for the other before the line."""
-    own_time = comes_in(v, to_enter, state, drivers, mind)
+    own_time = own_arrival(v, to_enter, top, state, drivers, mind)
     if state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other]):
         return False
     if web.shape[m] == ALONG:
