@@ -17,7 +17,8 @@ from studio.road.network import Network
 from studio.road.ways.path import path
 from studio.road.ways.route import all_routes
 from studio.scenario import setup
-from studio.world.setting import USUAL_RADIUS, Setting, position, setting
+from studio.world.car import position
+from studio.world.setting import USUAL_RADIUS, Setting, setting
 
 PLATOON, GAP, EVERY = 5, 25.0, 200.0  # cars of a platoon, [m] from one to the next, [m] from platoon to platoon
 LANES, MARGIN = 3, 1000.0  # of each direction; [m] of road before the last car and ahead of the first

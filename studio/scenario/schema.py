@@ -248,16 +248,51 @@ class Application(Part):
         return [given] if isinstance(given, str) else given
 
 
-class Traffic(Part, defer_build=True):
-    """Cars that fill the map, placed at random on the ways from any arm to any other."""
+class Flow(Part):
+    """Cars that come in where a route begins and leave where it ends: so many an hour, for a while."""
 
-    count: int = Field(0, ge=0, le=500, title="Number of cars", json_schema_extra={"unit": "1"})
+    route: RouteName = Field(..., title="Route")
+    rate: float = number(..., unit="1/h", title="Cars an hour", gt=0, le=20_000)
+    headways: Literal["random", "even"] = Field(
+        "random", title="Headways", description="random: independent of each other, as in free traffic (Poisson); even: one like the other"
+    )
+    begin: float = number(0.0, unit="s", title="From", ge=0, le=100_000)
+    end: float | None = Field(
+        None, gt=0, le=100_000, title="To", json_schema_extra={"unit": "s"}, description="left out: to the end of the run"
+    )
+    lane: int | None = Field(
+        None,
+        ge=0,
+        le=9,
+        title="Lane",
+        description="of the first road, 0 at the kerb; left out: all from which the route can be driven, in turn",
+    )
+    model: str | None = Field(None, max_length=300, title="Model", examples=MODELS, description="left out: as in the traffic")
+
+    @model_validator(mode="after")
+    def ends_after_its_beginning(self):
+        if self.end is not None and self.end <= self.begin:
+            raise ValueError(f"it must end ({self.end:g} s) after its beginning ({self.begin:g} s)")
+        return self
+
+
+class Traffic(Part, defer_build=True):
+    """Cars that fill the map: so many on the ways from any arm to any other, and flows that come in and leave."""
+
+    count: int = Field(
+        0, ge=0, le=3000, title="Number of cars", json_schema_extra={"unit": "1"},
+        description="who has arrived comes in again where his way begins; for whom there is no room at the start waits outside",
+    )  # fmt: skip
+    flows: dict[Name, Flow] = Field({}, title="Flows")
     model: str = Field(
         "ford_escort",
         max_length=300,
         title="Model",
         examples=MODELS,
         description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario",
+    )
+    mix: dict[str, Annotated[float, Field(gt=0, le=1e6)]] = Field(
+        {}, title="Mix", description="several models with their shares instead of one", max_length=30
     )
     speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)

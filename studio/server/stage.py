@@ -10,7 +10,8 @@ from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
 from studio.server.frame import Frame, first_frame, looks, places
 from studio.server.live import LiveRun
-from studio.world.setting import Setting, position
+from studio.world.car import position
+from studio.world.setting import Setting
 
 
 @dataclass

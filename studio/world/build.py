@@ -17,9 +17,10 @@ from studio.scenario.schema import REASONS, Intervention, Weather
 from studio.vehicle.command import U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground
 from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
-from studio.vehicle.state import CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
+from studio.vehicle.state import ACTIVE, CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
 from studio.world.board.crew import hosts
 from studio.world.board.equipment import units_of
+from studio.world.car import Car, pose
 from studio.world.chart import chart_of
 from studio.world.deed import deeds_of
 from studio.world.effect import Slippery
@@ -28,18 +29,19 @@ from studio.world.mail import mail_of
 from studio.world.obstacle import movers, obstacles_of
 from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
+from studio.world.passes.entry import NOT_YET
 from studio.world.passes.neighbour import neighbours
 from studio.world.passes.queue import queues
 from studio.world.probe import reader_of
 from studio.world.script import script_of
 from studio.world.seat import seats
-from studio.world.setting import Car, Setting, pose
+from studio.world.setting import Setting
 from studio.world.snapshot import gather, origin_of
 from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION, WAY_STATION
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_DRIVE, LINE_DRIVES, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.table.web import Web
 from studio.world.web import web_of
-from studio.world.world import Clock, Events, Roads, Vehicles, World, Worlds
+from studio.world.world import Clock, Demand, Events, Roads, Vehicles, World, Worlds
 
 FIRST_HITS = 64  # collisions of a world that there is room for at first
 
@@ -67,6 +69,7 @@ def build(settings: Sequence[Setting]) -> World:
         events=events_of(settings),
         script=script_of(settings, worlds, lines, movers(settings, obstacles.first)),
         detours=detours_of(settings, worlds, lines, table),
+        demand=demand_of(settings, worlds),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
         queues=queues(vehicles.size),
@@ -124,14 +127,32 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     mind[STATION] = [car.station for car in cars]
     mind[GAP] = np.nan  # nobody has looked yet
     mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, WAY_STATION]] = np.inf
+    made = fleet(starts, ground=ground_of(cars))
+    made.state[ACTIVE, [car.is_outside for car in cars]] = 0.0
     return Vehicles(
-        **vars(fleet(starts, ground=ground_of(cars))),
+        **vars(made),
         drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
         returns=np.array([int(car.returns) for car in cars]),
-        any_returns=any(car.returns for car in cars),
+        any_returns=any(car.returns or car.is_outside for car in cars),
         removed=np.zeros(n, dtype=np.int64),
         app_command=np.full((2 * len(ACTUATORS), n), np.nan),
+    )
+
+
+def demand_of(settings: Sequence[Setting], worlds: Worlds) -> Demand:
+    """The sources of all worlds; nobody has come in yet."""
+    sources = [(w, i, each) for w, setting in enumerate(settings) for i, each in enumerate(setting.sources)]
+    cars = [[v for v, car in enumerate(settings[w].cars) if car.source == i] for w, i, _ in sources]
+    due = [each.due for *_, each in sources]
+    return Demand(
+        column=np.array([worlds.first[w] + min(found, default=0) for (w, *_), found in zip(sources, cars, strict=True)], dtype=np.int64),
+        cars=np.array([len(found) for found in cars], dtype=np.int64),
+        first=np.concatenate([[0], np.cumsum([each.size for each in due])]).astype(np.int64),
+        due=np.concatenate([np.zeros(0), *due]),
+        gone=np.zeros(len(sources), dtype=np.int64),
+        world=np.array([w for w, *_ in sources], dtype=np.int64),
+        came=np.full(worlds.of.size, NOT_YET),
     )
 
 

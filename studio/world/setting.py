@@ -6,35 +6,30 @@ setting(scenario)   →  Setting
 import os
 import re
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any
-
-import numpy as np
 
 from studio import road
 from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownError, nearest
 from studio.kind import registry
-from studio.kind.driver import Driver
 from studio.kind.settings import references
-from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
 from studio.road.network import Network
-from studio.road.network.index import once
 from studio.road.ways import path as road_path
-from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
-from studio.road.ways.route import all_routes, connect
-from studio.road.ways.strand import driven, strands_of
+from studio.road.ways.route import connect
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Gps, Intervention, Scenario
+from studio.scenario.schema import Scenario
 from studio.vehicle.command import RING
 from studio.vehicle.fleet import check_step
 from studio.world import crew
+from studio.world.car import Car, footprint
 from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
 from studio.world.effect import Walk
 from studio.world.exclusive import exclusive
-from studio.world.footprint import Footprint, Overlap, depth, overlaps
+from studio.world.footprint import Footprint, Overlap, overlaps
+from studio.world.population import CAR_LENGTH, END_CLEARANCE, Source, sources_of, traffic
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
 from studio.world.thing import Thing, names, things
@@ -42,29 +37,6 @@ from studio.world.value import values
 from studio.world.way import MOST_WORKS, Works
 
 USUAL_RADIUS = 800.0  # [m] of a map file that no scenario or import cuts otherwise
-CAR_LENGTH = 4.5  # [m] a car that starts nearer than this to works is about to be in them
-FAR = 60.0  # [m] east plus north, beyond which no two bodies meet
-BRAKING = 15.0  # [m] before a junction no traffic starts
-TRIES = 200  # to place one traffic car
-END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
-STYLE_SPREAD = 0.1  # traffic drivers want 90 % to 110 % of the usual speed
-PAINTS = ("#9aa3ad", "#d9d9d4", "#3b4048", "#6f7f8f", "#b8b2a6", "#54606e")  # of traffic, in turn
-
-
-@dataclass(frozen=True)
-class Car:
-    """A car before it is a column: its model, path, start and driver."""
-
-    name: str
-    model: VehicleModel
-    path: road_path.Path
-    station: float  # [m] of the centre of gravity
-    speed: float  # [m/s]
-    driver: Driver
-    intervention: Intervention
-    colour: str
-    gps: Gps
-    returns: bool = False
 
 
 @dataclass(frozen=True)
@@ -77,6 +49,7 @@ class Setting:
     sites: tuple[Site, ...]
     works: Works
     spots: dict[str, tuple[float, float]]  # [m] where the stations stand
+    sources: tuple[Source, ...] = ()  # where the cars of flows come in
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -100,15 +73,15 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     check_starts(cars, found, where)
     works = Works(found)
     check_works(cars, works, where)
-    filled = tuple(cars + traffic(scenario, network, models, cars, works))
-    return Setting(scenario, network, filled, found, works, spots(scenario, network, where))
+    sources = sources_of(scenario, network, where)
+    filled = tuple(cars + traffic(scenario, network, models, cars, works, sources))
+    return Setting(scenario, network, filled, found, works, spots(scenario, network, where), tuple(sources))
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
     """The vehicles that are named, of the catalogue or from files beside the scenario; fit for its step and tick."""
-    named = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
-    if scenario.traffic.count:
-        named["traffic.model"] = scenario.traffic.model
+    is_used = scenario.traffic.count or scenario.traffic.flows
+    named = {path: name for path, name in models_named(scenario).items() if is_used or path.startswith("vehicles.")}
     found: dict[str, VehicleModel] = {}
     for path, name in named.items():
         if name not in found:
@@ -179,7 +152,9 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     }
     found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario) if each.what in names]
     models = set(catalogue.vehicle_names())
-    for path, model in models_named(scenario):
+    for path, model in models_named(scenario).items():
+        if is_file(model):
+            continue
         found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
     for i, name in enumerate(scenario.recording.channels):
         found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
@@ -197,17 +172,18 @@ def unknown(where: str, path: str, name: str, known: Collection[str], kind: str)
     return None if name in known else Problem(f"{where}: {path}", f"names no {kind}", repr(name), remedy=nearest(name, known))
 
 
-def models_named(scenario: Scenario) -> Iterator[tuple[str, str]]:
-    """Where models of the catalogue are named."""
+def models_named(scenario: Scenario) -> dict[str, str]:
+    """The models that a scenario names, by path."""
+    traffic = scenario.traffic
     named = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
-    yield from ((path, model) for path, model in [*named.items(), ("traffic.model", scenario.traffic.model)] if not is_file(model))
+    named["traffic.model"] = traffic.model
+    named |= {f"traffic.mix.{name}": name for name in traffic.mix}
+    return named | {f"traffic.flows.{name}.model": flow.model for name, flow in traffic.flows.items() if flow.model}
 
 
 def named_files(scenario: Scenario) -> dict[str, str]:
     """The files that a scenario names, by path: its map, and vehicles that are no names of the catalogue."""
-    models = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
-    files = {path: model for path, model in (models | {"traffic.model": scenario.traffic.model}).items() if is_file(model)}
-    return {"map.file": scenario.map.file} | files
+    return {"map.file": scenario.map.file} | {path: model for path, model in models_named(scenario).items() if is_file(model)}
 
 
 def is_file(model: str) -> bool:
@@ -284,7 +260,7 @@ def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road
             [Problem(f"{where}: {field}", error.message, remedy="; ".join(map(str, error.problems)))],
         ) from None
     joined = 0.0 if start is None else joins(start, route.roads, network)
-    return annotated(path, route.speeds, joined)
+    return road_path.annotated(path, route.speeds, joined)
 
 
 def from_road(name: str, start: str, roads: list[str], where: str) -> list[str]:
@@ -296,19 +272,6 @@ def from_road(name: str, start: str, roads: list[str], where: str) -> list[str]:
             [Problem(field, "is not a road of this route", repr(start), remedy=nearest(start, roads))],
         )
     return roads[roads.index(start) :]
-
-
-def annotated(path: road_path.Path, speeds, joined: float) -> road_path.Path:
-    """The path with the annotated speeds of its route, which it joins at a station; bends and limits still hold."""
-    if not speeds:
-        return path
-    points = path.points.copy()
-    stations = joined + np.arange(points.shape[1]) * PATH_SPACING
-    wanted = np.full(points.shape[1], np.inf)
-    for annotation in sorted(speeds, key=lambda each: each.at):
-        wanted[stations >= annotation.at] = annotation.speed
-    points[PATH_SPEED] = np.minimum(points[PATH_SPEED], wanted)
-    return replace(path, points=points)
 
 
 def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], path: road_path.Path, where: str) -> Car:
@@ -342,77 +305,6 @@ def check_works(cars: list[Car], works: Works, where: str) -> None:
     refuse(found, where)
 
 
-# --- traffic -----------------------------------------------------------------------------------------------------------
-
-
-def traffic(scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works) -> list[Car]:
-    """Cars at random on the ways between the arms, none near another; as many as find a place, else ScenarioError."""
-    wanted = scenario.traffic
-    taken = [position(car.path, car.station) for car in named]
-    bodies = [footprint(car.name, car.model, car.path, car.station) for car in named]
-    cars: list[Car] = []
-    for i in range(wanted.count):
-        found = free_place(i, scenario, network, taken, bodies, models[wanted.model], works)
-        if found is None:
-            raise ScenarioError(
-                "The traffic does not fit on the map.",
-                [Problem("traffic.count", "is too many", str(wanted.count), f"about {i} with this spacing")],
-            )
-        path, station = found
-        taken.append(position(path, station))
-        bodies.append(footprint(f"traffic_{i + 1:02d}", models[wanted.model], path, station))
-        style = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed_of("traffic"), i, TRAFFIC_STYLE, 0) - 1.0)
-        driver = wanted.driver.model_copy(update={"speed_factor": wanted.driver.speed_factor * style})
-        speed = min(wanted.speed, float(path.points[PATH_SPEED, int(station)]))
-        name = f"traffic_{i + 1:02d}"
-        cars.append(
-            Car(
-                name,
-                models[wanted.model],
-                path,
-                station,
-                speed,
-                driver,
-                Intervention(),
-                PAINTS[i % len(PAINTS)],
-                Gps(drift=0.0, noise=0.0),
-                returns=True,
-            )
-        )
-    return cars
-
-
-through_ways = once(all_routes)  # from every arm to every other
-_paths: dict[tuple[str, int], road_path.Path] = {}
-
-
-def through_path(network: Network, number: int) -> road_path.Path:
-    """The path of one of these ways, made when it is needed, once."""
-    if (network.digest, number) not in _paths:
-        _paths[network.digest, number] = road_path.path(network, through_ways(network)[number])
-    return _paths[network.digest, number]
-
-
-def pose(path: road_path.Path, station: float) -> tuple[float, float, float]:
-    """Position [m] and heading [rad] at a station of a path."""
-    stations = np.arange(path.points.shape[1]) * PATH_SPACING
-    x, y, heading = (np.interp(station, stations, path.points[row]) for row in (PATH_X, PATH_Y, PATH_HEADING))
-    return float(x), float(y), float(heading)
-
-
-def position(path: road_path.Path, station: float) -> tuple[float, float]:
-    """Where a station of a path lies [m]."""
-    return pose(path, station)[:2]
-
-
-def footprint(name: str, model: VehicleModel, path: road_path.Path, station: float) -> Footprint:
-    """The outline of a car whose centre of gravity is at a station of a path."""
-    x, y, heading = pose(path, station)
-    body = model.values.body
-    ahead = body.front_distance + body.front_overhang - 0.5 * body.length
-    return Footprint(name, x + ahead * np.cos(heading), y + ahead * np.sin(heading), heading, body.length, body.width)
-
-
 def check_starts(cars: list[Car], found: tuple[Site, ...], where: str) -> None:
     """No named car may start in another, or in what stands on the road from the beginning: their outlines decide."""
     bodies = [Footprint(name, *thing_at(each)) for name, each in standing_first(found)]
@@ -439,35 +331,3 @@ def overlapping(each: Overlap, starting: Collection[str], where: str) -> Problem
     who = repr(each.other.name) if each.other.name in starting else each.other.name
     gap, remedy = f"a gap of {-each.depth:.2f} m", f"place it at least {each.depth:.2f} m farther away"
     return Problem(field, f"starts where {who} starts, their outlines overlap", gap, "≥ 0 m", remedy)
-
-
-def junctions(network: Network, way: road_path.Path) -> np.ndarray:
-    """From where to where a path leads through junctions, float64[2, n] [m]."""
-    lanes = strands_of(network).lanes
-    return np.array([(each.enter, each.leave) for each in driven(network, way) if each.strand >= lanes]).reshape(-1, 2).T
-
-
-def in_junction(network: Network, way: road_path.Path, station: float) -> bool:
-    """Whether a car at a station [m] would start in a junction, or so near before it that it could not let others go first."""
-    enter, leave = junctions(network, way)
-    return bool(((station > enter - CAR_LENGTH - BRAKING) & (station < leave + CAR_LENGTH)).any())
-
-
-def free_place(i: int, scenario: Scenario, network: Network, taken, bodies, model, works: Works) -> tuple[road_path.Path, float] | None:
-    """A way and a station for traffic car i that keeps the spacing to all that is placed, and overlaps nobody."""
-    count = len(through_ways(network))
-    for attempt in range(TRIES if count else 0):
-        way = through_path(network, int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count))
-        if way.length <= 2 * END_CLEARANCE or len(works.way(way).works) > MOST_WORKS:
-            continue
-        station = uniform(scenario.seed_of("traffic"), i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
-        x, y = position(way, station)
-        near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
-        if near_light or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
-            continue
-        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(network, way, station):
-            continue
-        own = footprint("", model, way, station)
-        if all(depth(own, other) <= 0.0 for other in bodies if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
-            return way, station
-    return None

@@ -16,7 +16,7 @@ from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
 from studio.world.board.post import taking_turns
-from studio.world.passes import collision, control, ground, neighbour, queue, traffic
+from studio.world.passes import collision, control, entry, ground, neighbour, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.world import World
 
@@ -299,15 +299,15 @@ def strike(world: World) -> tuple:
 
 
 def recirculate(world: World) -> None:
-    """Traffic that has arrived comes in again."""
+    """Traffic that has arrived comes in again, and whoever is due."""
     if world.vehicles.any_returns:
-        come_in(world)
+        come_in(world, world.clock.time)
 
 
 @given
 def come_in(world: World) -> tuple:
-    """At the beginning of its path."""
-    v, r, w, g = world.vehicles, world.roads, world.worlds, world.neighbours
-    paths, near = (r.points, r.path_first, r.path_count, r.raised), (g.grid, g.places, g.found, g.entered)
-    drives = (r.drive_first, r.drive_count, r.web)
-    return traffic.recirculate, v.returns, *paths, *drives, w.of, *near, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
+    """At the beginning of its path, at a time [s]."""
+    v, r, w, q, d = world.vehicles, world.roads, world.worlds, world.queues, world.demand
+    due, paths = (d.column, d.cars, d.first, d.due, d.gone, d.came), (r.points, r.path_first, r.path_count, r.raised)
+    near = (r.drive_first, r.drive_count, r.web, w.of, q.first, q.place, q.at, world.neighbours.entered)
+    return entry.let_in, v.returns, v.removed, *due, *paths, *near, v.drivers, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind

@@ -52,7 +52,7 @@ class Vehicles(Fleet):
     drivers: np.ndarray
     mind: Moving
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
-    any_returns: bool  # at the start
+    any_returns: bool  # at the start; or comes in from outside
     removed: Moving  # 1 for one that the script has taken away
     app_command: Moving  # [actuator, vehicle] of applications, not a number where there is none; then who commands each
 
@@ -225,6 +225,19 @@ class Detours:
 
 
 @dataclass
+class Demand:
+    """Who comes in from outside: the sources of flows, each with cars of its own and the times at which they are due."""
+
+    column: np.ndarray  # int64[source]: the first of its cars
+    cars: np.ndarray  # int64[source]: how many it has
+    first: np.ndarray  # int64[source + 1]: the first of its times, and behind the last
+    due: np.ndarray  # [s] all times, source after source
+    gone: Moving  # int64[source]: how many have come in
+    world: np.ndarray  # per source
+    came: Moving  # [s] per vehicle: how late it came in; below zero until it has
+
+
+@dataclass
 class Movers:
     """Objects that move: which they are, where the corners of their lines begin and how many there are, speeds [m/s]."""
 
@@ -321,6 +334,7 @@ class World:
     events: Events
     script: Script
     detours: Detours
+    demand: Demand
     obstacles: Obstacles
     neighbours: Neighbours
     queues: Queues
@@ -432,6 +446,7 @@ class World:
         yield from (s.since[mine], s.met[mine])
         yield o.standing[self.objects(number)]
         yield d.choice[of[d.vehicle] == number]
+        yield self.demand.gone[self.demand.world == number]
         yield from (memory for group, memory in self.memories() if group.world == number)
 
     def memories(self) -> list[tuple[Group, np.ndarray]]:

@@ -9,7 +9,7 @@ import yaml
 from studio import job
 from studio.errors import MapError, RouteError, ScenarioError
 from studio.scenario import file, setup
-from studio.world.setting import position
+from studio.world.car import position
 
 
 @pytest.fixture

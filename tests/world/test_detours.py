@@ -15,7 +15,7 @@ from studio.road.ways.strand import driven as strands_on
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, X, Y
 from studio.world.build import build
-from studio.world.setting import pose
+from studio.world.car import pose
 from studio.world.snapshot import restore, snapshot
 from studio.world.table.mind import OFFSET, STATION
 from studio.world.table.street import CONE, O_KIND

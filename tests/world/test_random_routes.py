@@ -20,7 +20,8 @@ from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
-from studio.world.setting import Car, Setting
+from studio.world.car import Car
+from studio.world.setting import Setting
 from studio.world.table.mind import OFFSET, STATION
 from studio.world.tick import tick
 from studio.world.way import Works

@@ -5,7 +5,7 @@ follows them within `CORRIDOR`, blends lane changes over the length the road giv
 changes steadily.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -306,3 +306,16 @@ def project(points, first, count, x, y, s_guess):
         if distance < best:
             best, best_s, side = distance, i + u, t_x * d_y - t_y * d_x
     return best_s * PATH_SPACING, np.copysign(np.sqrt(best), side)
+
+
+def annotated(path: Path, speeds, joined: float) -> Path:
+    """The path with the annotated speeds of its route, which it joins at a station; bends and limits still hold."""
+    if not speeds:
+        return path
+    points = path.points.copy()
+    stations = joined + np.arange(points.shape[1]) * PATH_SPACING
+    wanted = np.full(points.shape[1], np.inf)
+    for annotation in sorted(speeds, key=lambda each: each.at):
+        wanted[stations >= annotation.at] = annotation.speed
+    points[PATH_SPEED] = np.minimum(points[PATH_SPEED], wanted)
+    return replace(path, points=points)

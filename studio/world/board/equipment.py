@@ -17,8 +17,9 @@ from studio.scenario.schema import Application, Bus
 from studio.world.board.air import air
 from studio.world.board.post import Known, Need, Post, post, slots_of
 from studio.world.board.sensing import Mounted, Sensor, mounted
+from studio.world.car import Car
 from studio.world.passes.sight import ROOM, SIGHT
-from studio.world.setting import Car, Setting
+from studio.world.setting import Setting
 from studio.world.table.unit import (
     COSINE,
     GPS_SET,

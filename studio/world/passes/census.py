@@ -9,6 +9,8 @@
     conflict     its front has entered a place where it gives way to another who was on his way there; how hard the other braked for it
     violation    a conflict in which the other braked harder than drivers do to be kind, or came to a crossing where the first had only
                  just left, or had not yet
+    entered      a car of a flow has come in; how late
+    outside      one that is due has not come in when the run is over; how long it has waited
 
 Whoever stands behind a line is in no conflict: what counts is who enters the place, and whether this cost the other anything. StVO § 8 (2)
 has it so: who gives way must neither endanger nor substantially hinder. Rows of the table are emptied now and then.
@@ -36,8 +38,8 @@ from studio.world.table.mind import MINDED, OFFSET, RED_STATION, STATION, STOOD
 from studio.world.table.web import ENTER, ITS_ENTER, LANE, OWN_ENTER, OWN_LEAVE
 from studio.world.world import World
 
-COUNTED = ("arrived", "at red", "off", "waited", "ring", "conflict", "violation")
-CAME, AT_RED, OFF, WAITED, RING, CONFLICT, VIOLATION = range(len(COUNTED))
+COUNTED = ("arrived", "at red", "off", "waited", "ring", "conflict", "violation", "entered", "outside")
+CAME, AT_RED, OFF, WAITED, RING, CONFLICT, VIOLATION, ENTERED, OUTSIDE = range(len(COUNTED))
 
 CENSUS = Table("census", Role.RECORD, per="event")
 C_TIME = CENSUS.row("time", "s", "when it was over; of a conflict, when it began")
@@ -63,7 +65,7 @@ LEAST_WAIT = 1.0  # [s] a shorter stand is not counted
 EVERY = 1.0  # [s] rings are looked for so often
 IN_RING = 1 << 40  # a mark; no column is so large
 ONE_TICK = 2.0  # [m] before the end, whoever is there may arrive in a tick
-ROWS_OF_ONE = 5 + 2 * MOST  # that one vehicle may add in a tick
+ROWS_OF_ONE = 6 + 2 * MOST  # that one vehicle may add in a tick
 
 
 @dataclass
@@ -126,14 +128,14 @@ def taking(world: World, at: Census) -> tuple:
     v, r, q, w = world.vehicles, world.roads, world.queues, world.worlds
     who = (v.state, v.parameter, v.mind, v.removed, w.of, w.number, w.first)
     road = (r.chart, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown)
-    own = (at.front, at.path, at.speed, at.stood, at.off, at.ringed, at.mark, at.pairs, at.table, at.count)
+    own = (world.demand.came, at.front, at.path, at.speed, at.stood, at.off, at.ringed, at.mark, at.pairs, at.table, at.count)
     return everybody, *who, *road, r.drive_first, r.drive_count, r.web, q.first, q.place, q.at, *own
 
 
 @lean
-def everybody(state, parameter, mind, removed, world_of, number, first_of, chart, path_first, path_count, stop_first, stop_count,
-              stop_station, stop_link, shown, drive_first, drive_count, web, first, place, at, front, path, speed, stood, off, ringed,
-              mark, pairs, table, count, now, tick):  # fmt: skip
+def everybody(state, parameter, mind, removed, world_of, number, first_of, chart, path_first, path_count, stop_first,
+              stop_count, stop_station, stop_link, shown, drive_first, drive_count, web, first, place, at, came, front,
+              path, speed, stood, off, ringed, mark, pairs, table, count, now, tick):  # fmt: skip
     """Each for himself, then the pairs, then the rings."""
     for v in range(state.shape[1]):
         bumper = mind[STATION, v] + parameter[FRONT, v]
@@ -142,6 +144,8 @@ def everybody(state, parameter, mind, removed, world_of, number, first_of, chart
         is_at_end = before > (path_count[v] - 1) * PATH_SPACING - ARRIVAL - ONE_TICK
         if removed[v] == 0 and is_at_end and (not is_there or bumper < before):
             note(now, CAME, v, -1, nan, world_of, number, table, count)
+        if is_there and front[v] != front[v] and came[v] >= 0.0:
+            note(now, ENTERED, v, -1, came[v], world_of, number, table, count)
         if is_there and has_passed_red(before, bumper, stop_first[v], stop_count[v], stop_station, stop_link, shown):
             note(now, AT_RED, v, -1, state[V_X, v], world_of, number, table, count)
         if is_there and before == before:
@@ -295,11 +299,14 @@ def nothing() -> np.ndarray:
 
 
 def unfinished(world: World, at: Census) -> np.ndarray:
-    """Who still waits, or stands in a ring, as rows of the table."""
-    w, now = world.worlds, world.clock.time
+    """Who still waits, stands in a ring, or has not come in, as rows of the table."""
+    w, d, now = world.worlds, world.demand, world.clock.time
     found = [
         (now, kind, w.of[v], w.number[v], -1.0, values[v])
         for kind, values in ((WAITED, at.stood), (RING, at.ringed))
         for v in np.flatnonzero(values >= LEAST_WAIT).tolist()
     ]
+    for i, column in enumerate(d.column.tolist()):
+        due = d.due[d.first[i] + d.gone[i] : d.first[i + 1]]
+        found += [(now, OUTSIDE, d.world[i], w.number[column], -1.0, now - time) for time in due[due < now].tolist()]
     return np.array(found, dtype=float).reshape(-1, len(CENSUS)).T

@@ -14,17 +14,13 @@ from studio.road.ways.path import (
     PATH_HEADING,
     PATH_SPACING,
     PATH_SPEED,
-    PATH_X,
-    PATH_Y,
     interpolate,
     project,
 )
 from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, STEER_RATE, WIDTH
-from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
-from studio.world.passes.ground import touch_all
 from studio.world.passes.junction import BESIDE, STANDING, has_to_let_pass, waits
-from studio.world.passes.neighbour import COS, SIN, moved, within
+from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
 from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_unseen, let_in
 from studio.world.table.mind import (
@@ -78,8 +74,6 @@ LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives 
 AWAY = 2.0  # [m/s] who has become faster than this stands no more
 ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
-ENTRY_BRAKING = 2.0  # [m/s²]
-ENTRY_CLEARANCE = 30.0  # [m] that must be free around the start of a path for a car to come in
 
 
 @lean
@@ -332,55 +326,3 @@ def put(v, acceleration, steering, mind):
     """Keeps what a driver wants, acceleration [m/s²] and road wheel angle [rad]; 1 when these are no numbers, else 0."""
     mind[WISH, v], mind[STEER_WISH, v] = acceleration, steering
     return 0 if isfinite(acceleration) and isfinite(steering) else 1
-
-
-@lean
-def is_free(x, y, world, reach, world_of, state, grid, places, found, entered, count):
-    """Whether no car of the same world is near a place: none of those that are about, nor of the first that have entered just now."""
-    for i in range(within(world, x, y, 1.0, 0.0, -reach, reach, -reach, reach, grid, places, found)):
-        if is_close(found[i], x, y, state):
-            return False
-    for i in range(count):
-        if world_of[entered[i]] == world and is_close(entered[i], x, y, state):
-            return False
-    return True
-
-
-@lean
-def is_close(other, x, y, state):
-    """Whether a car is near a place."""
-    dx, dy = state[X, other] - x, state[Y, other] - y
-    return state[ACTIVE, other] > 0.0 and dx * dx + dy * dy < ENTRY_CLEARANCE * ENTRY_CLEARANCE
-
-
-@inlined
-def entry_speed(v, permitted, first, count, web, parameter):
-    """Speed [m/s] with which a car comes in: it can stop in comfort at the end of its first lane."""
-    if count < 2:
-        return permitted
-    room = max(web.drive[ENTER, first + 1] - parameter[FRONT, v] - driver.STOP_CLOSE, 0.0)
-    return min(permitted, sqrt(2.0 * ENTRY_BRAKING * room))
-
-
-@lean
-def recirculate(
-    returns, points, path_first, path_count, raised, drive_first, drive_count, web, world_of, grid, places, found, entered, state, wheels,
-    ground, parameter, gears, mind,
-):  # fmt: skip
-    """Fifth pass: traffic that has arrived comes in again where its way begins, as soon as there is room."""
-    count, reach = 0, 0.0
-    for v in range(state.shape[1]):
-        if state[ACTIVE, v] > 0.0 or returns[v] == 0:
-            continue
-        if reach == 0.0:
-            reach = ENTRY_CLEARANCE + moved(state, places)
-        at = path_first[v]
-        x, y = points[PATH_X, at], points[PATH_Y, at]
-        if is_free(x, y, world_of[v], reach, world_of, state, grid, places, found, entered, count):
-            if raised[v] != 0:
-                touch_all(v, state.shape[1], 0.0, points, at, path_count[v], ground)
-            speed = entry_speed(v, points[PATH_SPEED, at], drive_first[v], drive_count[v], web, parameter)
-            start(v, x, y, points[PATH_HEADING, at], speed, state, wheels, ground, parameter, gears)
-            mind[STATION, v] = mind[STOOD, v] = 0.0
-            entered[count] = v
-            count += 1

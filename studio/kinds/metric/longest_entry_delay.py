@@ -1,0 +1,18 @@
+"""Longest time that a car of a flow waited outside since it was due, because there was no room where its way begins.
+
+Those that have not come in when the run is over count too. Who it was is named by a car of that flow.
+"""
+
+from studio.assess.census import about, counted
+
+KIND = "metric"
+TITLE = "Longest wait outside"
+UNIT = "s"
+BETTER = "lower"
+
+
+def measure(record):
+    """Time [s]; nothing when no flow has brought anybody."""
+    found = counted(record, "entered") + counted(record, "outside")
+    worst = max(found, key=lambda each: each.value, default=None)
+    return about(worst.value, worst) if worst else float("nan")

@@ -1,0 +1,107 @@
+"""Entry: cars come in where their ways begin, traffic that has arrived and those of flows that are due, as soon as there is room.
+
+There is room when whoever is last on the first lane is as far ahead as a driver wants it (model/driver.py), at the speed with which one
+comes in: the one that is permitted, so that one can stop in comfort at the end of that lane, and behind somebody that from which one comes
+down to his speed with a gentle braking before one is at the wanted gap.
+"""
+
+from math import inf, sqrt
+
+from studio.compiled import inlined, lean
+from studio.model import driver
+from studio.road.ways.path import PATH_HEADING, PATH_SPEED, PATH_X, PATH_Y
+from studio.vehicle.parameter import FRONT, LENGTH
+from studio.vehicle.shift import start
+from studio.vehicle.state import ACTIVE, V_X
+from studio.world.passes.ground import touch_all
+from studio.world.passes.queue import KEY, WHO, from_station
+from studio.world.table.mind import HEADWAY, SPEED_FACTOR, STANDSTILL, STATION, STOOD
+from studio.world.table.web import ENTER
+
+COMFORT, GENTLE = 2.0, 1.0  # [m/s²] braking at the end of the first lane; behind somebody
+NOT_YET = -1.0  # [s] of one who has not come in
+
+
+@lean
+def let_in(returns, removed, column, cars, due_first, due, gone, came, points, path_first, path_count, raised, drive_first,
+           drive_count, web, world_of, first, place, at, entered, drivers, state, wheels, ground, parameter, gears, mind, now):  # fmt: skip
+    """Fifth pass: who has arrived comes in again, then who is due."""
+    count = 0
+    for v in range(returns.size):
+        if returns[v] != 0 and state[ACTIVE, v] == 0.0:
+            count += enter(
+                v, count, points, path_first, path_count, raised, drive_first, drive_count, web, world_of, first, place, at, entered,
+                drivers, state, wheels, ground, parameter, gears, mind,
+            )  # fmt: skip
+    for i in range(gone.size):
+        if due_first[i] + gone[i] == due_first[i + 1] or due[due_first[i] + gone[i]] > now:
+            continue
+        v = outside(column[i], cars[i], gone[i], removed, state)
+        if v >= 0 and enter(
+            v, count, points, path_first, path_count, raised, drive_first, drive_count, web, world_of, first, place, at, entered, drivers,
+            state, wheels, ground, parameter, gears, mind,
+        ):  # fmt: skip
+            came[v] = now - due[due_first[i] + gone[i]]
+            gone[i] += 1
+            count += 1
+
+
+@inlined
+def outside(first, count, turn, removed, state):
+    """The car of a source that has been outside for longest, as they come in by turns; -1 when all are about."""
+    for i in range(count):
+        v = first + (turn + i) % count
+        if state[ACTIVE, v] == 0.0 and removed[v] == 0:
+            return v
+    return -1
+
+
+@lean
+def enter(v, count, points, path_first, path_count, raised, drive_first, drive_count, web, world_of, first, place, at, entered, drivers,
+          state, wheels, ground, parameter, gears, mind):  # fmt: skip
+    """Whether v has come in, behind whoever is last there and has not come in just now."""
+    queue = world_of[v] * web.right.size + web.strand[drive_first[v]]
+    for i in range(count):
+        if world_of[entered[i]] * web.right.size + web.strand[drive_first[entered[i]]] == queue:
+            return False
+    p = path_first[v]
+    permitted = drivers[SPEED_FACTOR, v] * points[PATH_SPEED, p]
+    gap, other = last_there(v, queue, first, place, at, parameter)
+    speed = min(permitted, lane_speed(v, drive_first[v], drive_count[v], web, parameter))
+    if gap < inf:
+        speed = min(speed, speed_behind(gap, max(state[V_X, other], 0.0), drivers[STANDSTILL, v], drivers[HEADWAY, v]))
+    if speed < 0.0:
+        return False
+    if raised[v] != 0:
+        touch_all(v, state.shape[1], 0.0, points, p, path_count[v], ground)
+    start(v, points[PATH_X, p], points[PATH_Y, p], points[PATH_HEADING, p], speed, state, wheels, ground, parameter, gears)
+    mind[STATION, v] = mind[STOOD, v] = 0.0
+    entered[count] = v
+    return True
+
+
+@inlined
+def last_there(v, queue, first, place, at, parameter):
+    """Gap [m] to the last on a strand, and who that is; infinite when there is nobody."""
+    i, end = from_station(queue, -inf, first, place, at)
+    while i < end and place[KEY, i] == queue:
+        other = place[WHO, i]
+        if other != v:
+            return at[i] + parameter[FRONT, other] - parameter[LENGTH, other] - parameter[FRONT, v], other
+        i += 1
+    return inf, v
+
+
+@inlined
+def speed_behind(gap, v, s_0, T):
+    """Speed u [m/s] with which one comes in behind somebody with v: u²= v² + 2 b (gap - s_0 - v T); below zero when there is no room."""
+    room = gap - s_0 - v * T
+    return sqrt(v * v + 2.0 * GENTLE * room) if room >= 0.0 else -1.0
+
+
+@inlined
+def lane_speed(v, d, count, web, parameter):
+    """Speed [m/s] from which one can stop in comfort at the end of the first lane."""
+    if count < 2:
+        return inf
+    return sqrt(2.0 * COMFORT * max(web.drive[ENTER, d + 1] - parameter[FRONT, v] - driver.STOP_CLOSE, 0.0))
