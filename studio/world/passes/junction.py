@@ -5,9 +5,13 @@ Before the line of a way, where its strand begins, he decides whether he may go;
     sign, ring, light    who goes first by the map is let by, unless the gap before him is long enough; a full halt first where a stop sign
                          stands. With a green light one waits in the junction, where the ways meet
     equal                who comes first goes first; at an all-way stop who has stood longer
+    several ways         between which there is no room for the own body are decided about together, before the line of the first
+    within a junction    behind a way, where another begins at once, one does not wait before its line for somebody who stands beyond, but
+                         moves up to where he is: one's own rear may be in another's way
     crossed ways         are not entered while there is no room behind them
     slow traffic         lets in whoever has waited for long, and after half a minute one takes shorter gaps
-    nobody goes          of those who have stood a while, who has stood longest goes before one who stands as well
+    nobody goes          of those who have stood a while, who has stood longest goes before one who stands as well; if he cannot, since
+                         another stands in his way, that one goes
 """
 
 from math import inf, sqrt
@@ -33,6 +37,7 @@ from studio.world.table.mind import (
     STATION,
     STOOD,
     V_DESIRED,
+    WAITED_FOR,
     WAY_STATION,
 )  # fmt: skip
 from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE, SIGNAL, STOP
@@ -51,12 +56,12 @@ AT_LIGHT = 1.0  # [m] from a line, a stop line is that of its light
 
 
 @inlined
-def waits(v, d, last, own, to_line, decided, state, parameter, places, points, path_first, path_count, world, number, entity, web, first,
-          place, at, drivers, mind):  # fmt: skip
-    """Whether a driver has to wait before the line of a strand, `to_line` [m] ahead; minds all whom he meets on it."""
-    strand = web.strand[d]
-    is_way, line = web.right[strand] != LANE and to_line >= 0.0, web.drive[ENTER, d]
-    if is_way and mind[RED_STATION, v] <= line + AT_LIGHT:
+def waits(v, d, last, own, line, bumper, decided, state, parameter, places, points, path_first, path_count, world, number, entity, web,
+          first, place, at, drivers, mind):  # fmt: skip
+    """Whether a driver has to wait before a line [m] for those whom he meets on a strand; he minds all of them."""
+    strand, to_line = web.strand[d], line - bumper
+    is_way = web.right[strand] != LANE and to_line >= 0.0
+    if is_way and mind[RED_STATION, v] <= web.drive[ENTER, d] + AT_LIGHT:
         return True
     must, who = False, NOBODY
     if is_way:
@@ -64,6 +69,7 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
         if not must and web.crosses[strand] == 1:
             who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers)
             must = who != NOBODY
+    inside = is_way and d > 0 and web.right[web.strand[d - 1]] != LANE and web.drive[ENTER, d - 1] < bumper
     top = top_speed(v, d, drivers, points, path_first, path_count, web)
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
@@ -73,8 +79,8 @@ def waits(v, d, last, own, to_line, decided, state, parameter, places, points, p
         while i < end and place[KEY, i] == key:
             other, there, i = place[WHO, i], at[i], i + 1
             if other != v and meet(
-                v, other, m, strand, own, there, to_line, top, state, parameter, places, points, path_first, path_count, number, entity,
-                web, drivers, mind,
+                v, other, m, strand, own, there, to_line, top, inside, state, parameter, places, points, path_first, path_count, number,
+                entity, web, drivers, mind,
             ):  # fmt: skip
                 must, who = True, number[other]
     return must and is_way and is_held(v, who, line, to_line, decided, state, mind)
@@ -168,8 +174,8 @@ def comes_in(v, distance, state, drivers, mind):
 
 
 @inlined
-def meet(v, other, m, strand, own, there, to_line, top, state, parameter, places, points, path_first, path_count, number, entity, web,
-         drivers, mind):  # fmt: skip
+def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter, places, points, path_first, path_count, number, entity,
+         web, drivers, mind):  # fmt: skip
     """What one who comes where two strands meet means for v; whether v has to wait for him before the line."""
     nose, its_nose = own + parameter[FRONT, v], there + parameter[FRONT, other]
     its_tail = its_nose - parameter[LENGTH, other]
@@ -192,8 +198,10 @@ def meet(v, other, m, strand, own, there, to_line, top, state, parameter, places
     gone = leaves_in(other, its_leave - its_tail, state) + AFTER
     if nose >= enter or gone < own_arrival(v, enter - nose, top, state, drivers, mind):
         return False
+    if mind[STOOD, other] > PATIENCE and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
+        return False
     let_across(v, other, enter - nose, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind)
-    return web.turn[m] != NONE
+    return web.turn[m] != NONE and not inside
 
 
 @inlined
@@ -235,6 +243,17 @@ def is_clear(v, other, s_guess, parameter, places, points, path_first, path_coun
 
 
 @inlined
+def stands_aside(v, other, gap, parameter, places, points, path_first, path_count, mind):
+    """Whether the whole body of another, who is on a place `gap` [m] ahead, is beside the strip that v will sweep, on one side of it."""
+    guess, clear = mind[STATION, v] + parameter[FRONT, v] + gap, 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other]) + ELBOW_ROOM
+    x, y = places[REAR_X, other], places[REAR_Y, other]
+    ahead_x, ahead_y = x + parameter[LENGTH, other] * places[COS, other], y + parameter[LENGTH, other] * places[SIN, other]
+    _, rear = project(points, path_first, path_count, x, y, guess)
+    _, front = project(points, path_first, path_count, ahead_x, ahead_y, guess)
+    return min(abs(rear), abs(front)) > clear and rear * front > 0.0
+
+
+@inlined
 def leaves_in(other, distance, state):
     """When somebody has left a place with as much as `distance` [m] to drive [s]."""
     return distance / max(state[V_X, other], STANDING)
@@ -268,9 +287,21 @@ def has_stood_longer(v, other, entity, mind):
 
 
 @inlined
+def goes_before(v, other, entity, mind):
+    """Of two who have stood a while, whether v has stood longer."""
+    return mind[STOOD, other] > PATIENCE and has_stood_longer(v, other, entity, mind)
+
+
+@inlined
+def is_held_by(v, other, number, mind):
+    """Whether another who has long had the right to go waits for v: v stands in his way, and is the one who has to go."""
+    return mind[WAITED_FOR, other] == number[v] and min(mind[STOOD, v], mind[STOOD, other]) > FAIR
+
+
+@inlined
 def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
     """Whether v may go before one who goes first: he is far enough, he will be gone, or he stands and lets v go."""
-    if state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE and has_stood_longer(v, other, entity, mind):
+    if state[V_X, other] < STANDING and (goes_before(v, other, entity, mind) or is_held_by(v, other, number, mind)):
         return True
     if mind[STOOD, v] > FAIR and is_crawling(other, its_way, state):
         return True

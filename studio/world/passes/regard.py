@@ -26,19 +26,20 @@ from studio.world.table.mind import (
     STANDSTILL,
     STOPPING,
     V_DESIRED,
+    WAITED_FOR,
     YIELDING,
 )  # fmt: skip
 
 
 @inlined
 def forget(v, mind):
-    """Nothing is ahead until a zone says so."""
+    """Nothing is ahead until somebody is seen."""
     mind[GAP, v] = nan
     mind[AHEAD, v] = mind[MINDED, v] = -1.0
     mind[AHEAD_SPEED, v] = 0.0
     mind[FOLLOWING, v] = mind[YIELDING, v] = driver.NO_LIMIT
     mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = inf
-    mind[FIRST, v] = -1.0
+    mind[WAITED_FOR, v], mind[FIRST, v] = mind[FIRST, v], -1.0
 
 
 @inlined

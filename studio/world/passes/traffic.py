@@ -64,7 +64,7 @@ from studio.world.table.street import (
     SWEPT_AT,
     SWEPT_OBJECT,
 )  # fmt: skip
-from studio.world.table.web import ENTER, LEAVE
+from studio.world.table.web import ENTER, LANE, LEAVE
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
@@ -201,16 +201,21 @@ def yield_at_line(v, state, parameter, drivers, mind):
 @inlined
 def look_along(v, state, parameter, places, points, path_first, path_count, world, number, entity, drive_first, drive_count, web, first,
                place, at, drivers, mind):  # fmt: skip
-    """Strand after strand, until enough are ahead and no way is near that is still to be decided about."""
+    """Strand after strand, until enough are ahead and no way is near that is still to be decided about.
+
+    Ways between which there is no room for the own body are decided about together, before the line of the first.
+    """
     station, speed = mind[STATION, v], max(state[V_X, v], 0.0)
     bumper = station + parameter[FRONT, v]
     rear, far = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING
     near = bumper + MARGIN + speed + speed * speed / DECIDING
     left, may_go, decided = AHEAD_OF_ONE, True, mind[WAY_STATION, v]
-    mind[WAY_STATION, v] = inf
+    mind[WAY_STATION, v], line, behind = inf, inf, -inf
     for d in range(first_drive(rear, drive_first, drive_count, web), drive_first + drive_count):
         enter, strand = web.drive[ENTER, d], web.strand[d]
-        if enter > far or not (left > 0 or (may_go and enter <= near)):
+        is_way = web.right[strand] != LANE
+        goes_on = is_way and enter - behind < parameter[LENGTH, v] + driver.STOP_CLOSE
+        if enter > far or not (left > 0 or (may_go and (enter <= near or goes_on))):
             return
         if web.drive[LEAVE, d] <= rear:
             continue
@@ -224,10 +229,13 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
             may_go = not has_to_let_pass(
                 v, own, enter, decided, world * web.right.size + strand, state, parameter, number, first, place, at, drivers, mind
             )
-        if may_go and enter <= near and is_met(strand, web):
+        if is_way:
+            line = line if goes_on else enter
+            behind = web.drive[LEAVE, d] if enter > bumper else -inf
+        if may_go and (enter <= near or goes_on) and is_met(strand, web):
             may_go = not waits(
-                v, d, drive_first + drive_count, own, enter - bumper, decided, state, parameter, places, points, path_first, path_count,
-                world, number, entity, web, first, place, at, drivers, mind,
+                v, d, drive_first + drive_count, own, line if is_way else enter, bumper, decided, state, parameter, places, points,
+                path_first, path_count, world, number, entity, web, first, place, at, drivers, mind,
             )  # fmt: skip
 
 

@@ -57,6 +57,7 @@ MINDED = MIND.row(
 )  # fmt: skip
 STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next stop line permits")
 FIRST = MIND.row("first", "1", "number in its world of who goes first, and is waited for; -1 for nobody")
+WAITED_FOR = MIND.row("waited_for", "1", "the same at the tick before", role=Role.STATE)
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
 NEEDED_COLLISION = MIND.row("needed_collision", "s", "since when he would brake before a collision; infinite when not", role=Role.STATE)
