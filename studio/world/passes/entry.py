@@ -14,11 +14,12 @@ from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, V_X
 from studio.world.passes.ground import touch_all
-from studio.world.passes.queue import KEY, WHO, from_station
+from studio.world.passes.queue import KEY, THERE, WHO, from_station
 from studio.world.table.mind import HEADWAY, SPEED_FACTOR, STANDSTILL, STATION, STOOD
-from studio.world.table.web import ENTER
+from studio.world.table.web import ENTER, START
 
 COMFORT, GENTLE = 2.0, 1.0  # [m/s²] braking at the end of the first lane; behind somebody
+FAR = 100.0  # [m] nobody beyond is minded
 NOT_YET = -1.0  # [s] of one who has not come in
 
 
@@ -66,7 +67,7 @@ def enter(v, count, points, path_first, path_count, raised, drive_first, drive_c
             return False
     p = path_first[v]
     permitted = drivers[SPEED_FACTOR, v] * points[PATH_SPEED, p]
-    gap, other = last_there(v, queue, first, place, at, parameter)
+    gap, other = last_there(v, world_of[v], drive_first[v], drive_count[v], web, first, place, at, parameter)
     speed = min(permitted, lane_speed(v, drive_first[v], drive_count[v], web, parameter))
     if gap < inf:
         speed = min(speed, speed_behind(gap, max(state[V_X, other], 0.0), drivers[STANDSTILL, v], drivers[HEADWAY, v]))
@@ -81,14 +82,17 @@ def enter(v, count, points, path_first, path_count, raised, drive_first, drive_c
 
 
 @inlined
-def last_there(v, queue, first, place, at, parameter):
-    """Gap [m] to the last on a strand, and who that is; infinite when there is nobody."""
-    i, end = from_station(queue, -inf, first, place, at)
-    while i < end and place[KEY, i] == queue:
-        other = place[WHO, i]
-        if other != v:
-            return at[i] + parameter[FRONT, other] - parameter[LENGTH, other] - parameter[FRONT, v], other
-        i += 1
+def last_there(v, world, drive, count, web, first, place, at, parameter):
+    """Gap [m] to the last who drives where v will, and who that is; infinite when there is nobody near."""
+    for d in range(drive, drive + count):
+        enter, queue = web.drive[ENTER, d], world * web.right.size + web.strand[d]
+        if enter > FAR:
+            break
+        i, end = from_station(queue, -inf, first, place, at)
+        while i < end and place[KEY, i] == queue:
+            other, there, i = place[WHO, i], at[i] - web.drive[START, d], i + 1
+            if other != v and place[THERE, i - 1] != 0:
+                return enter + there + parameter[FRONT, other] - parameter[LENGTH, other] - parameter[FRONT, v], other
     return inf, v
 
 

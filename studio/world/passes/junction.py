@@ -372,6 +372,8 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
             let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
             who = number[other] if gap < BESIDE else who
             break
+        if min(mind[STOOD, v], mind[STOOD, other]) > PATIENCE and state[V_X, other] < STANDING:
+            continue  # who stands there and is behind lets one in who has stood as well
         if tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
             who = number[other]
     return who != NOBODY and is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind)
