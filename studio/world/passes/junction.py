@@ -30,6 +30,8 @@ from studio.world.table.mind import (
     BRAKE_COMFORT,
     COMFORT,
     FIRST,
+    FOLLOW_GAP,
+    FOLLOW_SPEED,
     HALTED,
     RED_STATION,
     SPEED_FACTOR,
@@ -70,7 +72,7 @@ def waits(v, d, last, own, line, bumper, decided, state, parameter, places, poin
             who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers)
             must = who != NOBODY
     inside = is_way and d > 0 and web.right[web.strand[d - 1]] != LANE and web.drive[ENTER, d - 1] < bumper
-    top = top_speed(v, d, drivers, points, path_first, path_count, web)
+    top = top_speed(v, d, drivers, points, path_first, path_count, web, mind)
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
             continue
@@ -152,15 +154,16 @@ def free(v, state, drivers, mind):
 
 
 @inlined
-def top_speed(v, d, drivers, points, path_first, path_count, web):
-    """Speed [m/s] that v will drive in the middle of a way, where its bend permits it."""
+def top_speed(v, d, drivers, points, path_first, path_count, web, mind):
+    """Speed [m/s] that v will drive in the middle of a way: its bend permits no more, nor does somebody who drives before it."""
     middle = min(web.drive[ENTER, d] + 0.5 * web.drive[END, d], (path_count - 1.001) * PATH_SPACING)
-    return max(drivers[SPEED_FACTOR, v] * interpolate(points, path_first, PATH_SPEED, middle), CRAWL)
+    permitted = drivers[SPEED_FACTOR, v] * interpolate(points, path_first, PATH_SPEED, middle)
+    return max(min(permitted, mind[FOLLOW_SPEED, v]) if mind[FOLLOW_GAP, v] < LONG else permitted, CRAWL)
 
 
 @inlined
-def own_arrival(v, distance, top, state, drivers, mind):
-    """When v itself is `distance` [m] on [s]."""
+def slow_arrival(v, distance, top, state, drivers, mind):
+    """When v is `distance` [m] on at the latest [s], if it drives as slowly as its bend asks for already."""
     return arrival_below(distance, max(state[V_X, v], 0.0), free(v, state, drivers, mind), top)
 
 
@@ -196,7 +199,7 @@ def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter
             )  # fmt: skip
         return False
     gone = leaves_in(other, its_leave - its_tail, state) + AFTER
-    if nose >= enter or gone < own_arrival(v, enter - nose, top, state, drivers, mind):
+    if nose >= enter or gone < comes_in(v, enter - nose, state, drivers, mind):
         return False
     if mind[STOOD, other] > PATIENCE and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
         return False
@@ -277,7 +280,7 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
         return not at_light
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
-    return comes_first(v, other, m, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind)
+    return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
 
 
 @inlined
@@ -306,9 +309,9 @@ def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, sta
     if mind[STOOD, v] > FAIR and is_crawling(other, its_way, state):
         return True
     length = web.span[ITS_LEAVE, m] - web.span[ITS_ENTER, m] + parameter[LENGTH, other]
-    own_time = own_arrival(v, to_enter, top, state, drivers, mind)
-    if its_time + leaves_in(other, length, state) + AFTER < own_time:
+    if its_time + leaves_in(other, length, state) + AFTER < comes_in(v, to_enter, state, drivers, mind):
         return True
+    own_time = slow_arrival(v, to_enter, top, state, drivers, mind)
     a, to_wait = free(v, state, drivers, mind), max(to_line - driver.STOP_CLOSE, 0.0)
     across = web.span[OWN_LEAVE, m] + parameter[LENGTH, v]
     lag = its_time - arrival_below(to_wait, max(state[V_X, v], 0.0), a, top)
@@ -335,9 +338,9 @@ def is_crawling(other, its_way, state):
 
 
 @inlined
-def comes_first(v, other, m, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
+def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
     """Of two of whom none has to wait, who is there first goes first; whether v has to wait for the other before the line."""
-    own_time = own_arrival(v, to_enter, top, state, drivers, mind)
+    own_time = comes_in(v, to_enter, state, drivers, mind)
     if state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other]):
         return False
     if web.shape[m] == ALONG:
