@@ -170,13 +170,18 @@ class Runs:
 
     def take_in(self) -> None:
         """Takes in the results that wait beside the database; what still cannot go in waits on."""
-        for file in waiting.found(self.path):
+        for file, result in waiting.results(self.path):
             with suppress(StoreError):
-                result = waiting.read(file)
-                (row,) = result["runs"]
-                if any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]])):
-                    self.put({"metrics": [], "events": [], "pieces": []} | result)
+                if self.takes(result):
                     file.unlink()
+
+    def takes(self, result: waiting.Result) -> bool:
+        """Puts in a result that waits, and tells whether it is one of this database. Raises StoreError when it cannot go in."""
+        (row,) = result["runs"]
+        belongs = any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]]))
+        if belongs:
+            self.put({"metrics": [], "events": [], "pieces": []} | result)
+        return belongs
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
