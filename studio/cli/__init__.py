@@ -40,7 +40,8 @@ def main(arguments: list[str] | None = None) -> None:
         print(code_version())
         return
     try:
-        check_cache()
+        if arguments[0] != "doctor":  # who tells about it himself
+            check_cache()
         app(arguments, standalone_mode=True)
     except StudioError as error:
         print(error, file=sys.stderr)

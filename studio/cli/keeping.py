@@ -1,5 +1,6 @@
-"""Commands that keep runs: backup, restore."""
+"""Commands that keep things in order: backup, restore, doctor."""
 
+import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
@@ -48,6 +49,54 @@ def restore(
     tell(copied, f"{db} is what {file} was", as_json)
     if copied.before and not as_json:
         print(f"what was there before lies in {copied.before}")
+
+
+@commands.command()
+def doctor(
+    db: Db = DEFAULT_DB,
+    host: Annotated[str, typer.Option(help="Address that the server is to serve on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port that the server is to serve on.", min=1, max=65535)] = 8000,
+    yes: Annotated[bool, typer.Option("--yes", help="Mend without asking.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Looks whether installation, run database, caches, disk and port are well, and mends what it can after asking; a server may go on.
+
+    Nothing that has finished is lost by it. Ends with 1 when something is wrong and has not been mended.
+    """
+    with progress("looking") as report:
+        from studio.doctor.finding import Patient
+        from studio.doctor.visit import examined
+
+        found = list(examined(Patient(db, db != DEFAULT_DB, host, port), report))
+    for each in [] if as_json else found:
+        print(line(each))
+    outcome = [(each, *treated(each, yes, as_json)) for each in found]
+    if as_json:
+        print_json([each.as_json(said if is_mended else "") for each, is_mended, said in outcome])
+    if any(not each.is_good and not is_mended for each, is_mended, _ in outcome):
+        raise typer.Exit(1)
+
+
+def line(finding) -> str:
+    """A finding in one line."""
+    remedy = f"; {finding.remedy}" if finding.remedy and not finding.is_good else ""
+    return f"{'good' if finding.is_good else 'bad '}  {finding.name:12}  {finding.what}{remedy}"
+
+
+def treated(finding, yes: bool, as_json: bool) -> tuple[bool, str]:
+    """Mends a finding when that can be done and somebody wants it: whether it is mended, and what was said of it."""
+    from studio.doctor.visit import mended
+
+    if finding.mend is None or not (yes or (not as_json and wanted(finding))):
+        return False, ""
+    is_mended, said = mended(finding)
+    print(f"{finding.name}: {said if is_mended else f'could not be mended: {said}'}", file=sys.stderr if as_json else sys.stdout)
+    return is_mended, said
+
+
+def wanted(finding) -> bool:
+    """Asks, where somebody is there to answer."""
+    return sys.stdin.isatty() and typer.confirm(f"{finding.name}: {finding.what}. The doctor {finding.remedy}. Shall he?")
 
 
 def tell(copied, what: str, as_json: bool) -> None:

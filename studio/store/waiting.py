@@ -99,6 +99,6 @@ def read(file: Path, tables: tuple[str, ...] = tuple(TABLES)) -> Result:
             result = {name: list(database.table(name).rows) for name in tables if name in present}
     except sqlite3.Error as error:
         raise StoreError(f"{file} cannot be read.", [Problem(str(file), str(error))]) from None
-    if len(result.get("runs", ())) != 1 or not {"run", *OWNER} <= result["runs"][0].keys():
+    if len(result.get("runs", ())) != 1 or not {"run", "status", "error", *OWNER} <= result["runs"][0].keys():
         raise StoreError(f"{file} is no result that waits.", [Problem(str(file), "does not hold the row of one run")])
     return result

@@ -116,7 +116,9 @@ def test_what_waits_beside_and_what_goes_on(tmp_path):
     runs = open_runs(db)
     waits, goes = begun(runs), begun(runs)
     known = runs.rows(f"select {', '.join(waiting.OWNER)} from runs where run = ?", [waits])[0]
-    waiting.keep(db, result_of(waits) | {"runs": [{"run": waits, "status": "done", "state_hash": "abc"} | known]}, StoreError("full"))
+    waiting.keep(
+        db, result_of(waits) | {"runs": [{"run": waits, "status": "done", "error": None, "state_hash": "abc"} | known]}, StoreError("full")
+    )
     (waiting.folders(db)[0] / "run-9.db").write_text("nothing of ours")
     copied = back_up(db, tmp_path / "copy.db")
     assert copied.going == [goes]
