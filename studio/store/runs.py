@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import sqlite3
+import weakref
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field
@@ -74,10 +75,14 @@ class Row:
 
 @dataclass
 class Runs:
-    """The runs of one database file."""
+    """The runs of one database file, which is let go when nobody has them any more: who is alone with it may replace it."""
 
     path: Path
     database: Database
+
+    def __post_init__(self) -> None:
+        # a Database refers to itself in circles, and would keep the file open until the next time that garbage is collected
+        weakref.finalize(self, self.database.conn.close).atexit = False
 
     def begin(self, *, scenario: str, title: str, document: dict, scenario_hash: str, map_digest: str, parent: int | None,
               seed: int, parameters: dict[str, Any], provenance: "Provenance") -> int:  # fmt: skip

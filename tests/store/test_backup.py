@@ -1,5 +1,6 @@
 """A backup holds all that a database holds at one moment, whoever writes; a restore loses nothing that was there."""
 
+import gc
 import json
 import os
 import sqlite3
@@ -17,6 +18,7 @@ from studio.store.backup import back_up, restore
 from studio.store.runs import KILLED, open_runs, read_runs
 from studio.store.tables import LAYOUT
 from tests.patience import PATIENCE
+from tests.server.server import served
 
 NOBODY = 2**22 + 1  # larger than any number of a process
 
@@ -312,3 +314,28 @@ def test_the_commands(tmp_path):
     done = studio("restore", copy, "--replace", cwd=tmp_path)
     assert done.returncode == 0 and "runs.db.before-" in done.stdout
     assert studio("backup", "--db", "nowhere.db", cwd=tmp_path).returncode == 2
+
+
+def test_a_database_that_nobody_has_any_more_is_let_go(tmp_path):
+    """Without waiting for the collector of garbage: a server that has looked at it holds nobody up."""
+    db = database(tmp_path / "runs.db")
+    back_up(db, tmp_path / "copy.db")
+    gc.disable()
+    try:
+        for look in (read_runs, open_runs):
+            assert len(look(db).select()) == 3
+        assert restore(tmp_path / "copy.db", db, replace=True).before
+    finally:
+        gc.enable()
+
+
+def test_a_server_goes_on_with_what_was_restored(tmp_path):
+    """It has answered before, and answers from the new database at once."""
+    back_up(database(tmp_path / "one.db", 1), tmp_path / "copy.db")
+    database(tmp_path / "runs.db")
+    (tmp_path / "scenarios").mkdir()
+    with served(tmp_path) as (client, _, _):
+        assert [each["run"] for each in client.get("/api/runs").json()] == [3, 2, 1]
+        done = studio("restore", "copy.db", "--replace", cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert [each["run"] for each in client.get("/api/runs").json()] == [1]
