@@ -31,6 +31,7 @@ from studio.world.table.event import (
     SCRIPT_BEGUN,
     SCRIPT_CUT,
     SCRIPT_ENDED,
+    SCRIPT_VAIN,
     TAKES_OVER,
 )  # fmt: skip
 from studio.world.world import World
@@ -118,6 +119,7 @@ class Teller:
             SCRIPT_BEGUN: self.turned,
             SCRIPT_ENDED: self.turned,
             SCRIPT_CUT: self.turned,
+            SCRIPT_VAIN: self.turned,
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
             TAKES_OVER: self.takes_over,
