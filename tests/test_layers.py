@@ -26,6 +26,7 @@ FLOORS = [
     {"warmup"},
     {"scene"},
     {"bench", "crowd"},
+    {"doctor"},
     {"server"},
     {"cli"},
 ]

@@ -135,14 +135,14 @@ def check(scenario: ScenarioFile, set_: Sets = None, kinds: Kinds = None) -> Non
     """Checks a scenario file: fields, names, map, routes and starts."""
     with progress("checking"):
         from studio import job
-        from studio.execution.event import hopeless
+        from studio.execution.event import foreseen
 
         load_kinds(kinds)
         loaded = job.load(scenario, changes(set_))
         prepared = job.prepare(loaded)
     tell_migrated(loaded)
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
-    print("".join(f"note: {event.text}\n" for event in hopeless(prepared)), end="")
+    print("".join(f"note: {event.text}\n" for event in foreseen(prepared)), end="")
 
 
 @commands.command()

@@ -13,7 +13,7 @@ commands = typer.Typer()
 
 @commands.command()
 def serve(
-    host: Annotated[str, typer.Option(help="Address to serve on; others than this machine's own open it to the network.")] = "127.0.0.1",
+    host: Annotated[str, typer.Option(help="Address to serve on; on a network only who has the printed token gets in.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(help="Port to serve on.", min=0, max=65535)] = 8000,
     db: Db = DEFAULT_DB,
     scenarios: Annotated[Path | None, typer.Option(help="Folder of scenario files; default: ./scenarios, else the samples.")] = None,

@@ -11,10 +11,10 @@ from typing import NamedTuple
 from studio.execution.happening import Happening
 from studio.world.effect import SensorFault
 from studio.world.setting import Setting
-from studio.world.table.event import EVENTS, SCRIPT_BEGUN, SCRIPT_CUT, SCRIPT_ENDED
+from studio.world.table.event import EVENTS, SCRIPT_BEGUN, SCRIPT_CUT, SCRIPT_ENDED, SCRIPT_VAIN
 from studio.world.thing import names, things
 
-BEGUN, *OVER = (EVENTS[each].name for each in (SCRIPT_BEGUN, SCRIPT_ENDED, SCRIPT_CUT))
+BEGUN, *OVER = (EVENTS[each].name for each in (SCRIPT_BEGUN, SCRIPT_ENDED, SCRIPT_CUT, SCRIPT_VAIN))
 SAME = 1e-6  # [s] what begins at an instant acts at it
 
 

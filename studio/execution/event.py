@@ -13,7 +13,9 @@ import numpy as np
 
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Chain
-from studio.scenario.schema import REASONS
+from studio.kind import registry
+from studio.scenario.figures import top_speed
+from studio.scenario.schema import REASONS, Scenario
 from studio.world.commander import PARTS, commanders, standing
 from studio.world.effect import Place
 from studio.world.passes import notice
@@ -28,9 +30,11 @@ from studio.world.table.event import (
     HOPELESS,
     MESSAGE_LOST,
     NOTICE_SHOWN,
+    OUT_OF_REACH,
     SCRIPT_BEGUN,
     SCRIPT_CUT,
     SCRIPT_ENDED,
+    SCRIPT_VAIN,
     TAKES_OVER,
 )  # fmt: skip
 from studio.world.world import World
@@ -106,6 +110,30 @@ def hopeless(setting: Setting) -> Iterator[Happening]:
                 yield happening(HOPELESS, 0.0, site.vehicles, place=site.place, entry=site.name, turn=turn, reason=reason)
 
 
+def out_of_reach(setting: Setting) -> Iterator[Happening]:
+    """What is told before a run: speeds at the start and in the script that a vehicle's power does not bring it to against its drag."""
+    cars = {car.name: car for car in setting.cars}
+    for vehicle, what, speed in speeds(setting.scenario):
+        if speed > (top := top_speed(cars[vehicle].model.values)):
+            yield happening(OUT_OF_REACH, 0.0, (vehicle,), what=what, speed=speed, top_speed=top)
+
+
+def speeds(scenario: Scenario) -> Iterator[tuple[str, str, float]]:
+    """The speeds [m/s] that a scenario asks of its vehicles, and where."""
+    for name, vehicle in scenario.vehicles.items():
+        yield name, "at its start", vehicle.speed
+    for name, entry in scenario.script.items():
+        module = registry.find("action", entry.do.kind).module
+        if hasattr(module, "fastest"):
+            yield entry.do.vehicle, f"script.{name}", module.fastest(entry.do)
+
+
+def foreseen(setting: Setting) -> Iterator[Happening]:
+    """All that is told before a run."""
+    yield from hopeless(setting)
+    yield from out_of_reach(setting)
+
+
 class Teller:
     """Makes happenings of notices."""
 
@@ -118,6 +146,7 @@ class Teller:
             SCRIPT_BEGUN: self.turned,
             SCRIPT_ENDED: self.turned,
             SCRIPT_CUT: self.turned,
+            SCRIPT_VAIN: self.turned,
             COMPANY_CAME: self.company,
             COMPANY_LEFT: self.company,
             TAKES_OVER: self.takes_over,

@@ -9,7 +9,7 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.execution.brought import brought, faults
 from studio.execution.counted import counted
-from studio.execution.event import Teller, chains, hopeless, watched
+from studio.execution.event import Teller, chains, foreseen, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.hearing import hearing
 from studio.execution.message import messages
@@ -277,7 +277,7 @@ def simulation(*settings: Setting) -> Simulation:
     scenario = settings[0].scenario
     world = build(settings)
     return Simulation(
-        cases=[Case(each, list(hopeless(each))) for each in settings],
+        cases=[Case(each, list(foreseen(each))) for each in settings],
         world=world,
         recorder=recorder(settings, world),
         watch=watched(settings, world),

@@ -364,6 +364,8 @@ SORTS = {
             Need("TAKES", "what act commands: PEDALS, WHEEL, or both where it does not say", hands, "TAKES = PEDALS", optional=True),
             Need("MOMENTARY", "that it is done at once, and does not last", yes, "MOMENTARY = True", optional=True),
             Need("told", "the action in words, for the list of events", function("settings"), "def told(settings)", optional=True),
+            Need("fastest", "the greatest speed [m/s] that it asks of its vehicle", function("settings"),
+                 "def fastest(settings)", optional=True),
         ), told_and_done, "write act for a vehicle that is named by vehicle: VehicleName, or effects on the road"),
         Sort("metric", "a number that a run is judged by", (
             TITLE,

@@ -6,8 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.conventions import GRAVITY
+from studio.conventions import AIR_DENSITY, GRAVITY
+from studio.model.engine import TAPER
 from studio.scenario.vehicle import Engine, Vehicle
+
+FASTEST = 120.0  # [m/s] that is looked at
 
 
 class Figure(NamedTuple):
@@ -24,6 +27,7 @@ def figures(values: Vehicle) -> Iterator[Figure]:
     power, speed = peak_power(values.engine)
     yield Figure("power", "Greatest power", power, "W")
     yield Figure("power_speed", "Engine speed at the greatest power", speed, "rad/s")
+    yield Figure("top_speed", "Top speed in the flat", top_speed(values), "m/s")
     if values.coupling.kind == "converter":
         yield Figure("stall_speed", "Engine speed at full load, the car held", stall_speed(values), "rad/s")
     for axle, (frequency, damping) in ride(values).items():
@@ -43,6 +47,25 @@ def peak_power(engine: Engine) -> tuple[float, float]:
     P = w * np.interp(w, engine.speeds, engine.torques)
     best = int(np.argmax(P))
     return float(P[best]), float(w[best])
+
+
+def top_speed(values: Vehicle) -> float:
+    """Greatest speed [m/s] at which some gear still gives what air and rolling resistance take, coupling closed; the gearbox may be slow to
+    choose it. T_full i (1 - s_loss)/R >= rho c_d A v²/2 + c_roll m g, with T_full less what the gearbox takes without load."""
+    engine, box, R = values.engine, values.gearbox, values.wheels.radius
+    v = np.linspace(0.0, FASTEST, 12_001)
+    resistance = 0.5 * AIR_DENSITY * values.air.drag_coefficient * values.air.frontal_area * v * v
+    resistance += values.wheels.rolling_resistance * values.body.mass * GRAVITY
+    i = np.array(box.ratios)[:, None] * box.final_ratio
+    T = full_load(engine, i * v / R) * (1.0 - box.loss_share) - box.loss_torque
+    return float(v[np.flatnonzero((T * i / R >= resistance).any(axis=0))[-1:]].sum())
+
+
+def full_load(engine: Engine, w: np.ndarray) -> np.ndarray:
+    """Greatest torque [Nm] at speeds [rad/s]: the curve, faded to the drag at the rev limit."""
+    T_drag = -(engine.drag_torque + engine.drag_slope * w)
+    share = np.clip((engine.limit_speed - w) / (TAPER * engine.limit_speed), 0.0, 1.0)
+    return T_drag + (np.interp(w, engine.speeds, engine.torques) - T_drag) * share
 
 
 def stall_speed(values: Vehicle) -> float:

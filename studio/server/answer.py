@@ -59,6 +59,10 @@ class Refusal(BaseModel):
 
 REFUSALS: dict[int | str, dict[str, Any]] = {
     400: {"model": Refusal, "description": "The body is no JSON."},
+    401: {
+        "model": Refusal,
+        "description": "The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token.",
+    },
     403: {"model": Refusal, "description": "Another origin or name, or something that may be read only."},
     404: {"model": Refusal, "description": "There is no such thing."},
     405: {"model": Refusal, "description": "The address has no such method."},

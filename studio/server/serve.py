@@ -1,5 +1,6 @@
-"""Starting the server: port, database, folder of scenarios, browser."""
+"""Starting the server: port, database, folder of scenarios, token, browser."""
 
+import ipaddress
 import os
 import socket
 import sys
@@ -7,12 +8,14 @@ import threading
 import webbrowser
 from pathlib import Path
 
+import psutil
 import uvicorn
 
 from studio import sample
 from studio.errors import Problem, ServerError
-from studio.server import page
+from studio.server import gate, page
 from studio.server.door import Door
+from studio.server.gate import Gate
 from studio.server.origin import SameOrigin
 from studio.store.runs import open_runs
 
@@ -26,14 +29,16 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list
     try:
         open_runs(db).close()
         folder = scenario_folder(scenarios)
-        app = application(db, folder, kinds, host)
+        token = gate.token() if is_open(listening) else ""
+        app = application(db, folder, kinds, host, token, listening.getsockname()[1])
     except BaseException:
         listening.close()
         raise
-    address = f"http://{shown(host)}:{listening.getsockname()[1]}"
-    print(f"Cooperative ADAS Studio: {address}", flush=True)
+    found = addresses(host, listening)
+    print(announced(found, token), flush=True)
     if browser and has_display():
-        threading.Timer(0.5, webbrowser.open, [address]).start()
+        # without the token, which other users of this machine would see among the arguments of the browser
+        threading.Timer(0.5, webbrowser.open, [found[0]]).start()
     config = uvicorn.Config(
         app,
         log_level="warning",
@@ -45,9 +50,10 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list
     uvicorn.Server(config).run(sockets=[listening])
 
 
-def application(db: Path, folder: Path, kinds: list[Path] | None, host: str):
-    """The ASGI application. Live runs load the folders of kinds again, each in its process."""
-    return SameOrigin(Door(page.app, lambda: inner(db, folder, kinds)), host=host)
+def application(db: Path, folder: Path, kinds: list[Path] | None, host: str, token: str, port: int):
+    """The ASGI application, behind a gate where there is a token. Live runs load the folders of kinds again, each in its process."""
+    door = Door(page.app, lambda: inner(db, folder, kinds))
+    return SameOrigin(Gate(door, token=token, port=port) if token else door, host=host)
 
 
 def inner(db: Path, folder: Path, kinds: list[Path] | None):
@@ -83,6 +89,36 @@ def scenario_folder(wanted: Path | None) -> Path:
         )
     here = Path("scenarios")
     return wanted or (here if here.is_dir() else sample.folder())
+
+
+def is_open(listening: socket.socket) -> bool:
+    """Whether others than this machine can reach the server."""
+    return not bound(listening).is_loopback
+
+
+def bound(listening: socket.socket) -> ipaddress.IPv4Address | ipaddress.IPv6Address:
+    """The numeric address of a socket."""
+    return ipaddress.ip_address(listening.getsockname()[0].partition("%")[0])
+
+
+def addresses(host: str, listening: socket.socket) -> list[str]:
+    """Where the server can be opened, first by this machine: a server on every address is not called by that."""
+    hosts = reachable(listening.family) if bound(listening).is_unspecified else [host]
+    return [f"http://{shown(each)}:{listening.getsockname()[1]}" for each in hosts]
+
+
+def reachable(family: int) -> list[str]:
+    """The addresses of this machine, its own first, without those that need to be told through which port of it."""
+    found = [each.address for every in psutil.net_if_addrs().values() for each in every if each.family == family]
+    others = [each for each in found if "%" not in each and not ipaddress.ip_address(each).is_loopback]
+    return ["::1" if family == socket.AF_INET6 else "127.0.0.1", *others]
+
+
+def announced(found: list[str], token: str) -> str:
+    """The line that tells where the studio is, and those for other machines."""
+    key = f"/?token={token}" if token else ""
+    others = [f"from other machines:     {each}{key}" for each in found[1:]]
+    return "\n".join([f"Cooperative ADAS Studio: {found[0]}{key}", *others])
 
 
 def shown(host: str) -> str:

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from studio import job
+from studio.assess.danger import Lookout
 from studio.errors import StoreError, StudioError
 from studio.execution.loop import Pace
 from studio.execution.simulation import Case, Simulation, simulation
@@ -68,6 +69,9 @@ class Live:
     before: np.ndarray = field(default_factory=lambda: np.zeros(0))
     after: np.ndarray = field(default_factory=lambda: np.zeros(0))
     advanced: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.lookout = Lookout(self.simulation)
 
     @property
     def case(self) -> Case:
@@ -168,9 +172,9 @@ class Live:
         return self.factor
 
     def send_events(self) -> None:
-        """Happenings that have not been told."""
+        """Happenings that have not been told, and dangers that are over."""
         happenings = self.case.happenings
-        for each in happenings[self.told :]:
+        for each in [*happenings[self.told :], *self.lookout.look()]:
             self.pipe.send(("event", answer.event(each).model_dump()))
         self.told = len(happenings)
 

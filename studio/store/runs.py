@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import sqlite3
+import weakref
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass, field
@@ -74,10 +75,14 @@ class Row:
 
 @dataclass
 class Runs:
-    """The runs of one database file."""
+    """The runs of one database file, which is let go when nobody has them any more: who is alone with it may replace it."""
 
     path: Path
     database: Database
+
+    def __post_init__(self) -> None:
+        # a Database refers to itself in circles, and would keep the file open until the next time that garbage is collected
+        weakref.finalize(self, self.database.conn.close).atexit = False
 
     def begin(self, *, scenario: str, title: str, document: dict, scenario_hash: str, map_digest: str, parent: int | None,
               seed: int, parameters: dict[str, Any], provenance: "Provenance") -> int:  # fmt: skip
@@ -170,13 +175,18 @@ class Runs:
 
     def take_in(self) -> None:
         """Takes in the results that wait beside the database; what still cannot go in waits on."""
-        for file in waiting.found(self.path):
+        for file, result in waiting.results(self.path):
             with suppress(StoreError):
-                result = waiting.read(file)
-                (row,) = result["runs"]
-                if any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]])):
-                    self.put({"metrics": [], "events": [], "pieces": []} | result)
+                if self.takes(result):
                     file.unlink()
+
+    def takes(self, result: waiting.Result) -> bool:
+        """Puts in a result that waits, and tells whether it is one of this database. Raises StoreError when it cannot go in."""
+        (row,) = result["runs"]
+        belongs = any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]]))
+        if belongs:
+            self.put({"metrics": [], "events": [], "pieces": []} | result)
+        return belongs
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""

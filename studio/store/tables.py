@@ -15,7 +15,8 @@ SQLite in WAL mode: readers never wait for the writer. A number in `user_version
 
 import sqlite3
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from pathlib import Path
 
 from sqlite_utils import Database
@@ -98,7 +99,8 @@ def open_database(path: Path) -> Database:
     refuse_folder(path)
     try:
         connection = sqlite3.connect(path, timeout=PATIENCE, check_same_thread=False)
-        return prepared(Database(connection), path)
+        with refusing(connection):
+            return prepared(Database(connection), path)
     except sqlite3.Error as error:
         raise unusable(path, error) from None
 
@@ -111,9 +113,20 @@ def read_database(path: Path) -> Database:
     refuse_folder(path)
     try:
         database = reopen_database(path)
-        return database if checked_layout(database, path) == LAYOUT else prepared(database, path)
+        with refusing(database.conn):
+            return database if checked_layout(database, path) == LAYOUT else prepared(database, path)
     except sqlite3.Error as error:
         raise unusable(path, error) from None
+
+
+@contextmanager
+def refusing(connection: sqlite3.Connection) -> Generator[None]:
+    """Closes a connection that is of no use, and with it what SQLite keeps beside the file."""
+    try:
+        yield
+    except BaseException:
+        connection.close()
+        raise
 
 
 def reopen_database(path: Path) -> Database:
@@ -198,9 +211,9 @@ def make_tables(database: Database) -> None:
         database.execute(f"pragma user_version = {LAYOUT}")
 
 
-def patiently(action: Callable[[], object]) -> None:
-    """Repeats what SQLite refuses without waiting while another process changes the file's mode."""
-    until = time.monotonic() + PATIENCE
+def patiently(action: Callable[[], object], patience: float = PATIENCE) -> None:
+    """Repeats what SQLite refuses without waiting while another process uses the file or changes its mode."""
+    until = time.monotonic() + patience
     while True:
         try:
             action()

@@ -8,7 +8,7 @@ import hashlib
 import os
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
@@ -35,12 +35,20 @@ def found(database: Path) -> Iterator[Path]:
         yield from sorted(folder.glob("run-*.db"))
 
 
+def results(database: Path) -> Iterator[tuple[Path, Result]]:
+    """What waits, file by file; what cannot be read waits on."""
+    for file in found(database):
+        with suppress(StoreError):
+            yield file, read(file)
+
+
 def of(database: Path, run: dict[str, Any]) -> tuple[Path, dict[str, Any]] | None:
     """The file in which the result of a run waits, and what its row will be."""
     for file in [each for folder in folders(database) if (each := folder / file_name(run["run"])).is_file()]:
-        row = read(file, ("runs",))["runs"][0]
-        if belongs(row, run):
-            return file, row
+        with suppress(StoreError):
+            row = read(file, ("runs",))["runs"][0]
+            if belongs(row, run):
+                return file, row
     return None
 
 
@@ -88,6 +96,9 @@ def read(file: Path, tables: tuple[str, ...] = tuple(TABLES)) -> Result:
         with closing(sqlite3.connect(f"{file.absolute().as_uri()}?mode=ro", uri=True)) as connection:
             database = Database(connection)
             present = set(database.table_names())
-            return {name: list(database.table(name).rows) for name in tables if name in present}
+            result = {name: list(database.table(name).rows) for name in tables if name in present}
     except sqlite3.Error as error:
         raise StoreError(f"{file} cannot be read.", [Problem(str(file), str(error))]) from None
+    if len(result.get("runs", ())) != 1 or not {"run", "status", "error", *OWNER} <= result["runs"][0].keys():
+        raise StoreError(f"{file} is no result that waits.", [Problem(str(file), "does not hold the row of one run")])
+    return result

@@ -9,13 +9,14 @@ import yaml
 
 from studio import job
 from studio.assess.cause import explain
-from studio.assess.danger import hard_brakes, near_misses, stretches, with_dangers
+from studio.assess.danger import QUIET, Lookout, hard_brakes, near_misses, stretches, with_dangers
 from studio.assess.known import belongs_to, known, place_of
 from studio.errors import UnknownError
 from studio.execution.brought import Brought
 from studio.execution.happening import happening
 from studio.execution.message import none
 from studio.execution.record import Mount, Traced
+from studio.execution.simulation import simulation
 from studio.road.drawn.motorway import motorway
 from studio.store.explanation import explanation
 from studio.store.runs import open_runs
@@ -244,3 +245,50 @@ def test_a_tyre_at_its_limit_while_a_hard_brake_lasts_is_told(drive):
         made = with_dangers(replace(drive, values=with_channel(drive, "adhesion_rear_left", np.stack([0.1 * use, use]))))
         (brake,) = explain(made, ("hard_brake",))
         assert [each.wheel for each in brake.tyre_at_limit] == (["rear_left"] if is_told else [])
+
+
+@pytest.fixture(scope="module")
+def nearing(tmp_path_factory):
+    """A car that comes near another and brakes hard; it does so again as the run ends."""
+    folder = tmp_path_factory.mktemp("nearing")
+    (folder / "motorway.xodr").write_text(motorway(length=1500.0, lanes=2), encoding="utf-8")
+
+    def at(time, kind, vehicle, **settings):
+        return {"when": {"kind": "time", "at": time}, "do": {"kind": kind, "vehicle": vehicle} | settings}
+
+    car = {"route": "way", "speed": 15.0, "sensors": {}}
+    document = {
+        "version": 3, "title": "nearing", "map": {"file": "motorway.xodr"}, "clock": {"duration": 13.0},
+        "routes": {"way": {"roads": ["motorway"]}},
+        "vehicles": {
+            "b": car | {"speed": 25.0, "position": {"road": "motorway", "lane": 0, "offset": 100}},
+            "a": car | {"position": {"road": "motorway", "lane": 0, "offset": 130}},
+        },
+        "script": {
+            "even": at(0, "hold", "a", speed=15, duration=13), "fast": at(0, "hold", "b", speed=25, duration=1.4),
+            "hard": at(1.4, "brake", "b", deceleration=8, duration=6, to_speed=12),
+            "again": at(8, "set_speed", "b", speed=30, acceleration=6), "more": at(11.5, "brake", "b", deceleration=9, duration=3),
+        },
+    }  # fmt: skip
+    (folder / "nearing.yaml").write_text(yaml.safe_dump(document))
+    return job.prepare(job.load(folder / "nearing.yaml"))
+
+
+@pytest.mark.parametrize("ticks", [1, 7, 60, 1000])
+def test_dangers_are_told_while_a_run_goes_on(nearing, ticks):
+    """Each once, when nothing belongs to it any more, and the same as in the record of the whole run, however often one looks."""
+    going, told = simulation(nearing), []
+    lookout = Lookout(going)
+    while not going.is_over:
+        going.advance(ticks)
+        told += [(going.time, event) for event in lookout.look()]
+    record = going.record()
+    wanted = [*near_misses(record), *hard_brakes(record)]
+    assert {"near_miss", "hard_brake"} <= {event.kind for event in wanted} and len(wanted) >= 3
+    assert sorted((event for _, event in told), key=key) == sorted(wanted, key=key) and lookout.look() == []
+    early = [time - event.time for time, event in told if time < going.time]
+    assert min(early, default=QUIET) >= QUIET and (bool(early) == (ticks < 1000))
+
+
+def key(event):
+    return event.time, event.kind, event.units

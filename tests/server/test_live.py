@@ -106,6 +106,16 @@ def test_samples_and_events(client):
     )
 
 
+def test_what_is_told_live_is_what_is_kept(client):
+    """Dangers too, which are told when they are over, or at the end of the run."""
+    run = start(client, set={"clock.duration": 5, "script.hard_brake.when.at": 0.5, "script.hard_brake.do.deceleration": 8}, pace="fast")
+    with news(client, run) as socket:
+        seen = until(socket, lambda m: m["type"] == "end")
+    live = sorted((each["time"], each["kind"], each["text"]) for each in seen if each["type"] == "event")
+    kept = sorted((each["time"], each["kind"], each["text"]) for each in client.get(f"/api/runs/{run}").json()["events"])
+    assert live == kept and "hard_brake" in [kind for _, kind, _ in live]
+
+
 def test_a_live_run_has_the_bits_of_any_other(client):
     changes = {"clock.duration": 3}
     run = start(client, set=changes, pace=8)

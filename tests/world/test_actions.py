@@ -7,7 +7,9 @@ import pytest
 import yaml
 
 from studio import job
+from studio.cli import main
 from studio.errors import ScenarioError
+from studio.execution.event import foreseen
 from studio.road.drawn.motorway import motorway
 from studio.vehicle.command import RING, U_STEER
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
@@ -287,3 +289,31 @@ def test_worlds_and_snapshots(road):
     for _ in range(100):
         tick(anew)
     assert anew.digest(0) == alone[0]
+
+
+# -- what a vehicle cannot do ----------------------------------------------------------------------------
+
+
+def test_speeds_that_a_vehicle_cannot_reach_are_told(road, capsys):
+    """Before the run, with its top speed, by the run's events and by the check; a speed that it can reach is not spoken of."""
+    script = {
+        "fast": own("set_speed", speed=70), "held": own("hold", when=2, speed=60), "put": own("place", when=3, along=200, speed=65),
+        "drawn": own("speed_profile", when=4, points=[[0, 20], [5, 58]]), "slow": own("set_speed", when=5, speed=50),
+        "stop": own("brake", when=6),
+    }  # fmt: skip
+    parts = {"script": script, "vehicles.own.speed": 69, "clock.duration": 0.1}
+    told = events(job.run(job.load(road, parts)), "speed_out_of_reach")
+    assert [time for time, _ in told] == 5 * [0.0]
+    wanted = [("69.0", "at its start"), ("70.0", "script.fast"), ("60.0", "script.held"), ("65.0", "script.put"), ("58.0", "script.drawn")]
+    assert [text for _, text in told] == [
+        f"own cannot drive {speed} m/s ({what}): its top speed in the flat is 56.6 m/s" for speed, what in wanted
+    ]
+    assert not events(run(road, {"slow": own("hold", speed=56)}, 0.1), "speed_out_of_reach")
+    with pytest.raises(SystemExit):
+        main(["check", str(road), "--set", "vehicles.own.model=truck", "--set", "vehicles.own.speed=40"])
+    assert "note: own cannot drive 40.0 m/s (at its start): its top speed in the flat is 33.8 m/s" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["grosser_stern_platoon", "motorway_platoon", "urban_grid"])
+def test_the_samples_ask_for_nothing_that_cannot_be(sample, name):
+    assert not list(foreseen(job.prepare(job.load(sample.with_name(f"{name}.yaml")))))

@@ -123,6 +123,27 @@ def test_a_vehicle_is_taken_away_and_put_back(road):
     assert np.isnan(gap[(made.time > 1.05) & (made.time < 2.95)]).all() and np.isfinite(gap[made.time > 3.05]).all()
 
 
+TAKEOVERS = {
+    "brake": {}, "set_speed": {"speed": 5}, "hold": {"speed": 5}, "speed_profile": {}, "steer": {},
+    "change_lane": {"offset": 1.0}, "follow_path": {"line": [[0, 0], [50, 0]]},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", TAKEOVERS)
+def test_who_commands_a_vehicle_that_is_not_there_is_told(road, kind):
+    """Nobody is commanded then. Once it has been put back it is, and that ends as always; so does what had it when it left."""
+    script = {
+        "before": entry(0.5, None, "brake", vehicle="front", deceleration=1, duration=5), "away": entry(1, None, "remove", vehicle="front"),
+        "late": entry(2, None, kind, vehicle="front", **TAKEOVERS[kind]),
+        "back": entry(3, None, "place", vehicle="front", along=260, speed=15),
+        "then": entry(3.5, 4, "brake", vehicle="front", deceleration=1, duration=5),
+    }  # fmt: skip
+    told = [(each.time, each.kind, each.text) for each in run(road, script).record.happenings if each.kind.startswith("script_")]
+    (vain,) = [each for each in told if each[1] == "script_in_vain"]
+    assert vain == (2.0, "script_in_vain", "late does nothing: front is not on the road")
+    assert {each[2] for each in told if each[1] == "script_ended"} == {"before ends", "away ends", "back ends", "then ends"}
+
+
 # -- radio ---------------------------------------------------------------------------------------------
 
 PLATOON = {"keep": {"application": "cacc", "units": ["own"], "listens_to": ["front"], "parameters": {"headway": 1.0}}}

@@ -35,3 +35,8 @@ def act(settings, sees):
 def told(settings):
     """In words."""
     return f"hold {settings.speed:g} m/s" if settings.speed > 0.0 else "stand"
+
+
+def fastest(settings):
+    """What the vehicle must be able to drive [m/s]."""
+    return settings.speed

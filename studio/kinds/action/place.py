@@ -28,3 +28,8 @@ def effects(settings, place):
 def told(settings):
     """In words."""
     return f"put at {settings.along:g} m with {settings.speed:g} m/s"
+
+
+def fastest(settings):
+    """What the vehicle must be able to drive [m/s]."""
+    return settings.speed

@@ -33,3 +33,8 @@ def act(settings, sees):
 def told(settings):
     """In words."""
     return f"drive to {settings.speed:g} m/s"
+
+
+def fastest(settings):
+    """What the vehicle must be able to drive [m/s]."""
+    return settings.speed

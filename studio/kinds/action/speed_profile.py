@@ -70,3 +70,8 @@ def act(settings, sees):
 def told(settings):
     """In words."""
     return f"drive {len(settings.points)} speeds in {settings.points[-1][0]:g} s"
+
+
+def fastest(settings):
+    """What the vehicle must be able to drive [m/s]."""
+    return max(speed for _, speed in settings.points)

@@ -32,6 +32,7 @@ from studio.world.table.event import (
     SCRIPT_BEGUN,
     SCRIPT_CUT,
     SCRIPT_ENDED,
+    SCRIPT_VAIN,
     TAKES_OVER,
     WAITS,
 )
@@ -213,8 +214,16 @@ def notice_script(turned, cut, vehicle, state, script_world, told, table, count)
             if when == told[turn, i] or isnan(when):
                 continue
             told[turn, i] = when
-            kind = SCRIPT_BEGUN if turn == 0 else SCRIPT_CUT if cut[i] >= 0 else SCRIPT_ENDED
+            kind = SCRIPT_BEGUN if turn == 0 else ending(turned[0, i], when, cut[i], v, state)
             note(when, kind, script_world[i], i, cut[i], x, y, nan, table, count)
+
+
+@inlined
+def ending(began, ended, cut, v, state):
+    """How an entry has ended: by another, at once because the vehicle that it commands was not there, or else by itself."""
+    if cut >= 0:
+        return SCRIPT_CUT
+    return SCRIPT_VAIN if v >= 0 and ended == began and state[ACTIVE, v] == 0.0 else SCRIPT_ENDED
 
 
 @lean

@@ -32,8 +32,13 @@ def event(name: str, sentence: str, *words: str, **numbers: str) -> int:
 SCRIPT_BEGUN = event("script_begun", "{entry} begins: {action}", "entry", "action")
 SCRIPT_ENDED = event("script_ended", "{entry} ends", "entry", "action")
 SCRIPT_CUT = event("script_cut_short", "{entry} ends: {other} begins", "entry", "action", "other")
+SCRIPT_VAIN = event("script_in_vain", "{entry} does nothing: {0} is not on the road", "entry", "action")
 RUN_ENDED = event("run_ended", "{entry} ends the run", "entry")
 HOPELESS = event("never_begins", "{entry} can never {turn}: {reason}", "entry", "turn", "reason")
+OUT_OF_REACH = event(
+    "speed_out_of_reach", "{0} cannot drive {speed:.1f} m/s ({what}): its top speed in the flat is {top_speed:.1f} m/s", "what",
+    speed="m/s", top_speed="m/s",
+)  # fmt: skip
 HIT = event("collision", "collision of {0} and {1} at {impact_speed:.1f} m/s", impact_speed="m/s")
 ROLLED_OVER = event("rolled_over", "rolled over; what it does after this is not claimed")
 ARRIVED = event("arrived", "arrived at the end of its route")

@@ -122,6 +122,14 @@ describe("the feed of a live run", () => {
     expect(listener).toHaveBeenCalledTimes(1);
   });
 
+  it("puts an event that is told late to its time", () => {
+    const [feed, socket] = opened();
+    const event = { vehicle: "", units: [], x: null, y: null, numbers: {} };
+    for (const [time, kind] of [[1, "collision"], [4, "arrived"], [2, "near_miss"], [4, "script_ended"]] as const)
+      socket.say({ type: "event", ...event, time, kind, text: kind });
+    expect(told(feed).events.map(({ kind }) => kind)).toEqual(["collision", "near_miss", "arrived", "script_ended"]);
+  });
+
   it("says that it is cut off, opens again, and forgets what will be sent again", () => {
     const [feed, socket] = opened();
     socket.say(state("running"));

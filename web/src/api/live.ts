@@ -49,7 +49,9 @@ export function reduce(state: LiveState, message: Server["News"]): LiveState {
       return { ...state, version: state.version + 1 };
     case "event": {
       const { type: _type, ...event } = message;
-      return { ...state, events: [...state.events, event] };
+      // a near miss is told when it is over, and stands where it was
+      const place = state.events.findLastIndex((each) => each.time <= event.time) + 1;
+      return { ...state, events: state.events.toSpliced(place, 0, event) };
     }
     case "end":
       return { ...state, status: message.status, error: message.error, real_time_factor: 0 };
