@@ -222,7 +222,7 @@ def start(pipe: Connection, order: Order) -> None:
     try:
         loaded = job.seeded(job.load(order.path, order.changes), order.seed)
         prepared = job.prepare(loaded)
-        job.check_recording(prepared)
+        job.check_recording(prepared, order.db)
         runs = open_runs(order.db)
         number = job.begin(loaded, prepared, runs, order.parent)
     except StudioError as error:
@@ -230,7 +230,7 @@ def start(pipe: Connection, order: Order) -> None:
         return
     pipe.send(("begun", number, loaded.document["clock"]["duration"]))
     try:
-        current = simulation(prepared)
+        current = job.recorded(prepared, runs, number)
         Live(current, pipe, Pace(order.pace), order.paused).run()
         row = job.save(number, job.outcome(loaded, current), runs)
         pipe.send(("end", row.status, row.error))
@@ -243,9 +243,9 @@ def start(pipe: Connection, order: Order) -> None:
 
 
 def ended(runs: Runs, number: int, status: str, why: str) -> str:
-    """Puts down how a run ended that brought nothing, if the database takes it; returns how."""
+    """Puts down how a run ended that brought no result, with what was recorded of it, if the database takes it; returns how."""
     with suppress(StoreError):
-        runs.end(number, status, why)
+        runs.break_off(number, status, why)
     return status
 
 

@@ -1,8 +1,9 @@
 """Runs in the database: begin, finish, find, compare their inputs.
 
 A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
-says "running", the run was killed; whoever looks is told so, and nothing is written by looking. A result that cannot go in, for want of
-room or because somebody holds the file, waits beside it (waiting.py) and goes in later.
+says "running", the run was killed; whoever looks is told so, and nothing is written by looking. What it had recorded until then lies
+beside the database (recording.py), is read there, and taken in by the next process that writes. A result that cannot go in, for want
+of room or because somebody holds the file, waits beside it too (waiting.py).
 
 What only traces need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
@@ -23,7 +24,7 @@ from sqlite_utils import Database
 from studio.assess.metric import Measured
 from studio.errors import Problem, StoreError, UnknownError, short
 from studio.execution.happening import Happening, Number
-from studio.store import owner, waiting
+from studio.store import owner, recording, waiting
 from studio.store.tables import open_database, read_database, reopen_database, unusable
 
 if TYPE_CHECKING:
@@ -31,13 +32,15 @@ if TYPE_CHECKING:
 
     from studio.execution.message import Messages
     from studio.execution.record import Record
+    from studio.execution.shelf import Folder
     from studio.kind.registry import Kind
     from studio.provenance import Provenance
 
-PIECE = 200_000_000  # [B] of a file that stand in one value; SQLite takes 1e9 in a row
+PIECE = 50_000_000  # [B] of a file that stand in one value; SQLite takes 1e9 in a row
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 WAITS = "The result waits in {} and is taken in by the next run, as soon as the database takes it."
 KILLED = "The process that ran it ended before the run did."
+UNTIL = "What was recorded until {:g} s is kept."
 
 
 @dataclass(frozen=True)
@@ -126,8 +129,9 @@ class Runs:
             kept = {"digest": kind.digest, "kind": kind.sort, "name": kind.name, "files": files}
             self.database.table("kinds").insert(kept, pk="digest", ignore=True)
 
-    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
-               wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
+    def finish(self, run: int, *, status: str, error: str | None, state_hash: str | None, record: "Record",
+               sim_time_s: float, wall_time_s: float | None, metrics: dict[str, Measured], unmet: list[str],
+               channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing. What cannot go in waits beside the database.
 
         Raises StoreError when it can be kept nowhere.
@@ -142,7 +146,9 @@ class Runs:
             "wall_time_s": wall_time_s,
             "unmet": json.dumps(unmet, ensure_ascii=False),
         }
-        parquet, (sent, entries) = trace.write(record, channels), message.write(record.messages)
+        known = self.rows(f"select {', '.join(waiting.OWNER)} from runs where run = ?", [run])[0]
+        folder = recording.folder_of(self.path, known | {"run": run})
+        parquet, (sent, entries) = trace.write_beside(folder, record, channels), message.write(record.messages)
         result = {
             "runs": [{"run": run} | ending],
             "metrics": metric_rows(run, metrics),
@@ -154,13 +160,15 @@ class Runs:
         try:
             self.put(result)
         except StoreError as refused:
-            known = self.rows(f"select {', '.join(waiting.OWNER)} from runs where run = ?", [run])[0]
             waiting.keep(self.path, result | {"runs": [{"run": run} | ending | known]}, refused)
+        recording.remove(folder)
 
     def put(self, result: waiting.Result) -> None:
-        """Puts the rows of a run that is over in their tables: all of them or none."""
+        """Puts the rows of a run that is over in their tables: all of them or none; of a run that has been put there already, none."""
         (row,) = result["runs"]
         with self.writing():
+            if not self.rows("select run from runs where run = ? and status = 'running'", [row["run"]]):
+                return
             self.database.table("runs").update(row["run"], {key: value for key, value in row.items() if key != "run"})
             self.database.table("metrics").insert_all(result["metrics"], pk=("run", "name"), replace=True)
             self.database.table("events").insert_all(result["events"])
@@ -169,7 +177,7 @@ class Runs:
             self.database.table("pieces").insert_all(result["pieces"], pk=("run", "column", "number"), replace=True)
 
     def take_in(self) -> None:
-        """Takes in the results that wait beside the database; what still cannot go in waits on."""
+        """Takes in the results that wait beside the database, and recordings whose runs have been left; what cannot go in stays there."""
         for file in waiting.found(self.path):
             with suppress(StoreError):
                 result = waiting.read(file)
@@ -177,6 +185,74 @@ class Runs:
                 if any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]])):
                     self.put({"metrics": [], "events": [], "pieces": []} | result)
                     file.unlink()
+        for run, folder in recording.found(self.path):
+            for row in self.rows("select * from runs where run = ?", [run]):
+                if folder == recording.folder_of(self.path, row) and (row["status"] != "running" or self.is_left(row)):
+                    self.salvage(run)
+
+    def is_left(self, row: dict[str, Any]) -> bool:
+        """Whether a run was not finished, and will not be: its process has gone, and no result waits."""
+        return row["status"] == "running" and owner.is_gone(row["process"], row["process_mark"]) and not waiting.of(self.path, row)
+
+    def shelf(self, run: int) -> "Folder":
+        """Where a run that begins is recorded. Raises StoreError."""
+        return recording.begin(self.folder(run))
+
+    def folder(self, run: int) -> Path:
+        """Where that lies."""
+        (row,) = self.rows("select run, created, process_mark from runs where run = ?", [run])
+        return recording.folder_of(self.path, row)
+
+    def break_off(self, run: int, status: str, error: str) -> None:
+        """Ends a run that brought no result: what was recorded until then is kept. What cannot go in now is taken in later."""
+        folder = self.folder(run)
+        if not folder.is_dir():
+            self.end(run, status, error)
+            return
+        recording.put_down(folder, status, error)
+        self.salvage(run)
+
+    def salvage(self, run: int) -> None:
+        """Puts the recording of a run into the database, with the metrics that can be measured, and removes it.
+
+        One of which nothing can be made is set aside, and the row says where and why: nobody else is to fail over it.
+        """
+        folder, row = self.folder(run), self.rows("select * from runs where run = ?", [run])[0]
+        ended = {"status": "killed", "error": KILLED} | recording.ending(folder)
+        try:
+            if row["status"] == "running":
+                self.finish_with(run, recording.record(folder), **ended)
+        except StoreError:
+            raise
+        except Exception as error:
+            aside = recording.set_aside(folder)
+            self.end(run, ended["status"], f"{ended['error']} What it had recorded is in {aside}, and cannot be assessed: {error!r}")
+        recording.remove(folder)
+
+    def finish_with(self, run: int, found: "Record | None", status: str, error: str) -> None:
+        """Finishes a run with what was recorded of it, if anything."""
+        from studio.assess.assessment import assessed
+        from studio.scenario.schema import Scenario
+
+        if found is None:
+            self.end(run, status, error)
+            return
+        row = self.find(run)
+        scenario = Scenario.model_validate(self.document(row))
+        result = assessed(found, scenario)
+        last = float(result.record.time[-1])
+        self.finish(
+            run,
+            status=status,
+            error="\n".join([f"{error} {UNTIL.format(last)}", *result.raised]),
+            state_hash=None,
+            record=result.record,
+            sim_time_s=round(last, 9),
+            wall_time_s=None,
+            metrics=result.metrics,
+            unmet=result.unmet,
+            channels=scenario.recording.channels,
+        )
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
@@ -248,7 +324,12 @@ class Runs:
             return row
         if found := waiting.of(self.path, row):
             return row | found[1] | {"error": f"{WAITS.format(found[0])} {found[1]['error'] or ''}".strip()}
-        return row | {"status": "killed", "error": KILLED} if owner.is_gone(row["process"], row["process_mark"]) else row
+        if not owner.is_gone(row["process"], row["process_mark"]):
+            return row
+        folder = recording.folder_of(self.path, row)
+        seen = row | {"status": "killed", "error": KILLED} | recording.ending(folder)
+        last = recording.until(folder)
+        return seen | {"error": f"{seen['error']} {UNTIL.format(last)}", "sim_time_s": last} if last else seen
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
@@ -272,11 +353,20 @@ class Runs:
 
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
-        self.find(run)
+        row = self.find(run)
         found = self.rows("select parquet from traces where run = ?", [run])
-        if not found:
+        if found:
+            return self.whole(run, "parquet", found[0]["parquet"])
+        if (record := self.recorded(run)) is None:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
-        return self.whole(run, "parquet", found[0]["parquet"])
+        from studio.store import trace
+
+        return trace.write(record, self.document(row)["recording"]["channels"])
+
+    def recorded(self, run: int) -> "Record | None":
+        """What was recorded so far of a run whose result is not there."""
+        with self.intact(run, "recording"):
+            return recording.record(self.folder(run))
 
     def whole(self, run: int, column: str, first: bytes) -> bytes:
         """A file with the pieces that did not go into its first value."""
@@ -288,6 +378,10 @@ class Runs:
         """All that is kept of a run in one piece, but for the ages of links; raises UnknownError when there is none."""
         from studio.store import trace
 
+        self.find(run)
+        found = self.recorded(run)
+        if found is not None:
+            return found
         parquet, events, messages = self.parquet(run), self.events(run), self.messages(run)
         with self.intact(run, "record"):
             return trace.record_of(parquet, events, messages)
@@ -307,10 +401,13 @@ class Runs:
         """Recorded channels of a run; none when it has no traces."""
         from studio.store import trace
 
-        self.find(run)
-        found = self.rows("select parquet from traces where run = ?", [run])
+        try:
+            parquet = self.parquet(run)
+        except UnknownError:
+            self.find(run)
+            return []
         with self.intact(run, "traces"):
-            return trace.channels(self.whole(run, "parquet", found[0]["parquet"])) if found else []
+            return trace.channels(parquet)
 
     def trace(self, run: int, names: list[str]) -> dict[str, "np.ndarray"]:
         """Time and channels of a run."""
@@ -349,7 +446,7 @@ def reopen_runs(path: Path) -> Runs:
     return Runs(path, reopen_database(path))
 
 
-def pieces(run: int, column: str, data: bytes) -> list[dict[str, Any]]:
+def pieces(run: int, column: str, data: bytes | memoryview) -> list[dict[str, Any]]:
     """The rows of what of a file does not go into its first value."""
     starts = range(PIECE, len(data), PIECE)
     return [{"run": run, "column": column, "number": i, "bytes": data[at : at + PIECE]} for i, at in enumerate(starts)]
