@@ -209,8 +209,8 @@ def vehicles_digest(prepared: Setting) -> str:
     return digest.hexdigest()
 
 
-def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> int:
-    """The row of a run that starts now."""
+def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None, *, status: str = "running", run: int | None = None) -> int:
+    """The row of a run that starts now, or that waits; or that of one which waited, and starts now."""
     return runs.begin(
         scenario=loaded.name,
         title=loaded.scenario.title,
@@ -221,6 +221,8 @@ def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> 
         seed=loaded.scenario.seed,
         parameters=loaded.changes,
         provenance=provenance(loaded.scenario),
+        status=status,
+        run=run,
     )
 
 

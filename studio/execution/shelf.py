@@ -23,6 +23,7 @@ from numpy.typing import DTypeLike
 from studio.errors import StudioError
 
 ZEROS = bytes(1 << 20)
+END = "end"  # a file that tells the run to end
 SMALL = 32 << 20  # [B] below which room is memory in any case: a mapped file costs a descriptor
 Arrays = tuple[np.ndarray, ...]
 
@@ -65,6 +66,10 @@ class Shelf:
     def append(self, name: str, *arrays: np.ndarray) -> Callable[[], Arrays]:
         """Arrays, as they are."""
         return lambda: arrays
+
+    def is_to_end(self) -> bool:
+        """Whether somebody wants the run to end; nobody can say so."""
+        return False
 
 
 class FileRoll(Roll):
@@ -120,6 +125,10 @@ class Folder(Shelf):
         """Lines behind those that were written before. Raises NoRoom."""
         text = "".join(f"{json.dumps(each, ensure_ascii=False)}\n" for each in lines)
         self.add(self.path / f"{name}.jsonl", text.encode())
+
+    def is_to_end(self) -> bool:
+        """Whether somebody wants the run to end."""
+        return (self.path / END).exists()
 
     def lines(self, name: str) -> list[Any]:
         """The lines that were written whole."""

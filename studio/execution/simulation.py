@@ -33,7 +33,7 @@ from studio.world.table.event import FAILED, RUN_ENDED
 from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
 
-PUT_DOWN = 1.0  # [s] of real time between two times at which messages are put on the shelf
+PUT_DOWN = 1.0  # [s] of real time between two looks at what is wanted, and at which messages are put on the shelf
 
 
 @dataclass
@@ -73,7 +73,7 @@ class Simulation:
     ticks: int  # length of the whole run
     shelf: Shelf  # where it is kept what would be lost with the process
     put: int = 0  # events that have been put there
-    put_at: float = field(default_factory=time.monotonic)
+    heeded: float = field(default_factory=time.monotonic)  # [s] when it was last looked
     started: float = field(default_factory=time.perf_counter)
     running: int = field(init=False)  # worlds that are not over
     may_end: bool = field(init=False)  # whether the script may end some world
@@ -100,7 +100,18 @@ class Simulation:
                 if self.watch.is_nearly_full:
                     self.tell()
             self.tell()
+        self.heed()
+
+    def heed(self) -> None:
+        """Looks after what would be lost with the process, and whether somebody wants the run to end; to be called while it stands too."""
+        with self.within_room():
             self.put_down()
+            if time.monotonic() - self.heeded > PUT_DOWN:
+                self.heeded = time.monotonic()
+                for post in self.world.units.posts:
+                    post.log.put_away()
+                if self.shelf.is_to_end() and not self.is_over:
+                    self.end("stopped")
 
     @contextmanager
     def within_room(self) -> Generator[None]:
@@ -112,15 +123,11 @@ class Simulation:
                 self.fail(number, full.message)
 
     def put_down(self) -> None:
-        """What has happened in the first world goes to the shelf at once, what was sent after a while. Raises NoRoom."""
+        """What has happened in the first world goes to the shelf. Raises NoRoom."""
         fresh = self.cases[0].happenings[self.put :]
         if fresh:
             self.shelf.write("events", [each.as_json() for each in fresh])
             self.put += len(fresh)
-        if time.monotonic() - self.put_at > PUT_DOWN:
-            self.put_at = time.monotonic()
-            for post in self.world.units.posts:
-                post.log.put_away()
 
     def tick(self) -> None:
         """One tick."""

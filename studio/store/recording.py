@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from studio.errors import Problem, StoreError
-from studio.execution.shelf import Folder, NoRoom
+from studio.execution.shelf import END, Folder, NoRoom
 
 if TYPE_CHECKING:
     from studio.execution.record import Record
@@ -49,8 +49,11 @@ def begin(folder: Path) -> Folder:
 
 
 def remove(folder: Path) -> None:
-    """It is not needed any more."""
-    shutil.rmtree(folder, ignore_errors=True)
+    """It is not needed any more. Who reads meanwhile finds all of it or nothing."""
+    with suppress(OSError):
+        folder.rename(folder.with_name(f"gone-{folder.name}"))
+    for each in folder.parent.glob("gone-*"):
+        shutil.rmtree(each, ignore_errors=True)
     with suppress(OSError):
         folder.parent.rmdir()  # when it was the last
 
@@ -64,6 +67,14 @@ def put_down(folder: Path, status: str, error: str) -> None:
     """How its run has ended, for who finds it; when there is no room for that, it is told as killed."""
     with suppress(NoRoom, OSError):
         Folder(folder).write(WHY, [{"status": status, "error": error}])
+
+
+def tell_to_end(folder: Path) -> None:
+    """Tells the run that is recorded there to end; it looks now and then. Raises StoreError when that cannot be told."""
+    try:
+        (folder / END).touch()
+    except OSError as error:
+        raise StoreError("The run cannot be told to end.", [Problem(str(folder), error.strerror or str(error))]) from None
 
 
 def ending(folder: Path) -> dict[str, Any]:

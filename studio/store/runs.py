@@ -40,6 +40,7 @@ PIECE = 50_000_000  # [B] of a file that stand in one value; SQLite takes 1e9 in
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 WAITS = "The result waits in {} and is taken in by the next run, as soon as the database takes it."
 KILLED = "The process that ran it ended before the run did."
+LEFT = "The server in whose queue it waited ended before its turn came."
 UNTIL = "What was recorded until {:g} s is kept."
 
 
@@ -83,8 +84,12 @@ class Runs:
     database: Database
 
     def begin(self, *, scenario: str, title: str, document: dict, scenario_hash: str, map_digest: str, parent: int | None,
-              seed: int, parameters: dict[str, Any], provenance: "Provenance") -> int:  # fmt: skip
-        """A new row that says "running"; returns its number."""
+              seed: int, parameters: dict[str, Any], provenance: "Provenance", status: str = "running",
+              run: int | None = None) -> int:  # fmt: skip
+        """A new row that says "running" or "waiting"; or that of a run that waited, whose turn has come. Returns its number.
+
+        Raises UnknownError when there is no such parent, or the run does not wait any more.
+        """
         if parent is not None:
             self.find(parent)
         row = {
@@ -92,7 +97,7 @@ class Runs:
             "scenario_hash": scenario_hash,
             "parent": parent,
             "seed": seed,
-            "status": "running",
+            "status": status,
             "code_version": provenance.code_version,
             "host": provenance.host,
             "versions": json.dumps(provenance.versions),
@@ -110,9 +115,24 @@ class Runs:
             self.database.table("scenarios").insert(kept, pk="hash", ignore=True)
             self.keep_kinds(provenance.kinds)
             row["revisions"] = json.dumps([asdict(each) | {"patch": self.keep(each.patch)} for each in provenance.revisions])
+            if run is not None:
+                self.check_waiting(run)
+                self.database.table("runs").update(run, row)
+                return run
             number = self.database.table("runs").insert(row, pk="run").last_pk
             assert number is not None, "a row that was inserted has a key"
             return int(number)
+
+    def check_waiting(self, run: int) -> None:
+        """Raises UnknownError for a run that does not wait."""
+        if not self.rows("select run from runs where run = ? and status = 'waiting'", [run]):
+            raise UnknownError(f"Run {run} does not wait any more.", [Problem("run", "is not in the queue", str(run))])
+
+    def take_out(self, run: int, why: str) -> bool:
+        """Takes a run out of the queue; whether it waited."""
+        change = "update runs set status = 'cancelled', error = ? where run = ? and status = 'waiting'"
+        with self.writing():
+            return self.database.conn.execute(change, [why, run]).rowcount == 1
 
     def keep(self, text: str) -> str:
         """Keeps a text once, by its digest; nothing of nothing."""
@@ -177,7 +197,13 @@ class Runs:
             self.database.table("pieces").insert_all(result["pieces"], pk=("run", "column", "number"), replace=True)
 
     def take_in(self) -> None:
-        """Takes in the results that wait beside the database, and recordings whose runs have been left; what cannot go in stays there."""
+        """Takes in the results that wait beside the database, recordings whose runs were left, and who waits for a server that has gone.
+
+        What cannot go in stays where it is.
+        """
+        for row in self.rows("select * from runs where status = 'waiting'"):
+            if owner.is_gone(row["process"], row["process_mark"]):
+                self.take_out(row["run"], LEFT)
         for file in waiting.found(self.path):
             with suppress(StoreError):
                 result = waiting.read(file)
@@ -203,14 +229,19 @@ class Runs:
         (row,) = self.rows("select run, created, process_mark from runs where run = ?", [run])
         return recording.folder_of(self.path, row)
 
-    def break_off(self, run: int, status: str, error: str) -> None:
-        """Ends a run that brought no result: what was recorded until then is kept. What cannot go in now is taken in later."""
+    def leave(self, run: int, status: str, error: str) -> None:
+        """Puts down how a run ended that brought no result; what it had recorded is taken in by the next process that writes."""
         folder = self.folder(run)
-        if not folder.is_dir():
+        if folder.is_dir():
+            recording.put_down(folder, status, error)
+        else:
             self.end(run, status, error)
-            return
-        recording.put_down(folder, status, error)
-        self.salvage(run)
+
+    def break_off(self, run: int, status: str, error: str) -> None:
+        """The same, and takes it in at once. What cannot go in now is taken in later."""
+        self.leave(run, status, error)
+        if self.folder(run).is_dir():
+            self.salvage(run)
 
     def salvage(self, run: int) -> None:
         """Puts the recording of a run into the database, with the metrics that can be measured, and removes it.
@@ -256,7 +287,7 @@ class Runs:
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
-        change = "update runs set status = ?, error = ? where run = ? and status = 'running'"
+        change = "update runs set status = ?, error = ? where run = ? and status in ('running', 'waiting')"
         with self.writing():
             self.database.conn.execute(change, [status, error, run])
 
@@ -298,9 +329,23 @@ class Runs:
     def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
         query = f"select * from runs where {where} order by run desc limit ?"
-        rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
-        metrics = self.metrics_of([row["run"] for row in rows])
+        with self.looking():
+            rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
+            metrics = self.metrics_of([row["run"] for row in rows])
         return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+
+    @contextmanager
+    def looking(self) -> Generator[None]:
+        """All that is read is of one moment, whoever writes meanwhile."""
+        connection = self.database.conn
+        is_alone = not connection.in_transaction
+        if is_alone:
+            connection.execute("begin")
+        try:
+            yield
+        finally:
+            if is_alone:
+                connection.rollback()
 
     def rows(self, query: str, values=()) -> list[dict[str, Any]]:
         """Rows of a query as dictionaries."""
@@ -320,6 +365,8 @@ class Runs:
 
     def seen(self, row: dict[str, Any]) -> dict[str, Any]:
         """A row as it is now: one that says "running" although its process has gone was killed, unless its result waits."""
+        if row["status"] == "waiting" and owner.is_gone(row["process"], row["process_mark"]):
+            return row | {"status": "cancelled", "error": LEFT}
         if row["status"] != "running":
             return row
         if found := waiting.of(self.path, row):
@@ -354,19 +401,24 @@ class Runs:
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
         row = self.find(run)
-        found = self.rows("select parquet from traces where run = ?", [run])
-        if found:
-            return self.whole(run, "parquet", found[0]["parquet"])
+        if (parquet := self.kept_parquet(run)) is not None:
+            return parquet
         if (record := self.recorded(run)) is None:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
         from studio.store import trace
 
         return trace.write(record, self.document(row)["recording"]["channels"])
 
+    def kept_parquet(self, run: int) -> bytes | None:
+        """The traces of a run that is over."""
+        found = self.rows("select parquet from traces where run = ?", [run])
+        return self.whole(run, "parquet", found[0]["parquet"] or b"") if found else None
+
     def recorded(self, run: int) -> "Record | None":
-        """What was recorded so far of a run whose result is not there."""
-        with self.intact(run, "recording"):
+        """What was recorded so far of a run whose result is not there; nothing when it was taken in meanwhile."""
+        with self.intact(run, "recording"), suppress(FileNotFoundError):
             return recording.record(self.folder(run))
+        return None
 
     def whole(self, run: int, column: str, first: bytes) -> bytes:
         """A file with the pieces that did not go into its first value."""
