@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -74,6 +74,27 @@ def no_ages() -> np.ndarray:
     return np.zeros((0, 0))
 
 
+class Rows:
+    """Some vehicles of values [channel, vehicle, n], copied channel by channel when one is asked for: all at once may be a lot."""
+
+    def __init__(self, values: "np.ndarray | Rows", vehicles: Sequence[int]) -> None:
+        own = isinstance(values, Rows)
+        self.values: np.ndarray = values.values if own else values
+        self.vehicles = [values.vehicles[i] for i in vehicles] if own else list(vehicles)
+
+    def __getitem__(self, key: Any) -> Any:
+        """One channel; a stretch of samples; or whatever else numpy gives for it."""
+        if isinstance(key, int):
+            return self.values[key][self.vehicles]
+        if isinstance(key, tuple) and key[:2] == (slice(None), slice(None)):
+            return Rows(self.values[key], self.vehicles)
+        return np.asarray(self)[key]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        """All of it."""
+        return np.asarray(self.values[:, self.vehicles], dtype)
+
+
 @dataclass(frozen=True)
 class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings.
@@ -85,7 +106,7 @@ class Record:
     """
 
     time: np.ndarray
-    values: np.ndarray
+    values: np.ndarray | Rows
     vehicles: tuple[str, ...]
     happenings: tuple[Happening, ...]
     chains: tuple[Chain, ...] = ()
@@ -177,7 +198,7 @@ class Record:
         units = [i for i, name in enumerate(self.messages.units) if name in vehicles]
         return replace(
             self,
-            values=self.values[:, rows],
+            values=Rows(self.values, rows),
             vehicles=tuple(self.vehicles[i] for i in rows),
             happenings=tuple(event for event in self.happenings if not event.units or set(event.units) & set(vehicles)),
             chains=tuple(part for chain in self.chains for part in chain.parts(vehicles)),
@@ -191,7 +212,7 @@ class Record:
         rows, links = (sorted(range(len(each)), key=each.__getitem__) for each in (self.vehicles, self.links))
         return replace(
             self,
-            values=self.values if rows == list(range(len(rows))) else self.values[:, rows],
+            values=self.values if rows == list(range(len(rows))) else Rows(self.values, rows),
             vehicles=tuple(self.vehicles[i] for i in rows),
             chains=tuple(sorted(self.chains, key=lambda each: each.group)),
             links=tuple(self.links[i] for i in links),
