@@ -9,21 +9,23 @@ The command line, Python, REST and live runs all go through these functions; the
 """
 
 import hashlib
+import shutil
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from studio.assess.danger import with_dangers
-from studio.assess.measure import measure_all, unmet
+from studio.assess.assessment import assessed
 from studio.assess.metric import Measured
 from studio.errors import Problem, ScenarioError, StoreError, UnknownError, nearest, short
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
+from studio.execution.salvage import lay_down
 from studio.execution.simulation import Simulation, simulation
 from studio.kind import registry
 from studio.provenance import provenance
@@ -31,6 +33,7 @@ from studio.scenario import file, setup
 from studio.scenario.schema import Scenario
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.source import Source
+from studio.store.recording import MOST
 from studio.store.runs import Row, Runs
 from studio.vehicle.fleet import rows_of
 from studio.world.channel import CHANNELS
@@ -38,7 +41,7 @@ from studio.world.setting import Setting, check_names, setting
 from studio.world.table.event import EVENTS
 
 LARGEST_SEED = 2**63 - 1
-MOST_RECORDED = 4e9  # [B] of samples that a run may keep, all in memory until it ends
+TIMES = 4  # as much room as its samples have a run needs on the disk: as they come, by channels, in a file and in the database
 
 
 @dataclass(frozen=True)
@@ -171,16 +174,23 @@ def prepare(loaded: Loaded) -> Setting:
         return setting(loaded.scenario, loaded.path.parent, loaded.path.name)
 
 
-def check_recording(prepared: Setting) -> None:
+def check_recording(prepared: Setting, database: Path | None = None) -> None:
     """What a run will keep of its vehicles must have room; raises ScenarioError, before anything has begun."""
     scenario = prepared.scenario
     vehicles = len(prepared.cars) if scenario.recording.traffic else len(scenario.vehicles)
     size = 8.0 * len(CHANNELS) * vehicles * scenario.clock.duration / scenario.recording.period
-    if size > MOST_RECORDED:
-        what = f"would keep {size / 1e9:.1f} GB: {vehicles} vehicles for {scenario.clock.duration:g} s"
+    free = shutil.disk_usage(database.absolute().parent).free / TIMES if database else inf
+    if size > min(MOST, free):
+        what = f"would keep {told(size)}: {vehicles} vehicles for {scenario.clock.duration:g} s"
+        allowed = f"at most {told(MOST)}" if size > MOST else f"at most {told(free)}, a {TIMES}th of what is free on the disk"
         remedy = "a longer recording.period, a shorter clock.duration, or recording.traffic: false"
-        problem = Problem("recording", what, f"every {scenario.recording.period:g} s", f"at most {MOST_RECORDED / 1e9:g} GB", remedy)
+        problem = Problem("recording", what, f"every {scenario.recording.period:g} s", allowed, remedy)
         raise ScenarioError("This run would record too much.", [problem])
+
+
+def told(size: float) -> str:
+    """A size for a message."""
+    return f"{size / 1e9:.1f} GB" if size >= 1e9 else f"{size / 1e6:.1f} MB"
 
 
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
@@ -199,8 +209,8 @@ def vehicles_digest(prepared: Setting) -> str:
     return digest.hexdigest()
 
 
-def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> int:
-    """The row of a run that starts now."""
+def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None, *, status: str = "running", run: int | None = None) -> int:
+    """The row of a run that starts now, or that waits; or that of one which waited, and starts now."""
     return runs.begin(
         scenario=loaded.name,
         title=loaded.scenario.title,
@@ -211,24 +221,31 @@ def begin(loaded: Loaded, prepared: Setting, runs: Runs, parent: int | None) -> 
         seed=loaded.scenario.seed,
         parameters=loaded.changes,
         provenance=provenance(loaded.scenario),
+        status=status,
+        run=run,
     )
+
+
+def recorded(prepared: Setting, runs: Runs, number: int) -> Simulation:
+    """The simulation of a run that has its row, which is recorded beside the database. Raises StoreError."""
+    shelf = runs.shelf(number)
+    made = simulation(prepared, shelf=shelf)
+    lay_down(made, shelf)
+    return made
 
 
 def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
     """What a finished simulation brought for one of its worlds."""
     wall = time.perf_counter() - finished.started
-    case, record = finished.cases[number], finished.record(number)
-    told: list[str] = [case.error] if case.error else []
-    record = with_dangers(record)
-    record.derived.make(told.append)
-    metrics = measure_all(record, loaded.scenario.measures, told.append)
+    case, scenario = finished.cases[number], loaded.scenario
+    found = assessed(finished.record(number), scenario)
     return Run(
-        record=record,
-        metrics=metrics,
-        unmet=unmet(loaded.scenario.goals, metrics),
-        channels=tuple(loaded.scenario.recording.channels),
+        record=found.record,
+        metrics=found.metrics,
+        unmet=found.unmet,
+        channels=tuple(scenario.recording.channels),
         status=case.status,
-        error="\n".join(told) or None,
+        error="\n".join([case.error, *found.raised] if case.error else found.raised) or None,
         state_hash=case.state_hash,
         sim_time_s=round(case.time, 9),
         wall_time_s=round(wall, 3),
@@ -266,16 +283,18 @@ def run(
     """
     loaded = seeded(loaded, seed)
     prepared = prepare(loaded)
-    check_recording(prepared)
-    number = begin(loaded, prepared, runs, parent) if runs else None
-    try:
+    check_recording(prepared, runs.path if runs else None)
+    if runs is None:
         current = simulation(prepared)
         as_fast_as_possible(current, progress)
+        return outcome(loaded, current)
+    number = begin(loaded, prepared, runs, parent)
+    try:
+        current = recorded(prepared, runs, number)
+        as_fast_as_possible(current, progress)
         result = outcome(loaded, current)
-        row = save(number, result, runs) if runs and number else None
+        return replace(result, row=save(number, result, runs))
     except BaseException as error:
-        if runs and number:
-            with suppress(StoreError):  # what went wrong first is told
-                runs.end(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
+        with suppress(StoreError):  # what went wrong first is told
+            runs.break_off(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
         raise
-    return replace(result, row=row)

@@ -65,6 +65,39 @@ def runs(
 
 
 @commands.command()
+def queue(db: Db = DEFAULT_DB, as_json: AsJson = False) -> None:
+    """Lists the runs that go on and those that wait for their turn, in their order, whoever has begun them."""
+    from studio.store.queue import queue as found
+
+    places = found(existing(db))
+    if as_json:
+        print_json([asdict(each) for each in places])
+    elif not places:
+        print(f"No run of {db} goes on or waits.")
+    else:
+        print_table(
+            ["run", "scenario", "status", "position", "recorded [s]", "of [s]", "set"],
+            [[str(each.run), each.scenario, each.status, str(each.position or ""), text(round(each.time, 2)), text(each.duration),
+              settings(each.parameters)] for each in places],
+        )  # fmt: skip
+
+
+@commands.command()
+def cancel(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    db: Db = DEFAULT_DB,
+    force: Annotated[bool, typer.Option("--force", help="End the process of a run that does not react.")] = False,
+    kinds: Kinds = None,
+) -> None:
+    """Takes a run out of the queue, or ends one that goes on, whoever has begun it; what was recorded is kept."""
+    from studio.store.queue import cancel as cancelled
+
+    load_kinds(kinds)
+    row = cancelled(existing(db), run, force)
+    print(f"Run {run} is {row.status}. {row.error or ''}".rstrip())
+
+
+@commands.command()
 def show(
     run: Annotated[int, typer.Argument(help="Number of the run.")],
     db: Db = DEFAULT_DB,

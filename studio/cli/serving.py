@@ -18,13 +18,14 @@ def serve(
     db: Db = DEFAULT_DB,
     scenarios: Annotated[Path | None, typer.Option(help="Folder of scenario files; default: ./scenarios, else the samples.")] = None,
     kinds: Kinds = None,
+    at_once: Annotated[int, typer.Option(help="Runs that go on at a time; others wait for their turn.", min=1, max=256)] = 8,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in a browser.")] = True,
 ) -> None:  # fmt: skip
     """Serves the page, the scene and the REST API."""
     from studio.server.serve import serve as start
 
     load_kinds(kinds)
-    start(host=host, port=port, db=db, scenarios=scenarios, kinds=kinds, browser=browser)
+    start(host=host, port=port, db=db, scenarios=scenarios, kinds=kinds, browser=browser, at_once=at_once)
 
 
 @commands.command()

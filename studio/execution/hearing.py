@@ -10,11 +10,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from studio.bound import bound
+from studio.execution.shelf import Arrays, Shelf
 from studio.world import channel
 from studio.world.board.post import Post
 from studio.world.world import World
 
 ROOM = 1 << 16  # changes that room is made for at a time at least
+BLOCK = 1 << 22  # ages that are made at a time
 NEVER = -1.0  # [s] in place of a time of sending
 
 
@@ -27,10 +29,11 @@ class Hearing:
     looked: np.ndarray  # per sender, how often its links had taken a message when it was looked last
     seen: np.ndarray  # per post, how often it had looked itself
     newest: np.ndarray  # [s] float64[link], when the newest message was sent; NEVER while none has come
+    shelf: Shelf
     link: np.ndarray = field(init=False)  # room for changes that are being written
     sent: np.ndarray = field(init=False)
     count: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int64))
-    full: list[tuple[np.ndarray, np.ndarray]] = field(default_factory=list)
+    full: list[Callable[[], Arrays]] = field(default_factory=list)
     written: int = 0  # changes in `full`
     until: list[int] = field(default_factory=list)  # per sample, how many changes there had been
     there: list[tuple[int, np.ndarray]] = field(default_factory=list)  # from which sample on which units are there
@@ -68,7 +71,7 @@ class Hearing:
         """So that a change of every link finds room."""
         if self.count[0] + self.newest.size > self.link.size:
             count = int(self.count[0])
-            self.full.append((self.link[:count].copy(), self.sent[:count].copy()))
+            self.full.append(self.shelf.append("heard", self.link[:count].copy(), self.sent[:count].copy()))
             self.written, self.count[0] = self.written + count, 0
 
     def ages(self, links: Sequence[int], time: np.ndarray) -> np.ndarray:
@@ -76,25 +79,32 @@ class Hearing:
 
         Not a number once one of its ends has left.
         """
-        if not links or not time.size:
-            return np.zeros((len(links), time.size))
-        sent = self.newest_at(np.asarray(links), time.size)
-        ages = np.where(sent >= 0.0, time - sent, time)
-        there = self.presence(time.size)
-        ages[~(there[:, self.receiver[links]] & there[:, self.sender[links]]).T] = np.nan
-        return ages
+        found = self.shelf.room("ages", (len(links), time.size))
+        if found.size:
+            changes, there = self.changes(time.size), self.presence(time.size)
+            for some in range(0, len(links), max(BLOCK // time.size, 1)):
+                some = slice(some, some + max(BLOCK // time.size, 1))
+                self.age(np.asarray(links[some]), time, changes, there, found[some])
+        return found
 
-    def newest_at(self, links: np.ndarray, samples: int) -> np.ndarray:
-        """When the newest message on some links was sent [s], float64[link, sample]; it never goes back."""
-        parts = [*self.full, (self.link[: self.count[0]], self.sent[: self.count[0]])]
-        changed, sent = (np.concatenate(each) for each in zip(*parts, strict=True))
-        sample = np.repeat(np.arange(samples), np.diff(self.until[:samples], prepend=0))
+    def age(self, links: np.ndarray, time: np.ndarray, changes: Arrays, there: np.ndarray, found: np.ndarray) -> None:
+        """Those of a few of the links, written to `found`."""
+        changed, sent, sample = changes
         place = np.full(self.newest.size, -1)
         place[links] = np.arange(links.size)
-        row = place[changed[: sample.size]]
-        found = np.full((links.size, samples), NEVER)
-        found[row[row >= 0], sample[row >= 0]] = sent[: sample.size][row >= 0]
-        return np.maximum.accumulate(found, axis=1, out=found)
+        row = place[changed]
+        found[:] = NEVER
+        found[row[row >= 0], sample[row >= 0]] = sent[row >= 0]
+        np.maximum.accumulate(found, axis=1, out=found)
+        found[:] = np.where(found >= 0.0, time - found, time)
+        found[~(there[:, self.receiver[links]] & there[:, self.sender[links]]).T] = np.nan
+
+    def changes(self, samples: int) -> Arrays:
+        """All changes up to a sample: of which link, when what it has heard was sent [s], which never goes back, and at which sample."""
+        parts = [*(each() for each in self.full), (self.link[: self.count[0]], self.sent[: self.count[0]])]
+        changed, sent = (np.concatenate(each) for each in zip(*parts, strict=True))
+        sample = np.repeat(np.arange(samples), np.diff(self.until[:samples], prepend=0))
+        return changed[: sample.size], sent[: sample.size], sample
 
     def presence(self, samples: int) -> np.ndarray:
         """Which units are there, bool[sample, unit]."""
@@ -102,9 +112,9 @@ class Hearing:
         return units[np.searchsorted(since, np.arange(samples), side="right") - 1]
 
 
-def hearing(posts: Sequence[Post]) -> Hearing:
+def hearing(posts: Sequence[Post], shelf: Shelf) -> Hearing:
     """Of all links, which have heard nothing."""
     sender = np.concatenate([np.zeros(0, np.int64), *(post.sender[post.link_sender] for post in posts)])
     receiver = np.concatenate([np.zeros(0, np.int64), *(post.link_receiver for post in posts)])
     looked = np.zeros(sum(post.sender.size for post in posts), dtype=np.int64)
-    return Hearing(sender, receiver, looked, np.zeros(len(posts), dtype=np.int64), np.full(sender.size, NEVER))
+    return Hearing(sender, receiver, looked, np.zeros(len(posts), dtype=np.int64), np.full(sender.size, NEVER), shelf)

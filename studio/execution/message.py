@@ -7,13 +7,13 @@
 A receiver without an entry was out of range. Units and kinds are numbers into `units` and `kinds`, causes those of world/table/cause.py.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
 
-from studio.world.board.post import Post
+from studio.world.board.log import Book
 from studio.world.table.cause import RECEIVED
 from studio.world.world import World
 
@@ -94,32 +94,42 @@ def none(kinds: tuple[str, ...] = (), units: tuple[str, ...] = ()) -> Messages:
 def messages(world: World, number: int) -> Messages:
     """Those of one world so far."""
     units, posts = world.units, [post for post in world.units.posts if number in post.worlds]
-    parts = [part for i, post in enumerate(posts) for part in [of_post(world, number, post, i)] if part.time.size]
-    kinds, names = tuple(post.kind.name for post in posts), units.names[number]
+    first = int(units.first[number])
+    parts = [of_book(own(post.log.joined(), units.world == number), post.link_receiver, first, i) for i, post in enumerate(posts)]
+    return joined(parts, tuple(post.kind.name for post in posts), units.names[number])
+
+
+def joined(parts: Sequence[Messages], kinds: tuple[str, ...], names: tuple[str, ...]) -> Messages:
+    """Those of several kinds, in the order of sending."""
+    parts = [part for part in parts if part.time.size]
     if not parts:
         return none(kinds, names)
-    joined = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Messages)[2:]}
-    return sorted_by_time(Messages(kinds, names, **joined))
+    columns = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Messages)[2:]}
+    return sorted_by_time(Messages(kinds, names, **columns))
 
 
-def of_post(world: World, number: int, post: Post, kind: int) -> Messages:
-    """Those of one kind, in the order of the log."""
-    book, first = post.log.joined(), int(world.units.first[number])
-    own = world.units.world[book.sender] == number
-    entries = np.repeat(own, book.count)
+def own(book: Book, units: np.ndarray) -> Book:
+    """What some units have sent, bool[unit]."""
+    sent = units[book.sender]
+    entries = np.repeat(sent, book.count)
+    return Book(*(each[..., sent] for each in book[:6]), *(each[entries] for each in book[6:]))
+
+
+def of_book(book: Book, link_receiver: np.ndarray, first: int, kind: int) -> Messages:
+    """Those of one kind and one world, in the order of the log; `first` is its first unit."""
     columns = {
-        "time": book.time[own],
-        "sender": book.sender[own] - first,
-        "kind": np.full(np.count_nonzero(own), kind),
-        "number": book.number[own],
-        "size": book.size[own],
-        "said_0": book.said[0, own],
-        "said_1": book.said[1, own],
-        "count": book.count[own],
-        "receiver": post.link_receiver[book.link[entries]] - first,
-        "cause": book.cause[entries],
-        "delay": book.delay[entries],
-        "distance": book.distance[entries],
+        "time": book.time,
+        "sender": book.sender - first,
+        "kind": np.full(book.time.size, kind),
+        "number": book.number,
+        "size": book.size,
+        "said_0": book.said[0],
+        "said_1": book.said[1],
+        "count": book.count,
+        "receiver": link_receiver[book.link] - first,
+        "cause": book.cause,
+        "delay": book.delay,
+        "distance": book.distance,
     }
     return Messages((), (), **{name: each.astype(kind) for (name, each), kind in zip(columns.items(), DTYPES, strict=True)})
 

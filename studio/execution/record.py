@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from studio.execution.counted import Counted
 from studio.execution.happening import Happening
 from studio.execution.hearing import Hearing
 from studio.execution.message import Messages, none
+from studio.execution.shelf import Roll, Shelf
 from studio.execution.trail import Trail
 from studio.kind import registry
 from studio.kind.registry import Kind
@@ -74,6 +75,27 @@ def no_ages() -> np.ndarray:
     return np.zeros((0, 0))
 
 
+class Rows:
+    """Some vehicles of values [channel, vehicle, n], copied channel by channel when one is asked for: all at once may be a lot."""
+
+    def __init__(self, values: "np.ndarray | Rows", vehicles: Sequence[int]) -> None:
+        own = isinstance(values, Rows)
+        self.values: np.ndarray = values.values if own else values
+        self.vehicles = [values.vehicles[i] for i in vehicles] if own else list(vehicles)
+
+    def __getitem__(self, key: Any) -> Any:
+        """One channel; a stretch of samples; or whatever else numpy gives for it."""
+        if isinstance(key, int):
+            return self.values[key][self.vehicles]
+        if isinstance(key, tuple) and key[:2] == (slice(None), slice(None)):
+            return Rows(self.values[key], self.vehicles)
+        return np.asarray(self)[key]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        """All of it."""
+        return np.asarray(self.values[:, self.vehicles], dtype)
+
+
 @dataclass(frozen=True)
 class Record:
     """What is kept: `time` [s] float64[n]; `values` float64[channel, vehicle, n]; names of the vehicles; happenings.
@@ -82,11 +104,11 @@ class Record:
     of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channels `ahead` and `minded` stand for,
     `commanders` those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
     `brought` is what the script may bring to the road, by name; `faults` are those of sensors that it may make. `counted` is what was
-    counted of all vehicles, recorded or not; it is there while a run is measured, and is not kept.
+    counted of all vehicles, recorded or not; it is there while a run is measured, and None in a record that was read.
     """
 
     time: np.ndarray
-    values: np.ndarray
+    values: np.ndarray | Rows
     vehicles: tuple[str, ...]
     happenings: tuple[Happening, ...]
     chains: tuple[Chain, ...] = ()
@@ -100,7 +122,7 @@ class Record:
     mounts: dict[str, Mount] = field(default_factory=dict)
     brought: dict[str, Brought] = field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
-    counted: tuple[Counted, ...] = ()
+    counted: tuple[Counted, ...] | None = None
 
     @cached_property
     def derived(self) -> "Derived":
@@ -165,7 +187,7 @@ class Record:
             time=self.time[where],
             values=self.values[:, :, where],
             happenings=tuple(event for event in self.happenings if begin <= event.time <= end),
-            counted=tuple(each for each in self.counted if begin <= each.time <= end),
+            counted=None if self.counted is None else tuple(each for each in self.counted if begin <= each.time <= end),
             ages=self.ages[:, where],
             messages=self.messages.part(
                 (self.messages.time >= begin) & (self.messages.time <= end), np.ones(self.messages.receiver.size, dtype=bool)
@@ -180,10 +202,10 @@ class Record:
         units = [i for i, name in enumerate(self.messages.units) if name in vehicles]
         return replace(
             self,
-            values=self.values[:, rows],
+            values=Rows(self.values, rows),
             vehicles=tuple(self.vehicles[i] for i in rows),
             happenings=tuple(event for event in self.happenings if not event.units or set(event.units) & set(vehicles)),
-            counted=tuple(each for each in self.counted if each.who in vehicles or each.other in vehicles),
+            counted=None if self.counted is None else tuple(each for each in self.counted if {each.who, each.other} & set(vehicles)),
             chains=tuple(part for chain in self.chains for part in chain.parts(vehicles)),
             links=tuple(self.links[i] for i in links),
             ages=self.ages[links],
@@ -195,7 +217,7 @@ class Record:
         rows, links = (sorted(range(len(each)), key=each.__getitem__) for each in (self.vehicles, self.links))
         return replace(
             self,
-            values=self.values if rows == list(range(len(rows))) else self.values[:, rows],
+            values=self.values if rows == list(range(len(rows))) else Rows(self.values, rows),
             vehicles=tuple(self.vehicles[i] for i in rows),
             chains=tuple(sorted(self.chains, key=lambda each: each.group)),
             links=tuple(self.links[i] for i in links),
@@ -214,6 +236,18 @@ def sealed(values: np.ndarray) -> np.ndarray:
     view = values.view()
     view.flags.writeable = False
     return view
+
+
+def renumber(values: np.ndarray, numbers: dict[int, int]) -> np.ndarray:
+    """Channels in which the numbers that stand for names are those of a record, by those that they had."""
+    low = min([-1, *numbers])
+    new = np.arange(low, len(numbers) + 1, dtype=float)  # who is nobody stays so
+    new[np.array(list(numbers), dtype=np.int64) - low] = list(numbers.values())
+    for name in NAMED:
+        row = values[ROW[name]]
+        known = np.isfinite(row)
+        row[known] = new[row[known].astype(np.int64) - low]
+    return values
 
 
 @dataclass
@@ -270,76 +304,82 @@ class Chunk:
 class Recorder:
     """Collects samples every `every` ticks: those of all worlds of a batch side by side, in chunks that stay where they are.
 
-    `columns` are the recorded vehicles, world after world; the shares of a world are those of its number.
+    `columns` are the recorded vehicles, world after world; the shares of a world are those of its number; `most` samples will come.
     """
 
     columns: np.ndarray
     every: int
+    most: int
     vehicle_share: list[slice]
     hearing: Hearing
     trail: Trail
     probe_share: list[slice]
+    shelf: Shelf
+    blocks: Roll = field(init=False)
+    progress: np.ndarray = field(init=False)  # how many samples there are, up to when [s], for who finds the shelf without its process
+    now: Chunk = field(init=False)  # the last chunk
     count: int = 0
-    chunks: list[Chunk] = field(default_factory=list)
     sample: Callable[[int, int], None] = field(init=False)  # writes the channels to a place of the last chunk
+
+    def __post_init__(self) -> None:
+        self.blocks = self.shelf.roll("values", (self.room, 1 + len(CHANNELS) * self.columns.size))
+        self.progress = self.shelf.roll("progress", (2,)).begin()
+        self.progress[:] = 0.0
 
     def take(self, world: World, k: int) -> None:
         """Takes a sample when it is time for one; commands are those of tick k."""
         if world.clock.k % self.every == 0:
             place = self.count % self.room
             if place == 0:
-                self.chunks.append(self.chunk())
-                self.sample = channel.sampler(world, self.columns, self.chunks[-1].values)
-            self.chunks[-1].time[place] = world.clock.time
+                self.now = self.chunk(self.blocks.begin())
+                self.sample = channel.sampler(world, self.columns, self.now.values)
+            self.now.time[place] = world.clock.time
             self.sample(place, k)
             self.hearing.take(world)
             self.trail.take()
             self.count += 1
+            self.progress[0], self.progress[1] = self.count, world.clock.time
 
     @cached_property
     def room(self) -> int:
         """How many samples a chunk holds."""
-        return max(CHUNK // (8 * sum(self.widths)), 1)
+        return max(min(CHUNK // (8 * (1 + len(CHANNELS) * self.columns.size)), self.most), 1)
 
-    @cached_property
-    def widths(self) -> tuple[int, int]:
-        """How many numbers of a sample are its time and its values."""
-        return 1, len(CHANNELS) * self.columns.size
+    def chunk(self, block: np.ndarray) -> Chunk:
+        """A block as times and values: a sample lies in one piece."""
+        return Chunk(block[:, 0], block[:, 1:].reshape(len(block), len(CHANNELS), self.columns.size))
 
-    def chunk(self) -> Chunk:
-        """An empty one: a sample lies in one piece."""
-        block = np.empty((self.room, sum(self.widths)))
-        return Chunk(block[:, 0], block[:, 1:].reshape(self.room, len(CHANNELS), self.columns.size))
+    def chunks(self, count: int) -> Iterator[Chunk]:
+        """The first samples, chunk by chunk."""
+        for first in range(0, count, self.room):
+            yield self.chunk(self.blocks[first // self.room][: count - first])
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
-        return self.joined([chunk.time for chunk in self.chunks], np.zeros(0), count)
+        return np.concatenate([np.zeros(0), *(chunk.time for chunk in self.chunks(count))])
 
     def values(self, world: int, count: int) -> np.ndarray:
         """float64[channel, vehicle, sample] of one world, its first samples."""
         share = self.vehicle_share[world]
-        none = np.zeros((0, len(CHANNELS), share.stop - share.start))
-        return np.moveaxis(self.joined([chunk.values[:, :, share] for chunk in self.chunks], none, count), 0, -1)
+        found, first = self.shelf.room("channels", (len(CHANNELS), share.stop - share.start, count)), 0
+        for chunk in self.chunks(count):
+            found[:, :, first : first + chunk.time.size] = np.moveaxis(chunk.values[:, :, share], 0, -1)
+            first += chunk.time.size
+        return found
 
     def samples(self, numbers: list[int]) -> tuple[np.ndarray, np.ndarray]:
         """Times and values of some samples, of all worlds."""
-        found = [(self.chunks[i // self.room], i % self.room) for i in numbers]
+        chunks = {i: self.chunk(self.blocks[i]) for i in {number // self.room for number in numbers}}
+        found = [(chunks[i // self.room], i % self.room) for i in numbers]
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)
 
     def traced(self, world: int, samples: Sequence[int]) -> dict[str, Traced]:
         """What the probes of one world have read at some samples, by name."""
-        share = self.probe_share[world]
-        return self.named(share, self.trail.at(np.asarray(samples, dtype=np.int64), share))
-
-    def named(self, share: slice, values: np.ndarray) -> dict[str, Traced]:
-        """What some probes have read, float64[sample, probe], by their names."""
-        return {each.name: Traced(values[:, i], each.unit, each.label) for i, each in enumerate(self.trail.reader.probes[share])}
+        share, numbers = self.probe_share[world], np.asarray(samples, dtype=np.int64)
+        found = self.trail.parts.series(numbers, share, self.shelf)
+        return {each.name: Traced(found[i], each.unit, each.label) for i, each in enumerate(self.trail.reader.probes[share])}
 
     def ages(self, links: list[int], count: int) -> np.ndarray:
         """Ages [s] of the newest message on some links, float64[link, sample]; the first samples."""
         return self.hearing.ages(links, self.times(count))
-
-    def joined(self, parts: list[np.ndarray], none: np.ndarray, count: int) -> np.ndarray:
-        """The first samples of all chunks, one after another."""
-        return np.concatenate([none, *(part[: max(count - i * self.room, 0)] for i, part in enumerate(parts))])

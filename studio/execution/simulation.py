@@ -1,7 +1,10 @@
 """Runs in the making: a batch of worlds that share a clock, their recorder, and the rules of when each of them ends."""
 
 import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from math import inf
 
 import numpy as np
@@ -13,12 +16,14 @@ from studio.execution.event import Teller, chains, foreseen, watched
 from studio.execution.happening import Happening, happening
 from studio.execution.hearing import hearing
 from studio.execution.message import messages
-from studio.execution.record import NAMED, ROW, Body, Mount, Record, Recorder
+from studio.execution.record import Body, Mount, Record, Recorder, renumber
+from studio.execution.shelf import NoRoom, Shelf
 from studio.execution.trail import Trail
 from studio.kind.sensor import Looking
 from studio.scenario.schema import Scenario
 from studio.vehicle import broken
 from studio.world.board.host import Fault
+from studio.world.board.log import Logged
 from studio.world.build import build
 from studio.world.commander import commanders
 from studio.world.line import starts
@@ -30,6 +35,8 @@ from studio.world.setting import Setting
 from studio.world.table.event import FAILED, RUN_ENDED
 from studio.world.tick import between, environment, gather, look, meet, part, sense, think
 from studio.world.world import World
+
+PUT_DOWN = 1.0  # [s] of real time between two looks at what is wanted, and at which messages are put on the shelf
 
 
 @dataclass
@@ -69,6 +76,9 @@ class Simulation:
     teller: Teller
     census: Census
     ticks: int  # length of the whole run
+    shelf: Shelf  # where it is kept what would be lost with the process
+    put: int = 0  # events that have been put there
+    heeded: float = field(default_factory=time.monotonic)  # [s] when it was last looked
     counts: list[np.ndarray] = field(default_factory=list)  # what was counted, [row, event]
     started: float = field(default_factory=time.perf_counter)
     running: int = field(init=False)  # worlds that are not over
@@ -89,12 +99,41 @@ class Simulation:
 
     def advance(self, ticks: int = 1) -> None:
         """Some ticks, and what has happened in them. A failing application, or a state that is not finite, ends a world as failed."""
-        for _ in range(ticks):
-            if not self.is_over:
-                self.tick()
-            if self.watch.is_nearly_full or self.census.is_nearly_full:
-                self.tell()
-        self.tell()
+        with self.within_room():
+            for _ in range(ticks):
+                if not self.is_over:
+                    self.tick()
+                if self.watch.is_nearly_full or self.census.is_nearly_full:
+                    self.tell()
+            self.tell()
+        self.heed()
+
+    def heed(self) -> None:
+        """Looks after what would be lost with the process, and whether somebody wants the run to end; to be called while it stands too."""
+        with self.within_room():
+            self.put_down()
+            if time.monotonic() - self.heeded > PUT_DOWN:
+                self.heeded = time.monotonic()
+                for post in self.world.units.posts:
+                    post.log.put_away()
+                if self.shelf.is_to_end() and not self.is_over:
+                    self.end("stopped")
+
+    @contextmanager
+    def within_room(self) -> Generator[None]:
+        """When nothing more can be recorded, the runs end as failed, with what was recorded until then."""
+        try:
+            yield
+        except NoRoom as full:
+            for number in [i for i, case in enumerate(self.cases) if not case.is_over]:
+                self.fail(number, full.message)
+
+    def put_down(self) -> None:
+        """What has happened in the first world goes to the shelf. Raises NoRoom."""
+        fresh = self.cases[0].happenings[self.put :]
+        if fresh:
+            self.shelf.write("events", [each.as_json() for each in fresh])
+            self.put += len(fresh)
 
     def tick(self) -> None:
         """One tick."""
@@ -155,8 +194,9 @@ class Simulation:
 
     def stop(self) -> None:
         """Ends the runs because somebody asked for it."""
-        if not self.is_over:
-            self.end("stopped")
+        with self.within_room():
+            if not self.is_over:
+                self.end("stopped")
 
     def refuse(self, fault: Fault) -> None:
         """A kind has failed, and the runs of its worlds with it."""
@@ -197,7 +237,7 @@ class Simulation:
         links = self.links(number)
         return Record(
             time=recorder.times(count),
-            values=self.renumbered(recorder.values(number, count), number),
+            values=renumber(recorder.values(number, count), self.numbers(number)),
             vehicles=self.recorded(number),
             happenings=tuple(case.happenings),
             chains=chains(case.setting),
@@ -222,7 +262,7 @@ class Simulation:
     def record_of(self, samples: list[int]) -> Record:
         """A record of some samples of the first world only, by their numbers."""
         time, values = self.recorder.samples(samples)
-        shown = self.renumbered(values[:, self.recorder.vehicle_share[0]], 0)
+        shown = renumber(values[:, self.recorder.vehicle_share[0]], self.numbers(0))
         probes = self.recorder.traced(0, samples)
         return Record(time=time, values=shown, vehicles=self.recorded(), happenings=(), probes=probes)
 
@@ -248,18 +288,6 @@ class Simulation:
             found |= dict(zip(by_name, olds, strict=True))
         return found
 
-    def renumbered(self, values: np.ndarray, number: int) -> np.ndarray:
-        """Channels of one world, in which the numbers that stand for names are those of a record."""
-        numbers = self.numbers(number)
-        low = min([-1, *numbers])
-        new = np.arange(low, len(numbers) + 1, dtype=float)  # who is nobody stays so
-        new[np.array(list(numbers), dtype=np.int64) - low] = list(numbers.values())
-        for name in NAMED:
-            row = values[ROW[name]]
-            known = np.isfinite(row)
-            row[known] = new[row[known].astype(np.int64) - low]
-        return values
-
     def bodies(self, number: int) -> dict[str, Body]:
         """The bodies of all vehicles of one world."""
         return {name: Body(*each) for name, each in zip(self.world.names[number], self.world.bodies(number).T.tolist(), strict=True)}
@@ -271,20 +299,33 @@ def mounts(scenario: Scenario) -> dict[str, Mount]:
     return {name: Mount(each.forward, each.left, each.yaw) for name, each in sensors.items() if isinstance(each, Looking)}
 
 
-def simulation(*settings: Setting) -> Simulation:
-    """Runs at their start, side by side; raises ScenarioError when they do not share clock and sampling period."""
+def simulation(*settings: Setting, shelf: Shelf | None = None) -> Simulation:
+    """Runs at their start, side by side; what they record lies in memory, or on a shelf.
+
+    Raises ScenarioError when they do not share clock and sampling period.
+    """
+    shelf = shelf or Shelf()
     check_clocks(settings)
     scenario = settings[0].scenario
     world = build(settings)
+    for i, post in enumerate(world.units.posts):
+        post.log.keep = partial(keep, shelf, f"log_{i}")
     return Simulation(
         cases=[Case(each, list(foreseen(each))) for each in settings],
         world=world,
-        recorder=recorder(settings, world),
+        recorder=recorder(settings, world, shelf),
+        shelf=shelf,
         watch=watched(settings, world),
         teller=Teller(settings, world),
         census=census.census(world),
         ticks=round(scenario.clock.duration / scenario.clock.tick),
     )
+
+
+def keep(shelf: Shelf, name: str, part: Logged) -> Callable[[], Logged]:
+    """Puts a part of a log of messages on a shelf."""
+    read = shelf.append(name, *part)
+    return lambda: Logged(*read())
 
 
 def check_clocks(settings: tuple[Setting, ...]) -> None:
@@ -301,18 +342,20 @@ def check_clocks(settings: tuple[Setting, ...]) -> None:
         raise ScenarioError("Runs with different clocks cannot be done side by side.", wrong)
 
 
-def recorder(settings: tuple[Setting, ...], world: World) -> Recorder:
+def recorder(settings: tuple[Setting, ...], world: World, shelf: Shelf) -> Recorder:
     """Records the named vehicles of all worlds, and their traffic where it is wanted."""
     counts = [len(each.cars) if each.scenario.recording.traffic else len(each.scenario.vehicles) for each in settings]
-    recording = settings[0].scenario.recording
+    recording, clock = settings[0].scenario.recording, settings[0].scenario.clock
     found = probes(world)
     return Recorder(
         columns=np.concatenate([first + np.arange(count) for first, count in zip(world.worlds.first, counts, strict=True)]),
         every=round(recording.period / world.clock.tick),
+        most=round(clock.duration / recording.period) + 2,
         vehicle_share=shares(counts),
-        hearing=hearing(world.units.posts),
-        trail=Trail(Reader([probe for each in found for probe in each])),
+        hearing=hearing(world.units.posts, shelf),
+        trail=Trail(Reader([probe for each in found for probe in each]), shelf),
         probe_share=shares([len(each) for each in found]),
+        shelf=shelf,
     )
 
 

@@ -1,7 +1,7 @@
 """What probes have read, sample by sample, kept as what has changed: a sensor measures every few samples, and most see few targets.
 
-trail.take()              the next sample
-trail.at(samples, probes) →   float64[sample, probe], what some probes had read at some samples
+trail.take()                    the next sample
+trail.parts.at(samples, probes) →   float64[sample, probe], what some probes had read at some samples
 
 Numbers that a probe's owner writes together are a stretch (studio/world/probe.py). A stretch that differs from what was written of it
 last is written behind everything else; every sample says of every stretch where it stands. A sensor that has given nothing since then,
@@ -17,6 +17,7 @@ import numpy as np
 
 from studio.bound import bound
 from studio.compiled import inlined, lean
+from studio.execution.shelf import Roll, Shelf
 from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader, Share
 
 NUMBERS = 1 << 20  # that a part holds at least
@@ -24,8 +25,7 @@ SAMPLES = 1024  # that a part holds at most
 NOTHING = 0  # where a stretch stands that has nothing to tell
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """Some samples that follow each other: from which on, where each stretch stands, int32[sample, stretch], and the numbers."""
 
     first: int
@@ -34,38 +34,74 @@ class Part:
 
 
 @dataclass
+class Parts:
+    """All parts, on a shelf; where the probes stand in them."""
+
+    stretch: np.ndarray  # of every probe
+    within: np.ndarray  # the place of every probe within its stretch
+    places: Roll
+    numbers: Roll
+    beginnings: Roll  # the first sample of every part
+    first: list[int] = field(default_factory=list)
+
+    def begin(self, first: int) -> Part:
+        """The next one, from a sample on."""
+        made = Part(first, self.places.begin(), self.numbers.begin())
+        self.beginnings.begin()[0] = first
+        self.first.append(first)
+        return made
+
+    def at(self, samples: np.ndarray, probes: slice) -> np.ndarray:
+        """What some probes had read at some samples, float64[sample, probe]; not a number where there was no target."""
+        found = np.empty((samples.size, self.stretch[probes].size))
+        number = np.searchsorted(self.first, samples, side="right") - 1
+        for i in np.unique(number) if found.size else []:
+            place, here = self.places[i][samples[number == i] - self.first[i]], number == i
+            found[here] = self.numbers[i][place[:, self.stretch[probes]] + self.within[probes]]
+        return found
+
+    def series(self, samples: np.ndarray, probes: slice, shelf: Shelf) -> np.ndarray:
+        """The same probe by probe, float64[probe, sample]."""
+        found = shelf.room("probes", (self.stretch[probes].size, samples.size))
+        for first in range(0, samples.size, SAMPLES):
+            some = samples[first : first + SAMPLES]
+            found[:, first : first + SAMPLES] = self.at(some, probes).T
+        return found
+
+
+@dataclass
 class Trail:
-    """All parts; the last one is being written."""
+    """What is written; the last part is open."""
 
     reader: Reader
-    stretch: np.ndarray = field(init=False)  # of every probe
-    within: np.ndarray = field(init=False)  # the place of every probe within its stretch
+    shelf: Shelf
+    parts: Parts = field(init=False)
     newest: np.ndarray = field(init=False)  # where every stretch stands now
     longest: int = field(init=False)
+    now: Part | None = None
     used: int = 0
     count: int = 0  # samples so far
-    parts: list[Part] = field(default_factory=list)
     gates: list["Gate"] = field(init=False)  # of every array that is read
     ready: list[Callable] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         shares = [each.stretches for each in self.reader.shares] or [np.zeros((6, 0), np.int64)]
         count, where = (np.concatenate([each[row] for each in shares]) for row in (COUNT, WHERE))
-        self.stretch, self.within = np.zeros((2, int(count.sum())), np.int64)
+        stretch, within = np.zeros((2, int(count.sum())), np.int64)
         for number, (first, length) in enumerate(zip(where.tolist(), count.tolist(), strict=True)):
-            self.stretch[first : first + length], self.within[first : first + length] = number, np.arange(length)
+            stretch[first : first + length], within[first : first + length] = number, np.arange(length)
         self.newest = np.full(count.size, NOTHING, np.int32)
         self.longest = int(count.max(initial=1))
+        self.parts = parts_on(self.shelf, stretch, within, count.size, self.longest)
         self.gates = [gate_of(each) for each in self.reader.shares]
 
     def take(self) -> None:
         """The next sample."""
-        if not self.parts or self.is_full(self.parts[-1]):
-            self.begin()
-        part = self.parts[-1]
+        if self.now is None or self.is_full(self.now):
+            self.now = self.begin()
         for keep_share in self.ready:
             self.used = keep_share(self.used)
-        part.place[self.count - part.first] = self.newest
+        self.now.place[self.count - self.now.first] = self.newest
         self.count += 1
 
     def shares(self, kept: np.ndarray) -> Iterator[Callable]:
@@ -76,26 +112,24 @@ class Trail:
 
     def is_full(self, part: Part) -> bool:
         """Whether a part may not take one more sample."""
-        return self.count - part.first == SAMPLES or self.used + self.stretch.size > part.numbers.size
+        return self.count - part.first == len(part.place) or self.used + self.parts.stretch.size > part.numbers.size
 
-    def begin(self) -> None:
+    def begin(self) -> Part:
         """A part, into which everything is written anew."""
-        numbers = np.empty(max(NUMBERS, self.longest + 2 * self.stretch.size))
-        numbers[: self.longest] = nan
-        self.parts.append(Part(self.count, np.empty((SAMPLES, self.newest.size), np.int32), numbers))
+        part = self.parts.begin(self.count)
+        part.numbers[: self.longest] = nan
         self.newest[:], self.used = NOTHING, self.longest
-        self.ready = list(self.shares(numbers))
+        self.ready = list(self.shares(part.numbers))
         for gate in self.gates:
             gate.seen[:] = nan
+        return part
 
-    def at(self, samples: np.ndarray, probes: slice) -> np.ndarray:
-        """What some probes had read at some samples, float64[sample, probe]; not a number where there was no target."""
-        found = np.empty((samples.size, self.stretch[probes].size))
-        number = np.searchsorted([part.first for part in self.parts], samples, side="right") - 1
-        for i in np.unique(number):
-            part, here = self.parts[i], number == i
-            found[here] = part.numbers[part.place[samples[here] - part.first][:, self.stretch[probes]] + self.within[probes]]
-        return found
+
+def parts_on(shelf: Shelf, stretch: np.ndarray, within: np.ndarray, stretches: int, longest: int) -> Parts:
+    """The parts on a shelf, those that have begun and those that will."""
+    size = max(NUMBERS, longest + 2 * stretch.size) if stretch.size else longest
+    places, numbers = shelf.roll("places", (SAMPLES, stretches), np.int32), shelf.roll("numbers", (size,))
+    return Parts(stretch, within, places, numbers, shelf.roll("beginnings", (1,), np.int64))
 
 
 class Gate(NamedTuple):

@@ -13,8 +13,9 @@ from studio.scenario.text.patch import Operation, is_text
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
 Goal = Literal["higher", "lower"] | None
-Over = Literal["done", "stopped", "failed"]
-LiveStatus = Literal["starting", "running", "paused", Over]
+Over = Literal["done", "stopped", "failed", "cancelled"]
+LiveStatus = Literal["waiting", "starting", "running", "paused", Over]
+RunStatus = Literal["waiting", "running", "done", "failed", "stopped", "killed", "cancelled"]
 ImportStatus = Literal["running", "done", "failed", "cancelled"]
 
 
@@ -240,7 +241,7 @@ class Run(BaseModel):
     scenario_hash: str
     parent: int | None
     seed: int
-    status: Literal["running", "done", "failed", "stopped", "killed"]
+    status: RunStatus
     error: str | None
     state_hash: str | None
     code_version: str
@@ -380,9 +381,10 @@ class NewLiveRun(NewRun):
 
 
 class Started(BaseModel):
-    """The number of a run that has begun."""
+    """The number of a run that has begun, or that waits for its turn."""
 
     run: int
+    position: int = Field(description="place among those that wait, from 1 on; 0 when it has begun")
 
 
 class Live(BaseModel):
@@ -394,6 +396,20 @@ class Live(BaseModel):
     time: float
     pace: Pace
     duration_s: float
+    position: int = Field(0, description="place among those that wait for their turn, from 1 on; 0 when it does not")
+
+
+class Queued(BaseModel):
+    """A run that goes on or waits for its turn, whoever has begun it; `parameters` are those that were set, by path."""
+
+    run: int
+    scenario: str
+    status: Literal["running", "waiting"]
+    position: int = Field(description="place among those that wait for the same server, from 1 on; 0 when it goes on")
+    created: str
+    parameters: dict[str, Any]
+    time: float = Field(description="[s] up to which it has been recorded")
+    duration: float = Field(description="[s] that it will take at most")
 
 
 class NewPace(BaseModel):

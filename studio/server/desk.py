@@ -13,12 +13,13 @@ from studio.road.library import place
 from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
 from studio.server.frame import Frame
-from studio.server.live import LiveRun, Lives
+from studio.server.live import MOST_LIVE, LiveRun, Lives
 from studio.server.maps import Maps
 from studio.server.maps.job import MapJobs
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
-from studio.store.runs import Runs, reopen_runs
+from studio.store import queue
+from studio.store.runs import Row, Runs, reopen_runs
 from studio.warmup import Warmup
 
 
@@ -29,10 +30,11 @@ class Desk:
     db: Path
     scenarios: Path
     kinds: tuple[Path, ...]
+    at_once: int = MOST_LIVE
 
     def __post_init__(self) -> None:
         first = next(iter(self.files().values()), None)
-        self.lives = Lives(db=self.db, first=first, kinds=self.kinds, on_frame=self.on_frame)
+        self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
@@ -122,11 +124,20 @@ class Desk:
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
               pace: Pace, paused: bool) -> LiveRun:  # fmt: skip
-        """Starts a run in a process of its own; what is wrong with it is told before."""
+        """Starts a run in a process of its own, or lets it wait for its turn; what is wrong with it is told before."""
         loaded = job.seeded(self.load(scenario, changes), seed)
         check_pace(pace)
-        order = Order(loaded.path, loaded.changes, seed, parent, pace_factor(pace), paused, self.db)
+        order = Order(loaded.path, loaded.source.text, loaded.changes, seed, parent, pace_factor(pace), paused, self.db)
         return self.lives.start(order, scenario, loaded)
+
+    def cancel(self, run: int) -> Row:
+        """Takes a run out of the queue, or ends it, whoever has begun it; returns its row. Raises UnknownError or ServerError."""
+        runs = self.runs()
+        if run in self.lives.runs:
+            self.lives.stop(run)
+        else:
+            queue.cancel(runs, run)
+        return runs.find(run)
 
 
 def check_pace(pace: Pace) -> None:

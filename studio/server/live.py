@@ -1,33 +1,38 @@
 """Live runs as the server sees them: a process each, what it has told so far, and who listens.
 
-Lives.start   takes the process that waits ready, gives it its order, starts the next one
+Lives.start   takes the process that waits ready, gives it its order, starts the next one; or lets the run wait for its turn
 LiveRun       orders to one process; its news go to all listeners
+
+A run that waits has its row, its number and its listeners already. Runs begin in the order in which they were asked for.
 """
 
 import asyncio
 import logging
 import threading
 import time
-from collections.abc import Callable, Generator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from math import inf, isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
-from studio.errors import Problem, ServerError, UnknownError
+from studio import job
+from studio.errors import Problem, ServerError, StudioError, UnknownError
 from studio.job import Loaded
 from studio.process import Busy, Child, Gone
 from studio.server import answer, worker
 from studio.server.frame import Frame
 from studio.server.news import ChannelsNews, EndNews, EventNews, Kind, SamplesNews, StateNews
 from studio.server.worker import Order
-from studio.store.runs import reopen_runs
+from studio.store.queue import CANCELLED
+from studio.store.runs import LEFT, reopen_runs
 
 START_PATIENCE = 600.0  # [s] the first start compiles; the page tells how far it is
-MOST_LIVE = 8  # processes at a time
+MOST_LIVE = 8  # processes at a time, unless somebody wants it otherwise
+MOST_WAITING = 1000  # runs that wait for their turn
 MOST_OVER = 8  # runs that are over, whose news are kept for who comes late
 END_PATIENCE = 3.0  # [s] for a process to save and end
 STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang
@@ -46,10 +51,11 @@ class LiveRun:
     run: int
     scenario: str
     duration: float
-    process: Child
+    process: Child | None  # none while it waits for its turn
     on_frame: Callable[["LiveRun", Frame], None]
     loaded: Loaded
     db: Path
+    kinds: tuple[Path, ...] = ()
     status: answer.LiveStatus = "starting"
     time: float = 0.0
     pace: float = 1.0
@@ -62,22 +68,42 @@ class LiveRun:
     frame: Frame | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
+    position: int = 0  # among those that wait, from 1 on
     obeyed: bool = False
     given_up: bool = False
+    is_left: bool = False
 
-    def listen(self) -> None:
+    def listen(self, process: Child) -> None:
         """Reads the process's news until it ends; runs in a thread of its own."""
         try:
             while not self.is_over:
-                word, *values = self.process.hear()
+                word, *values = process.hear()
                 getattr(self, f"on_{word}_news")(*values)
         except Gone as gone:
             status, reason = self.explanation(gone.code)
-            if self.given_up:  # a row of a process that died by itself is found by whoever reads it next
-                reopen_runs(self.db).end(self.run, status, reason)
+            with suppress(StudioError, OSError):  # whoever opens the database next takes it in
+                if not self.is_left:
+                    self.take_in("stopped" if self.given_up else "killed", reason)
             self.on_end_news(status, reason)
         finally:
-            self.process.end()
+            process.end()
+
+    def take_in(self, status: str, reason: str) -> None:
+        """Has what was recorded taken into the database, in a process of its own, and waits for that."""
+        reopen_runs(self.db).leave(self.run, status, reason)
+        child = Child.begin(worker.take_in, self.db, self.kinds)
+        with suppress(Gone):
+            child.hear()
+        child.end()
+
+    def abandon(self) -> None:
+        """The server ends, and its process with it; if the run goes on still, the next server takes in what was recorded."""
+        was_over, self.is_left = self.is_over, True
+        if self.process is not None:
+            self.process.end(0.0)
+        if not was_over:
+            with suppress(StudioError):
+                reopen_runs(self.db).leave(self.run, "killed", worker.SERVER_ENDED)
 
     def explanation(self, code: int | None) -> tuple[answer.Over, str]:
         """Status and reason of a run whose process has gone without a word."""
@@ -126,13 +152,33 @@ class LiveRun:
     def on_end_news(self, status: answer.Over, error: str | None) -> None:
         """The run is over and saved."""
         with self.lock:
-            self.status, self.end = status, EndNews(run=self.run, status=status, error=error)
+            self.status, self.position, self.end = status, 0, EndNews(run=self.run, status=status, error=error)
             self.tell(self.state())
             self.tell(self.end)
 
     def state(self) -> StateNews:
         """Where it is, for those who listen."""
         return StateNews(**dict(self.row()), real_time_factor=self.real_time_factor)
+
+    def move(self, position: int) -> None:
+        """Its place among those that wait."""
+        with self.lock:
+            self.position = position
+            self.tell(self.state())
+
+    def begin(self, process: Child) -> None:
+        """Its turn has come."""
+        with self.lock:
+            self.status, self.process, self.position = "starting", process, 0
+            self.tell(self.state())
+
+    def refused(self, error: StudioError) -> None:
+        """Its turn came, and it could not begin, or somebody else has cancelled it."""
+        runs = reopen_runs(self.db)
+        runs.end(self.run, "failed", str(error))
+        row = runs.find(self.run)
+        if not self.is_over:
+            self.on_end_news("cancelled" if row.status == "cancelled" else "failed", row.error)
 
     def row(self) -> answer.Live:
         """A row of the list of live runs."""
@@ -143,34 +189,39 @@ class LiveRun:
             time=round(self.time, 6),
             pace="fast" if self.pace == inf else self.pace,
             duration_s=self.duration,
+            position=self.position,
         )
 
     @property
     def is_over(self) -> bool:
         """Whether it has ended."""
-        return self.status in ("done", "stopped", "failed")
+        return self.status in get_args(answer.Over)
 
     def order(self, *words: Any) -> None:
-        """Gives an order; raises ServerError when the run is over, or has not taken many orders before."""
-        self.check_going()
+        """Gives an order; raises ServerError when the run is over, waits for its turn, or has not taken many orders before."""
+        process = self.going()
         try:
-            self.process.tell(*words)
+            process.tell(*words)
         except Busy:
             problem = Problem("order", "cannot be taken", str(words[0]), remedy="stop the run: it does not react")
             raise ServerError(f"Run {self.run} has not taken the orders before.", [problem]) from None
         except Gone:
             raise ServerError(f"The process of run {self.run} has ended.") from None
 
-    def check_going(self) -> None:
-        """Raises ServerError when the run is over."""
+    def going(self) -> Child:
+        """Its process; raises ServerError when the run is over, or has not begun."""
         if self.is_over:
             raise ServerError(f"Run {self.run} is over.", [Problem("run", "is over", self.status, "a run that is going on")])
+        if self.process is None:
+            problem = Problem("run", "waits for its turn", self.status, "a run that is going on", "wait, or cancel it")
+            raise ServerError(f"Run {self.run} has not begun.", [problem])
+        return self.process
 
     def stop(self) -> None:
         """Orders the end; a process that does not react, or takes no orders any more, is ended. Raises ServerError when it is over."""
-        self.check_going()
+        process = self.going()
         with suppress(Busy, Gone):
-            self.process.tell("stop")
+            process.tell("stop")
         patience = threading.Timer(STOP_PATIENCE, self.give_up)
         patience.daemon = True
         patience.start()
@@ -179,7 +230,7 @@ class LiveRun:
         """Ends a process that still has not stopped; one that has may take its time to save."""
         if not (self.is_over or self.obeyed):
             self.given_up = True
-            self.process.kill()
+            self.going().kill()
 
     def join(self, listener: "Listener") -> None:
         """A new listener first gets everything so far."""
@@ -223,20 +274,23 @@ class Listener:
 
 
 class Lives:
-    """All live runs, and the process that waits for the next one."""
+    """All live runs, those that wait for their turn, and the process that waits for the next one."""
 
-    def __init__(self, *, db: Path, first: Path | None, kinds: tuple[Path, ...],
+    def __init__(self, *, db: Path, first: Path | None, kinds: tuple[Path, ...], most: int = MOST_LIVE,
                  on_frame: Callable[[LiveRun, Frame], None]) -> None:  # fmt: skip
-        self.db, self.first, self.kinds, self.on_frame = db, first, kinds, on_frame
+        self.db, self.first, self.kinds, self.most, self.on_frame = db, first, kinds, most, on_frame
         self.runs: dict[int, LiveRun] = {}
+        self.waiting: list[tuple[LiveRun, Order]] = []
         self.spare: Child | None = None
         self.starting = 0
-        self.lock = threading.Lock()
+        self.is_closed = False
+        self.lock = threading.RLock()
+        self.order = threading.Lock()  # so that runs wait in the order of their numbers
 
     def make_ready(self) -> None:
         """Starts the process for the next run, unless it waits already."""
         with self.lock:
-            if self.spare is None or not self.spare.is_alive():
+            if not self.is_closed and (self.spare is None or not self.spare.is_alive()):
                 self.spare = Child.begin(worker.main, self.first, self.kinds)
 
     def take(self) -> Child:
@@ -244,18 +298,109 @@ class Lives:
         self.make_ready()
         with self.lock:
             process, self.spare = self.spare, None
-        assert process, "made ready above"
+        if process is None:
+            raise ServerError("The server is about to end.")
         return process
 
+    # -- the order of runs ---------------------------------------------------------------------------
+
     def start(self, order: Order, scenario: str, loaded: Loaded) -> LiveRun:
-        """Starts a run; returns when its row stands. Raises what the process refuses, or ServerError."""
-        with self.place():
+        """Starts a run and returns when its row stands; when there is no place for it, it waits. Raises what the process refuses."""
+        if not self.takes_place():
+            return self.wait(order, scenario, loaded)
+        try:
             process, number, duration = self.begin(order)
-            live = LiveRun(number, scenario, duration, process, self.on_frame, loaded, self.db, pace=order.pace)
+            live = LiveRun(number, scenario, duration, process, self.on_frame, loaded, self.db, self.kinds, pace=order.pace)
             self.keep(live)
-        threading.Thread(target=live.listen, name=f"run {number}", daemon=True).start()
-        threading.Timer(1.0, self.make_ready).start()  # not while the new run draws its first breath
+        finally:
+            self.give_place()
+        self.listen(live, process)
         return live
+
+    def takes_place(self) -> bool:
+        """Takes a place among the runs that go on, if there is one, and nobody waits for it."""
+        with self.lock:
+            going = sum(not live.is_over and live.process is not None for live in self.runs.values())
+            is_free = not self.waiting and self.starting + going < self.most
+            self.starting += is_free
+            return is_free
+
+    def give_place(self) -> None:
+        """Gives it back: the run goes on, or has not begun."""
+        with self.lock:
+            self.starting -= 1
+        self.call_next()
+
+    def listen(self, live: LiveRun, process: Child) -> None:
+        """Reads a run's news; when it is over, it is another's turn."""
+
+        def until_its_end() -> None:
+            live.listen(process)
+            self.call_next()
+
+        threading.Thread(target=until_its_end, name=f"run {live.run}", daemon=True).start()
+        threading.Timer(1.0, self.make_ready).start()  # not while the new run draws its first breath
+
+    def wait(self, order: Order, scenario: str, loaded: Loaded) -> LiveRun:
+        """A run that waits for its turn, with its row. Raises what is wrong with it, or ServerError when too many wait."""
+        if len(self.waiting) >= MOST_WAITING:
+            problem = Problem("queue", "is as long as may be", "", f"{MOST_WAITING} runs", "wait, or cancel some")
+            raise ServerError("Too many runs wait.", [problem])
+        loaded = job.seeded(loaded, order.seed)
+        prepared = job.prepare(loaded)
+        job.check_recording(prepared, self.db)
+        with self.order:
+            number = job.begin(loaded, prepared, reopen_runs(self.db), order.parent, status="waiting")
+            duration = loaded.scenario.clock.duration
+            live = LiveRun(number, scenario, duration, None, self.on_frame, loaded, self.db, self.kinds, "waiting", pace=order.pace)
+            self.keep(live)
+            self.line_up([*self.waiting, (live, replace(order, run=number))])
+        self.call_next()
+        return live
+
+    def line_up(self, waiting: list[tuple[LiveRun, Order]]) -> None:
+        """These wait now; whoever moves up is told."""
+        with self.lock:
+            self.waiting = waiting
+            for position, (live, _) in enumerate(waiting, start=1):
+                live.move(position)
+
+    def call_next(self) -> None:
+        """Lets the first of those that wait begin, as long as there are places."""
+        with self.lock:
+            going = sum(not live.is_over and live.process is not None for live in self.runs.values())
+            free = 0 if self.is_closed else max(self.most - self.starting - going, 0)
+            turns = self.waiting[:free]
+            self.line_up(self.waiting[free:])
+            self.starting += len(turns)
+        for live, order in turns:
+            threading.Thread(target=self.take_turn, args=(live, order), name=f"turn of {live.run}", daemon=True).start()
+
+    def take_turn(self, live: LiveRun, order: Order) -> None:
+        """Begins a run that waited; one that is refused now, or was cancelled by somebody else, is over."""
+        try:
+            process, _, _ = self.begin(order)
+            live.begin(process)
+            self.listen(live, process)
+        except StudioError as error:
+            live.refused(error)
+        finally:
+            self.give_place()
+
+    def stop(self, run: int) -> LiveRun:
+        """Ends a run, or takes it out of those that wait. Raises UnknownError, or ServerError when it is over."""
+        live = self.find(run)
+        if live.status != "waiting" or not self.drop(live, CANCELLED):
+            live.stop()
+        return live
+
+    def drop(self, live: LiveRun, why: str) -> bool:
+        """A run that waits will not begin; whether it still waited."""
+        if not reopen_runs(self.db).take_out(live.run, why):
+            return False
+        live.on_end_news("cancelled", why)
+        self.line_up([each for each in self.waiting if each[0] is not live])
+        return True
 
     def keep(self, live: LiveRun) -> None:
         """Takes a run in, and forgets those that have been over for longest: their rows tell all of them."""
@@ -265,21 +410,7 @@ class Lives:
                 del self.runs[number]
             self.runs[live.run] = live
 
-    @contextmanager
-    def place(self) -> Generator[None]:
-        """A place among the live runs, held while one starts; raises ServerError when there is none."""
-        with self.lock:
-            if self.starting + sum(not live.is_over for live in self.runs.values()) >= MOST_LIVE:
-                raise ServerError(
-                    "Too many runs are going on.",
-                    [Problem("live runs", "are as many as may be", "", f"{MOST_LIVE} at a time", "stop one")],
-                )
-            self.starting += 1
-        try:
-            yield
-        finally:
-            with self.lock:
-                self.starting -= 1
+    # -- processes -----------------------------------------------------------------------------------
 
     def begin(self, order: Order) -> tuple[Child, int, float]:
         """A process that has begun with the order; when the one that waited has died, another."""
@@ -310,15 +441,21 @@ class Lives:
 
     def close(self) -> None:
         """Stops all runs and ends all processes."""
+        with self.lock:
+            self.is_closed = True
+        for live, _ in list(self.waiting):
+            with suppress(StudioError):
+                self.drop(live, LEFT)
         for live in self.all():
             with suppress(ServerError):
                 live.stop()
         deadline = time.monotonic() + END_PATIENCE
         while any(not live.is_over for live in self.all()) and time.monotonic() < deadline:
             time.sleep(0.02)
-        with self.lock:
-            for process in (*(live.process for live in self.runs.values()), *([self.spare] if self.spare else [])):
-                process.end(0.0)
+        for live in self.all():
+            live.abandon()
+        if self.spare is not None:
+            self.spare.end(0.0)
 
 
 def begun(process: Child, order: Order) -> tuple[int, float]:

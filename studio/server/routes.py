@@ -23,6 +23,7 @@ from studio.source import code_version
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
+from studio.store.queue import queue
 from studio.world import channel
 
 YAML: dict[int | str, dict[str, Any]] = {
@@ -146,9 +147,21 @@ def runs(desk: AtDesk, scenario: str | None = None, limit: Annotated[int, Query(
 
 @router.post("/runs", status_code=202)
 def start_run(new: answer.NewRun, desk: AtDesk) -> answer.Started:
-    """Starts a run as fast as possible, watched by nobody; its row tells when it is done."""
+    """Starts a run as fast as possible, watched by nobody, or lets it wait for its turn; its row tells when it is done."""
     live = desk.start(new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace="fast", paused=False)
-    return answer.Started(run=live.run)
+    return answer.Started(run=live.run, position=live.position)
+
+
+@router.get("/queue")
+def runs_in_queue(desk: AtDesk) -> list[answer.Queued]:
+    """Runs that go on, then those that wait for their turn, in their order; those of other servers and of the command line too."""
+    return [answer.Queued(**vars(each)) for each in queue(desk.runs())]
+
+
+@router.post("/runs/{run}/cancel")
+def cancel(run: int, desk: AtDesk) -> answer.Run:
+    """Takes a run out of the queue, or ends it; what was recorded is kept. Its row tells when it is over."""
+    return answer.Run(**desk.cancel(run).as_json())
 
 
 @router.get("/runs/{run}")
@@ -198,7 +211,7 @@ def live_runs(desk: AtDesk) -> list[answer.Live]:
 
 @router.post("/live", status_code=201)
 def start_live(new: answer.NewLiveRun, desk: AtDesk) -> answer.Live:
-    """Starts a live run in a process of its own."""
+    """Starts a live run in a process of its own, or lets it wait for its turn."""
     live = desk.start(new.scenario, changes=new.set, seed=new.seed, parent=new.parent, pace=new.pace, paused=new.paused)
     return live.row()
 
@@ -229,10 +242,8 @@ def step(run: int, desk: AtDesk) -> answer.Live:
 
 @router.post("/live/{run}/stop")
 def stop(run: int, desk: AtDesk) -> answer.Live:
-    """Ends the run; what was recorded is kept."""
-    live = desk.lives.find(run)
-    live.stop()
-    return live.row()
+    """Ends the run; what was recorded is kept. One that waits for its turn is cancelled."""
+    return desk.lives.stop(run).row()
 
 
 @router.post("/live/{run}/pace")

@@ -23,14 +23,14 @@ FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent i
 PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
 
 
-def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list[Path] | None, browser: bool) -> None:
+def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list[Path] | None, browser: bool, at_once: int) -> None:
     """Serves until it is interrupted. Raises StoreError or ServerError before it starts."""
     listening = listen(host, port)
     try:
         open_runs(db).close()
         folder = scenario_folder(scenarios)
         token = gate.token() if is_open(listening) else ""
-        app = application(db, folder, kinds, host, token, listening.getsockname()[1])
+        app = application(db, folder, kinds, host, token, listening.getsockname()[1], at_once)
     except BaseException:
         listening.close()
         raise
@@ -50,18 +50,19 @@ def serve(*, host: str, port: int, db: Path, scenarios: Path | None, kinds: list
     uvicorn.Server(config).run(sockets=[listening])
 
 
-def application(db: Path, folder: Path, kinds: list[Path] | None, host: str, token: str, port: int):
+def application(db: Path, folder: Path, kinds: list[Path] | None, host: str, token: str, port: int, at_once: int):
     """The ASGI application, behind a gate where there is a token. Live runs load the folders of kinds again, each in its process."""
-    door = Door(page.app, lambda: inner(db, folder, kinds))
+    door = Door(page.app, lambda: inner(db, folder, kinds, at_once))
     return SameOrigin(Gate(door, token=token, port=port) if token else door, host=host)
 
 
-def inner(db: Path, folder: Path, kinds: list[Path] | None):
+def inner(db: Path, folder: Path, kinds: list[Path] | None, at_once: int):
     """REST and scene; imported here, behind the door."""
     from studio.server.app import create_app
     from studio.server.desk import Desk
 
-    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=tuple(each.resolve() for each in kinds or ())))
+    own = tuple(each.resolve() for each in kinds or ())
+    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=own, at_once=at_once))
 
 
 def listen(host: str, port: int) -> socket.socket:

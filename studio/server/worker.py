@@ -26,6 +26,7 @@ from studio.errors import StoreError, StudioError
 from studio.execution.loop import Pace
 from studio.execution.simulation import Case, Simulation, simulation
 from studio.kind.registry import load_folder
+from studio.scenario import file
 from studio.server import answer
 from studio.server.frame import blend, frame, poses
 from studio.store.runs import Runs, open_runs
@@ -36,20 +37,23 @@ NEWS_PERIOD = 0.1  # [s] of real time between two reports of state and samples
 SAMPLE_PERIOD = 0.1  # [s] of simulated time between two samples of the live charts
 BATCH = 0.015  # [s] of real time that is simulated before orders are looked at again
 IDLE = 0.5  # [s] between two looks for orders while paused
+SERVER_ENDED = "The server ended before the run did."
 LIVE_CHANNELS = ("speed", "gap", "acceleration", "time_gap")
 
 
 @dataclass(frozen=True)
 class Order:
-    """What to run: scenario file, changes by path, seed, parent, pace, and where to keep it."""
+    """What to run: scenario file with its text, changes by path, seed, parent, pace, where to keep it, and as which run if it waited."""
 
     path: Path
+    text: str
     changes: dict[str, Any]
     seed: int | None
     parent: int | None
     pace: float
     paused: bool
     db: Path
+    run: int | None = None
 
 
 @dataclass
@@ -88,6 +92,7 @@ class Live:
             self.orders()
             if not self.paused:
                 self.work()
+            self.simulation.heed()
             self.show()
             self.news()
         self.show(force=True)
@@ -211,6 +216,13 @@ def main(pipe: Connection, first: Path | None, kinds: tuple[Path, ...]) -> None:
         return  # the server is gone
 
 
+def take_in(pipe: Connection, db: Path, kinds: tuple[Path, ...]) -> None:
+    """A process that takes in what was recorded of runs whose processes have gone."""
+    for folder in kinds:
+        load_folder(folder)
+    open_runs(db).close()
+
+
 def warm(path: Path | None) -> None:
     """Goes through everything once: map, machine code. What is wrong with the scenario is told when it is started."""
     if path is None:
@@ -224,22 +236,23 @@ def warm(path: Path | None) -> None:
 def start(pipe: Connection, order: Order) -> None:
     """Loads, runs and saves. Input that is refused leaves no row."""
     try:
-        loaded = job.seeded(job.load(order.path, order.changes), order.seed)
+        text = file.mapping(order.text.encode(), str(order.path), "scenario")
+        loaded = job.seeded(job.loaded(text, order.path, order.changes), order.seed)
         prepared = job.prepare(loaded)
-        job.check_recording(prepared)
+        job.check_recording(prepared, order.db)
         runs = open_runs(order.db)
-        number = job.begin(loaded, prepared, runs, order.parent)
+        number = job.begin(loaded, prepared, runs, order.parent, run=order.run)
     except StudioError as error:
         pipe.send(("refused", error))
         return
     pipe.send(("begun", number, loaded.document["clock"]["duration"]))
     try:
-        current = simulation(prepared)
+        current = job.recorded(prepared, runs, number)
         Live(current, pipe, Pace(order.pace), order.paused).run()
         row = job.save(number, job.outcome(loaded, current), runs)
         pipe.send(("end", row.status, row.error))
     except (EOFError, OSError):
-        ended(runs, number, "killed", "The server ended before the run did.")
+        ended(runs, number, "killed", SERVER_ENDED)
     except StoreError as error:
         pipe.send(("end", ended(runs, number, "failed", str(error)), str(error)))
     except Exception:
@@ -247,9 +260,9 @@ def start(pipe: Connection, order: Order) -> None:
 
 
 def ended(runs: Runs, number: int, status: str, why: str) -> str:
-    """Puts down how a run ended that brought nothing, if the database takes it; returns how."""
+    """Puts down how a run ended that brought no result, with what was recorded of it, if the database takes it; returns how."""
     with suppress(StoreError):
-        runs.end(number, status, why)
+        runs.break_off(number, status, why)
     return status
 
 

@@ -34,6 +34,11 @@ def is_gone(process: int, known: str | None) -> bool:
         return True
 
 
+def is_here(known: str | None) -> bool:
+    """Whether a process, known by its mark, is one of this machine since its last start, and of this container."""
+    return known is not None and tuple(json.loads(known)[1:3]) == this_system()
+
+
 def this_system() -> tuple[str, str]:
     """This start of the machine, and this container; empty where nobody tells."""
     try:

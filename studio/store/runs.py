@@ -1,8 +1,9 @@
 """Runs in the database: begin, finish, find, compare their inputs.
 
 A run has its row from its first moment, with the process that works on it. When that process is gone and the row still
-says "running", the run was killed; whoever looks is told so, and nothing is written by looking. A result that cannot go in, for want of
-room or because somebody holds the file, waits beside it (waiting.py) and goes in later.
+says "running", the run was killed; whoever looks is told so, and nothing is written by looking. What it had recorded until then lies
+beside the database (recording.py), is read there, and taken in by the next process that writes. A result that cannot go in, for want
+of room or because somebody holds the file, waits beside it too (waiting.py).
 
 What only traces need is imported with them: a list of runs waits neither for pyarrow nor for the simulator.
 """
@@ -24,7 +25,7 @@ from sqlite_utils import Database
 from studio.assess.metric import Measured
 from studio.errors import Problem, StoreError, UnknownError, short
 from studio.execution.happening import Happening, Number
-from studio.store import owner, waiting
+from studio.store import owner, recording, waiting
 from studio.store.tables import open_database, read_database, reopen_database, unusable
 
 if TYPE_CHECKING:
@@ -32,13 +33,16 @@ if TYPE_CHECKING:
 
     from studio.execution.message import Messages
     from studio.execution.record import Record
+    from studio.execution.shelf import Folder
     from studio.kind.registry import Kind
     from studio.provenance import Provenance
 
-PIECE = 200_000_000  # [B] of a file that stand in one value; SQLite takes 1e9 in a row
+PIECE = 50_000_000  # [B] of a file that stand in one value; SQLite takes 1e9 in a row
 LARGEST_RUN = 2**63 - 1  # that SQLite can count to
 WAITS = "The result waits in {} and is taken in by the next run, as soon as the database takes it."
 KILLED = "The process that ran it ended before the run did."
+LEFT = "The server in whose queue it waited ended before its turn came."
+UNTIL = "What was recorded until {:g} s is kept."
 
 
 @dataclass(frozen=True)
@@ -85,8 +89,12 @@ class Runs:
         weakref.finalize(self, self.database.conn.close).atexit = False
 
     def begin(self, *, scenario: str, title: str, document: dict, scenario_hash: str, map_digest: str, parent: int | None,
-              seed: int, parameters: dict[str, Any], provenance: "Provenance") -> int:  # fmt: skip
-        """A new row that says "running"; returns its number."""
+              seed: int, parameters: dict[str, Any], provenance: "Provenance", status: str = "running",
+              run: int | None = None) -> int:  # fmt: skip
+        """A new row that says "running" or "waiting"; or that of a run that waited, whose turn has come. Returns its number.
+
+        Raises UnknownError when there is no such parent, or the run does not wait any more.
+        """
         if parent is not None:
             self.find(parent)
         row = {
@@ -94,7 +102,7 @@ class Runs:
             "scenario_hash": scenario_hash,
             "parent": parent,
             "seed": seed,
-            "status": "running",
+            "status": status,
             "code_version": provenance.code_version,
             "host": provenance.host,
             "versions": json.dumps(provenance.versions),
@@ -112,9 +120,24 @@ class Runs:
             self.database.table("scenarios").insert(kept, pk="hash", ignore=True)
             self.keep_kinds(provenance.kinds)
             row["revisions"] = json.dumps([asdict(each) | {"patch": self.keep(each.patch)} for each in provenance.revisions])
+            if run is not None:
+                self.check_waiting(run)
+                self.database.table("runs").update(run, row)
+                return run
             number = self.database.table("runs").insert(row, pk="run").last_pk
             assert number is not None, "a row that was inserted has a key"
             return int(number)
+
+    def check_waiting(self, run: int) -> None:
+        """Raises UnknownError for a run that does not wait."""
+        if not self.rows("select run from runs where run = ? and status = 'waiting'", [run]):
+            raise UnknownError(f"Run {run} does not wait any more.", [Problem("run", "is not in the queue", str(run))])
+
+    def take_out(self, run: int, why: str) -> bool:
+        """Takes a run out of the queue; whether it waited."""
+        change = "update runs set status = 'cancelled', error = ? where run = ? and status = 'waiting'"
+        with self.writing():
+            return self.database.conn.execute(change, [why, run]).rowcount == 1
 
     def keep(self, text: str) -> str:
         """Keeps a text once, by its digest; nothing of nothing."""
@@ -131,8 +154,9 @@ class Runs:
             kept = {"digest": kind.digest, "kind": kind.sort, "name": kind.name, "files": files}
             self.database.table("kinds").insert(kept, pk="digest", ignore=True)
 
-    def finish(self, run: int, *, status: str, error: str | None, state_hash: str, record: "Record", sim_time_s: float,
-               wall_time_s: float, metrics: dict[str, Measured], unmet: list[str], channels: Sequence[str] = ()) -> None:  # fmt: skip
+    def finish(self, run: int, *, status: str, error: str | None, state_hash: str | None, record: "Record",
+               sim_time_s: float, wall_time_s: float | None, metrics: dict[str, Measured], unmet: list[str],
+               channels: Sequence[str] = ()) -> None:  # fmt: skip
         """Writes everything a run has brought, in one transaction: all of it or nothing. What cannot go in waits beside the database.
 
         Raises StoreError when it can be kept nowhere.
@@ -147,7 +171,9 @@ class Runs:
             "wall_time_s": wall_time_s,
             "unmet": json.dumps(unmet, ensure_ascii=False),
         }
-        parquet, (sent, entries) = trace.write(record, channels), message.write(record.messages)
+        known = self.rows(f"select {', '.join(waiting.OWNER)} from runs where run = ?", [run])[0]
+        folder = recording.folder_of(self.path, known | {"run": run})
+        parquet, (sent, entries) = trace.write_beside(folder, record, channels), message.write(record.messages)
         result = {
             "runs": [{"run": run} | ending],
             "metrics": metric_rows(run, metrics),
@@ -159,13 +185,15 @@ class Runs:
         try:
             self.put(result)
         except StoreError as refused:
-            known = self.rows(f"select {', '.join(waiting.OWNER)} from runs where run = ?", [run])[0]
             waiting.keep(self.path, result | {"runs": [{"run": run} | ending | known]}, refused)
+        recording.remove(folder)
 
     def put(self, result: waiting.Result) -> None:
-        """Puts the rows of a run that is over in their tables: all of them or none."""
+        """Puts the rows of a run that is over in their tables: all of them or none; of a run that has been put there already, none."""
         (row,) = result["runs"]
         with self.writing():
+            if not self.rows("select run from runs where run = ? and status = 'running'", [row["run"]]):
+                return
             self.database.table("runs").update(row["run"], {key: value for key, value in row.items() if key != "run"})
             self.database.table("metrics").insert_all(result["metrics"], pk=("run", "name"), replace=True)
             self.database.table("events").insert_all(result["events"])
@@ -174,11 +202,90 @@ class Runs:
             self.database.table("pieces").insert_all(result["pieces"], pk=("run", "column", "number"), replace=True)
 
     def take_in(self) -> None:
-        """Takes in the results that wait beside the database; what still cannot go in waits on."""
+        """Takes in the results that wait beside the database, recordings whose runs were left, and who waits for a server that has gone.
+
+        What cannot go in stays where it is.
+        """
+        for row in self.rows("select * from runs where status = 'waiting'"):
+            if owner.is_gone(row["process"], row["process_mark"]):
+                self.take_out(row["run"], LEFT)
         for file, result in waiting.results(self.path):
             with suppress(StoreError):
                 if self.takes(result):
                     file.unlink()
+        for run, folder in recording.found(self.path):
+            for row in self.rows("select * from runs where run = ?", [run]):
+                if folder == recording.folder_of(self.path, row) and (row["status"] != "running" or self.is_left(row)):
+                    self.salvage(run)
+
+    def is_left(self, row: dict[str, Any]) -> bool:
+        """Whether a run was not finished, and will not be: its process has gone, and no result waits."""
+        return row["status"] == "running" and owner.is_gone(row["process"], row["process_mark"]) and not waiting.of(self.path, row)
+
+    def shelf(self, run: int) -> "Folder":
+        """Where a run that begins is recorded. Raises StoreError."""
+        return recording.begin(self.folder(run))
+
+    def folder(self, run: int) -> Path:
+        """Where that lies."""
+        (row,) = self.rows("select run, created, process_mark from runs where run = ?", [run])
+        return recording.folder_of(self.path, row)
+
+    def leave(self, run: int, status: str, error: str) -> None:
+        """Puts down how a run ended that brought no result; what it had recorded is taken in by the next process that writes."""
+        folder = self.folder(run)
+        if folder.is_dir():
+            recording.put_down(folder, status, error)
+        else:
+            self.end(run, status, error)
+
+    def break_off(self, run: int, status: str, error: str) -> None:
+        """The same, and takes it in at once. What cannot go in now is taken in later."""
+        self.leave(run, status, error)
+        if self.folder(run).is_dir():
+            self.salvage(run)
+
+    def salvage(self, run: int) -> None:
+        """Puts the recording of a run into the database, with the metrics that can be measured, and removes it.
+
+        One of which nothing can be made is set aside, and the row says where and why: nobody else is to fail over it.
+        """
+        folder, row = self.folder(run), self.rows("select * from runs where run = ?", [run])[0]
+        ended = {"status": "killed", "error": KILLED} | recording.ending(folder)
+        try:
+            if row["status"] == "running":
+                self.finish_with(run, recording.record(folder), **ended)
+        except StoreError:
+            raise
+        except Exception as error:
+            aside = recording.set_aside(folder)
+            self.end(run, ended["status"], f"{ended['error']} What it had recorded is in {aside}, and cannot be assessed: {error!r}")
+        recording.remove(folder)
+
+    def finish_with(self, run: int, found: "Record | None", status: str, error: str) -> None:
+        """Finishes a run with what was recorded of it, if anything."""
+        from studio.assess.assessment import assessed
+        from studio.scenario.schema import Scenario
+
+        if found is None:
+            self.end(run, status, error)
+            return
+        row = self.find(run)
+        scenario = Scenario.model_validate(self.document(row))
+        result = assessed(found, scenario)
+        last = float(result.record.time[-1])
+        self.finish(
+            run,
+            status=status,
+            error="\n".join([f"{error} {UNTIL.format(last)}", *result.raised]),
+            state_hash=None,
+            record=result.record,
+            sim_time_s=round(last, 9),
+            wall_time_s=None,
+            metrics=result.metrics,
+            unmet=result.unmet,
+            channels=scenario.recording.channels,
+        )
 
     def takes(self, result: waiting.Result) -> bool:
         """Puts in a result that waits, and tells whether it is one of this database. Raises StoreError when it cannot go in."""
@@ -190,7 +297,7 @@ class Runs:
 
     def end(self, run: int, status: str, error: str) -> None:
         """Marks a run that brought nothing; one that is over stays as it is."""
-        change = "update runs set status = ?, error = ? where run = ? and status = 'running'"
+        change = "update runs set status = ?, error = ? where run = ? and status in ('running', 'waiting')"
         with self.writing():
             self.database.conn.execute(change, [status, error, run])
 
@@ -232,9 +339,23 @@ class Runs:
     def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
         query = f"select * from runs where {where} order by run desc limit ?"
-        rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
-        metrics = self.metrics_of([row["run"] for row in rows])
+        with self.looking():
+            rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
+            metrics = self.metrics_of([row["run"] for row in rows])
         return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+
+    @contextmanager
+    def looking(self) -> Generator[None]:
+        """All that is read is of one moment, whoever writes meanwhile."""
+        connection = self.database.conn
+        is_alone = not connection.in_transaction
+        if is_alone:
+            connection.execute("begin")
+        try:
+            yield
+        finally:
+            if is_alone:
+                connection.rollback()
 
     def rows(self, query: str, values=()) -> list[dict[str, Any]]:
         """Rows of a query as dictionaries."""
@@ -254,11 +375,18 @@ class Runs:
 
     def seen(self, row: dict[str, Any]) -> dict[str, Any]:
         """A row as it is now: one that says "running" although its process has gone was killed, unless its result waits."""
+        if row["status"] == "waiting" and owner.is_gone(row["process"], row["process_mark"]):
+            return row | {"status": "cancelled", "error": LEFT}
         if row["status"] != "running":
             return row
         if found := waiting.of(self.path, row):
             return row | found[1] | {"error": f"{WAITS.format(found[0])} {found[1]['error'] or ''}".strip()}
-        return row | {"status": "killed", "error": KILLED} if owner.is_gone(row["process"], row["process_mark"]) else row
+        if not owner.is_gone(row["process"], row["process_mark"]):
+            return row
+        folder = recording.folder_of(self.path, row)
+        seen = row | {"status": "killed", "error": KILLED} | recording.ending(folder)
+        last = recording.until(folder)
+        return seen | {"error": f"{seen['error']} {UNTIL.format(last)}", "sim_time_s": last} if last else seen
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
@@ -282,11 +410,25 @@ class Runs:
 
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
-        self.find(run)
-        found = self.rows("select parquet from traces where run = ?", [run])
-        if not found:
+        row = self.find(run)
+        if (parquet := self.kept_parquet(run)) is not None:
+            return parquet
+        if (record := self.recorded(run)) is None:
             raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
-        return self.whole(run, "parquet", found[0]["parquet"])
+        from studio.store import trace
+
+        return trace.write(record, self.document(row)["recording"]["channels"])
+
+    def kept_parquet(self, run: int) -> bytes | None:
+        """The traces of a run that is over."""
+        found = self.rows("select parquet from traces where run = ?", [run])
+        return self.whole(run, "parquet", found[0]["parquet"] or b"") if found else None
+
+    def recorded(self, run: int) -> "Record | None":
+        """What was recorded so far of a run whose result is not there; nothing when it was taken in meanwhile."""
+        with self.intact(run, "recording"), suppress(FileNotFoundError):
+            return recording.record(self.folder(run))
+        return None
 
     def whole(self, run: int, column: str, first: bytes) -> bytes:
         """A file with the pieces that did not go into its first value."""
@@ -298,6 +440,10 @@ class Runs:
         """All that is kept of a run in one piece, but for the ages of links; raises UnknownError when there is none."""
         from studio.store import trace
 
+        self.find(run)
+        found = self.recorded(run)
+        if found is not None:
+            return found
         parquet, events, messages = self.parquet(run), self.events(run), self.messages(run)
         with self.intact(run, "record"):
             return trace.record_of(parquet, events, messages)
@@ -317,10 +463,13 @@ class Runs:
         """Recorded channels of a run; none when it has no traces."""
         from studio.store import trace
 
-        self.find(run)
-        found = self.rows("select parquet from traces where run = ?", [run])
+        try:
+            parquet = self.parquet(run)
+        except UnknownError:
+            self.find(run)
+            return []
         with self.intact(run, "traces"):
-            return trace.channels(self.whole(run, "parquet", found[0]["parquet"])) if found else []
+            return trace.channels(parquet)
 
     def trace(self, run: int, names: list[str]) -> dict[str, "np.ndarray"]:
         """Time and channels of a run."""
@@ -359,7 +508,7 @@ def reopen_runs(path: Path) -> Runs:
     return Runs(path, reopen_database(path))
 
 
-def pieces(run: int, column: str, data: bytes) -> list[dict[str, Any]]:
+def pieces(run: int, column: str, data: bytes | memoryview) -> list[dict[str, Any]]:
     """The rows of what of a file does not go into its first value."""
     starts = range(PIECE, len(data), PIECE)
     return [{"run": run, "column": column, "number": i, "bytes": data[at : at + PIECE]} for i, at in enumerate(starts)]

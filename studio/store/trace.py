@@ -2,7 +2,10 @@
 
 import io
 import json
+import mmap
 from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,18 +14,38 @@ import pyarrow.parquet as pq
 from tsdownsample import MinMaxDownsampler
 
 from studio.errors import Problem, UnknownError, nearest, short
-from studio.execution.brought import Brought, Fault
+from studio.execution.about import about, of_about
 from studio.execution.happening import Happening
 from studio.execution.message import Messages
-from studio.execution.record import Body, Chain, Mount, Record, Traced
+from studio.execution.record import Record, Traced
+from studio.execution.shelf import SMALL
 from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
+FORM: Any = {"compression": "zstd", "use_dictionary": False, "use_byte_stream_split": True}
 ABOUT = b"record"  # what the columns are about, as JSON
 
 
 def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
     """The record's channels, or those of some quantities only; floats keep all their bits."""
+    buffer = io.BytesIO()
+    pq.write_table(table_of(record, quantities), buffer, **FORM)
+    return buffer.getvalue()
+
+
+def write_beside(folder: Path, record: Record, quantities: Sequence[str] = ()) -> bytes | memoryview:
+    """The same; what is large is written in a folder, if there is one with room, and is never in memory as a whole."""
+    table = table_of(record, quantities)
+    if folder.is_dir() and table.nbytes > SMALL:
+        with suppress(OSError), (folder / "trace.parquet").open("w+b") as file:
+            pq.write_table(table, file, **FORM)
+            file.flush()
+            return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+    return write(record, quantities)
+
+
+def table_of(record: Record, quantities: Sequence[str]) -> pa.Table:
+    """A column per channel; they lie where the record has them."""
     names = [name for name in record.names() if not quantities or name.partition(".")[2] in quantities]
     columns = {"time": record.time} | {name: record.trace(name) for name in names}
     fields = [field("time", "s", "Time")]
@@ -30,24 +53,7 @@ def write(record: Record, quantities: Sequence[str] = ()) -> bytes:
         channel = record.probes.get(name) or catalogue()[name.partition(".")[2]]
         fields.append(field(name, channel.unit, channel.label))
     schema = pa.schema(fields, metadata={ABOUT: json.dumps(about(record), ensure_ascii=False).encode()})
-    table = pa.table(list(columns.values()), schema=schema)
-    buffer = io.BytesIO()
-    pq.write_table(table, buffer, compression="zstd", use_dictionary=False, use_byte_stream_split=True)
-    return buffer.getvalue()
-
-
-def about(record: Record) -> dict[str, Any]:
-    """What of a record is no column: vehicles, chains, bodies, and the names that numbers stand for."""
-    return {
-        "vehicles": record.vehicles,
-        "chains": [vars(each) for each in record.chains],
-        "bodies": record.bodies,
-        "called": list(record.called.items()),
-        "commanders": record.commanders,
-        "mounts": record.mounts,
-        "brought": record.brought,
-        "faults": record.faults,
-    }
+    return pa.table(list(columns.values()), schema=schema)
 
 
 def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Messages) -> Record:
@@ -55,32 +61,14 @@ def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Message
     table = pq.read_table(io.BytesIO(parquet))
     if ABOUT not in (table.schema.metadata or {}):
         raise UnknownError("The record of this run does not say who its vehicles are: an older studio wrote it. Run it again.")
-    known = json.loads(table.schema.metadata[ABOUT])
-    vehicles = tuple(known["vehicles"])
+    known = of_about(json.loads(table.schema.metadata[ABOUT]))
+    vehicles = known["vehicles"]
     values = np.full((len(CHANNELS), len(vehicles), table.num_rows), np.nan)
     for channel, row, name in ((c, v, f"{vehicle}.{each.name}") for c, each in enumerate(CHANNELS) for v, vehicle in enumerate(vehicles)):
         if name in table.column_names:
             values[channel, row] = table[name].to_numpy()
-    return Record(
-        time=table["time"].to_numpy(),
-        values=values,
-        vehicles=vehicles,
-        happenings=tuple(happenings),
-        chains=tuple(Chain(each["group"], each["application"], tuple(each["vehicles"])) for each in known["chains"]),
-        probes=probes_of(table),
-        bodies={name: Body(*each) for name, each in known["bodies"].items()},
-        called={int(number): name for number, name in known["called"]},
-        messages=messages,
-        commanders=tuple(known["commanders"]),
-        mounts={name: Mount(*each) for name, each in known["mounts"].items()},
-        brought={name: brought_of(*each) for name, each in known.get("brought", {}).items()},
-        faults=tuple(Fault(*each) for each in known.get("faults", ())),
-    )
-
-
-def brought_of(entry: str, line: Sequence[Sequence[float]], *rest: Any) -> Brought:
-    """What the script has brought to the road."""
-    return Brought(entry, tuple((x, y) for x, y in line), *rest)
+    time, own = table["time"].to_numpy(), probes_of(table)
+    return Record(time=time, values=values, happenings=tuple(happenings), probes=own, messages=messages, **known)
 
 
 def probes_of(table: pa.Table) -> dict[str, Traced]:

@@ -21,11 +21,11 @@ def test_it_comes_back_as_it_was(monkeypatch, numbers, samples):
         now = np.full(every.stop, np.nan)
         kept.reader.read(now)
         read[kept.count - 1] = now
-    assert (len(kept.parts) > 1) == (numbers == 1 or samples == 7)
-    found = kept.at(np.array(list(read)), every)
+    assert (len(kept.parts.first) > 1) == (numbers == 1 or samples == 7)
+    found = kept.parts.at(np.array(list(read)), every)
     np.testing.assert_array_equal(found, np.array(list(read.values())))
     assert np.isnan(found).any() and np.isfinite(found).any() and len(read) == 60
-    np.testing.assert_array_equal(kept.at(np.array([50, 3]), slice(5, 40)), np.array([read[50][5:40], read[3][5:40]]))
+    np.testing.assert_array_equal(kept.parts.at(np.array([50, 3]), slice(5, 40)), np.array([read[50][5:40], read[3][5:40]]))
 
 
 def test_what_does_not_change_is_kept_once():

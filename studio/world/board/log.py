@@ -4,6 +4,7 @@ A message is a column of a table; its links stand one after another in arrays be
 range has no entry: of such nothing is known but that it was so.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import nan
 from typing import NamedTuple
@@ -49,14 +50,23 @@ def room(messages: int, entries: int) -> Logged:
     return Logged(np.empty((len(LOGGED), messages)), *entry)
 
 
+def held(part: Logged) -> Callable[[], Logged]:
+    """Keeps a part in memory."""
+    return lambda: part
+
+
 @dataclass
 class Log:
-    """The log of one kind of message. `most` messages and entries come in one call at most; `count` of them stand in `now`."""
+    """The log of one kind of message. `most` messages and entries come in one call at most; `count` of them stand in `now`.
+
+    What stands there is put away when there is no more room, or when somebody asks for it; `keep` says how it is got again.
+    """
 
     most: tuple[int, int]
     now: Logged = field(init=False)  # arrays that stay where they are, for compiled code
     count: np.ndarray = field(default_factory=lambda: np.zeros(2, dtype=np.int64))
-    full: list[Logged] = field(default_factory=list)
+    full: list[Callable[[], Logged]] = field(default_factory=list)
+    keep: Callable[[Logged], Callable[[], Logged]] = held
     books: dict[tuple[int, ...], Book] = field(default_factory=dict)  # the last that was asked for, by how much stood in it
 
     def __post_init__(self) -> None:
@@ -67,13 +77,18 @@ class Log:
         """So that all that may come in one call finds room."""
         messages, entries = self.most
         if self.count[0] + messages > self.now.message.shape[1] or self.count[1] + entries > self.now.link.size:
-            self.full.append(self.written())
+            self.put_away()
+
+    def put_away(self) -> None:
+        """So that nothing stands in `now`."""
+        if self.count[0]:
+            self.full.append(self.keep(self.written()))
             self.count[:] = 0
 
     def forget(self, time: float) -> None:
         """What was sent from a time [s] on, for a world that has gone back to it."""
-        kept = [before(each, time) for each in (*self.full, self.written())]
-        self.full, self.count[:] = [each for each in kept if each.message.size], 0
+        kept = [before(each, time) for each in self.parts()]
+        self.full, self.count[:] = [self.keep(each) for each in kept if each.message.size], 0
         self.books.clear()
 
     def written(self) -> Logged:
@@ -81,20 +96,24 @@ class Log:
         messages, entries = self.count.tolist()
         return Logged(self.now.message[:, :messages].copy(), *(each[:entries].copy() for each in self.now[1:]))
 
+    def parts(self) -> list[Logged]:
+        """All that was written, part by part."""
+        return [*(each() for each in self.full), self.written()]
+
     def joined(self) -> Book:
         """All of it; the worlds of a batch ask for the same one after another."""
         size = (len(self.full), *self.count.tolist())
         if size not in self.books:
-            self.books = {size: self.book()}
+            self.books = {size: book_of(self.parts())}
         return self.books[size]
 
-    def book(self) -> Book:
-        """All of it, joined."""
-        parts = [*self.full, self.written()]
-        message, *entries = [np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)]
-        count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])
-        units, said = message[L_SENDER].astype(np.int64), message[L_SAID : L_SAID + SAID]
-        return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], said, count.astype(np.int32), *entries)
+
+def book_of(parts: list[Logged]) -> Book:
+    """Parts of a log, joined."""
+    message, *entries = [np.concatenate(each, axis=-1) for each in zip(*parts, strict=True)]
+    count = np.concatenate([np.diff(np.append(each.message[L_FIRST], each.link.size)) for each in parts])
+    units, said = message[L_SENDER].astype(np.int64), message[L_SAID : L_SAID + SAID]
+    return Book(message[L_TIME], units, message[L_NUMBER], message[L_SIZE], said, count.astype(np.int32), *entries)
 
 
 def before(part: Logged, time: float) -> Logged:

@@ -27,6 +27,7 @@ const fresh = (run: number): LiveState => ({
   duration_s: 0,
   pace: 1,
   real_time_factor: 0,
+  position: 0,
   error: null,
   connected: true,
   events: [],
@@ -54,7 +55,7 @@ export function reduce(state: LiveState, message: Server["News"]): LiveState {
       return { ...state, events: state.events.toSpliced(place, 0, event) };
     }
     case "end":
-      return { ...state, status: message.status, error: message.error, real_time_factor: 0 };
+      return { ...state, status: message.status, error: message.error, real_time_factor: 0, position: 0 };
     case "refused":
       // The server knows no such live run, after a restart perhaps: there is nothing to wait for.
       return { ...state, status: "failed", error: message.message, real_time_factor: 0 };

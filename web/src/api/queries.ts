@@ -1,7 +1,7 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
-import { type Changes, EXPLAINED, type Filled, isLive, type Run, type RunDetail, type Server } from "../model/run";
+import { type Changes, EXPLAINED, type Filled, isLive, type Queued, type Run, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
 
@@ -49,6 +49,23 @@ export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
     refetchInterval: ({ state }) => (state.data?.some(({ status }) => isLive(status)) ? 2000 : 15000),
     placeholderData: keepPreviousData,
   });
+
+/** Runs that go on or wait for their turn. */
+export const queue = queryOptions({
+  queryKey: ["queue"],
+  queryFn: () => answer(client.GET("/api/queue")) as Promise<Queued[]>,
+  refetchInterval: ({ state }) => (state.data?.length ? 2000 : 15000),
+});
+
+/** Take a run out of the queue, or end it. */
+export function useCancelRun() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: (number: number) => answer(client.POST("/api/runs/{run}/cancel", { params: { path: { run: number } } })),
+    onSettled: () =>
+      Promise.all([["queue"], ["runs"]].map((queryKey) => kept.invalidateQueries({ queryKey }))),
+  });
+}
 
 export const run = (number: number) =>
   queryOptions({
@@ -104,7 +121,8 @@ export function useStart() {
   return useMutation({
     mutationFn: (start: Start) =>
       answer(client.POST("/api/live", { body: start })),
-    onSuccess: () => kept.invalidateQueries({ queryKey: ["runs"] }),
+    onSuccess: () =>
+      Promise.all([["queue"], ["runs"]].map((queryKey) => kept.invalidateQueries({ queryKey }))),
   });
 }
 

@@ -17,7 +17,7 @@ import { useQuery } from "@tanstack/react-query";
 import { Link, Outlet, useLocation, useMatch, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useEffect, useState } from "react";
 import { Unreachable } from "../api/client";
-import { heartbeat, kinds } from "../api/queries";
+import { heartbeat, kinds, queue } from "../api/queries";
 import { StudioPage } from "../features/studio/StudioPage";
 import { Icon, type IconName } from "../ui/Icon";
 import { useShortcuts } from "../ui/shortcut";
@@ -32,6 +32,7 @@ export function Shell() {
     "?": () => setHelp(true),
     "g s": () => navigate({ to: "/" }),
     "g r": () => navigate({ to: "/runs", search: {} }),
+    "g q": () => navigate({ to: "/queue" }),
     "g c": () => navigate({ to: "/compare", search: {} }),
     "g m": () => navigate({ to: "/maps" }),
     "g k": () => navigate({ to: "/kinds" }),
@@ -108,7 +109,8 @@ function Head({ onHelp }: { onHelp: () => void }) {
 function Navigation() {
   const { pathname } = useLocation();
   const broken = useQuery(kinds).data?.broken.length ?? 0;
-  const place = (to: "/" | "/runs" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
+  const waiting = useQuery(queue).data?.filter(({ status }) => status === "waiting").length ?? 0;
+  const place = (to: "/" | "/runs" | "/queue" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
     const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
     return (
       <Link
@@ -127,6 +129,7 @@ function Navigation() {
     <nav className={classes.navigation} aria-label="Places">
       {place("/", "nav-studio", "Studio")}
       {place("/runs", "nav-runs", "Runs")}
+      {place("/queue", "nav-queue", <>Queue {waiting > 0 ? <WaitingBadge count={waiting} /> : null}</>)}
       {place("/compare", "nav-compare", "Compare")}
       {place("/maps", "nav-maps", "Maps")}
       {place("/kinds", "nav-kinds", <>Kinds {broken > 0 ? <BrokenBadge count={broken} /> : null}</>)}
@@ -141,6 +144,13 @@ function Navigation() {
 const BrokenBadge = ({ count }: { count: number }) => (
   <Badge size="xs" color="red" variant="light" tt="none" ml={6}>
     {count} broken
+  </Badge>
+);
+
+/** Says at every place of the page that runs wait for their turn. */
+const WaitingBadge = ({ count }: { count: number }) => (
+  <Badge size="xs" color="grape" variant="light" tt="none" ml={6}>
+    {count} waiting
   </Badge>
 );
 
@@ -219,10 +229,11 @@ const KEYS: [string[], string][] = [
   [["/"], "Search parameters or kinds, or filter the runs"],
   [["g", "s"], "Go to the studio"],
   [["g", "r"], "Go to the runs"],
+  [["g", "q"], "Go to the queue"],
   [["g", "c"], "Go to the comparison"],
   [["g", "m"], "Go to the maps"],
   [["g", "k"], "Go to the kinds"],
-  [["↑", "↓", "j", "k"], "Move between rows of the runs"],
+  [["↑", "↓", "j", "k"], "Move between rows of the runs or of the queue"],
   [["x"], "Select a row to compare"],
   [["enter"], "Open the run of a row"],
   [["+", "−"], "Enlarge or reduce the plan of a map"],

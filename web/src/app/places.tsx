@@ -34,7 +34,7 @@ export function NotFound() {
       title="There is no such page"
       action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}
     >
-      The address leads nowhere. The studio, the runs, the comparison, the maps and the kinds are in the head of the page.
+      The address leads nowhere. The studio, the runs, the queue, the comparison, the maps and the kinds are in the head of the page.
     </Empty>
   );
 }

@@ -4,6 +4,7 @@ import { createRootRoute, createRoute, createRouter, useNavigate } from "@tansta
 import { lazy, Suspense } from "react";
 import { ComparePage } from "../features/compare/ComparePage";
 import type { MapView } from "../features/maps/MapPage";
+import { QueuePage } from "../features/runs/QueuePage";
 import { RunPage } from "../features/runs/RunPage";
 import { RunsPage, type RunsView } from "../features/runs/RunsPage";
 import { Loading } from "../ui/State";
@@ -62,6 +63,8 @@ const runRoute = createRoute({
     return run === undefined ? <NotFound /> : <RunPage key={run} run={run} />;
   },
 });
+
+const queueRoute = createRoute({ getParentRoute: () => root, path: "/queue", component: QueuePage });
 
 const compareRoute = createRoute({
   getParentRoute: () => root,
@@ -140,7 +143,7 @@ const kindsRoute = createRoute({
 });
 
 export const router = createRouter({
-  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, compareRoute, mapsRoute, mapRoute, kindsRoute]),
+  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, queueRoute, compareRoute, mapsRoute, mapRoute, kindsRoute]),
 });
 
 declare module "@tanstack/react-router" {

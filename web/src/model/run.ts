@@ -25,6 +25,8 @@ export type Problem = Server["Problem"];
 export type Metric = Server["Metric"];
 export type Goal = Metric["goal"];
 export type Run = Filled<Server["Run"], { parameters: Changes }>;
+/** A run that goes on or waits for its turn. */
+export type Queued = Filled<Server["Queued"], { parameters: Changes }>;
 export type Channel = Server["Channel"];
 /** Why something happened. */
 export type Explanation = Server["Explanation"];
@@ -35,7 +37,7 @@ export type RunEvent = Server["Event"];
 export type RunDetail = Filled<Server["RunDetail"], { parameters: Changes; document: Tree }>;
 export type Trace = Server["Trace"];
 
-const LIVE: ReadonlySet<Status> = new Set<Status>(["starting", "running", "paused"]);
+const LIVE: ReadonlySet<Status> = new Set<Status>(["waiting", "starting", "running", "paused"]);
 
 /** Whether a run of this status can still change. */
 export const isLive = (status: Status | undefined): boolean => status !== undefined && LIVE.has(status);

@@ -163,9 +163,49 @@ export interface paths {
         put?: never;
         /**
          * Start Run
-         * @description Starts a run as fast as possible, watched by nobody; its row tells when it is done.
+         * @description Starts a run as fast as possible, watched by nobody, or lets it wait for its turn; its row tells when it is done.
          */
         post: operations["start_run_api_runs_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/queue": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Runs In Queue
+         * @description Runs that go on, then those that wait for their turn, in their order; those of other servers and of the command line too.
+         */
+        get: operations["runs_in_queue_api_queue_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cancel
+         * @description Takes a run out of the queue, or ends it; what was recorded is kept. Its row tells when it is over.
+         */
+        post: operations["cancel_api_runs__run__cancel_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -267,7 +307,7 @@ export interface paths {
         put?: never;
         /**
          * Start Live
-         * @description Starts a live run in a process of its own.
+         * @description Starts a live run in a process of its own, or lets it wait for its turn.
          */
         post: operations["start_live_api_live_post"];
         delete?: never;
@@ -367,7 +407,7 @@ export interface paths {
         put?: never;
         /**
          * Stop
-         * @description Ends the run; what was recorded is kept.
+         * @description Ends the run; what was recorded is kept. One that waits for its turn is cancelled.
          */
         post: operations["stop_api_live__run__stop_post"];
         delete?: never;
@@ -777,7 +817,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "done" | "stopped" | "failed";
+            status: "done" | "stopped" | "failed" | "cancelled";
             /** Error */
             error: string | null;
         };
@@ -1116,13 +1156,19 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "starting" | "running" | "paused" | "done" | "stopped" | "failed";
+            status: "waiting" | "starting" | "running" | "paused" | "done" | "stopped" | "failed" | "cancelled";
             /** Time */
             time: number;
             /** Pace */
             pace: number | "fast";
             /** Duration S */
             duration_s: number;
+            /**
+             * Position
+             * @description place among those that wait for their turn, from 1 on; 0 when it does not
+             * @default 0
+             */
+            position: number;
         };
         /**
          * Lost
@@ -2010,6 +2056,42 @@ export interface components {
             meaning: string;
         };
         /**
+         * Queued
+         * @description A run that goes on or waits for its turn, whoever has begun it; `parameters` are those that were set, by path.
+         */
+        Queued: {
+            /** Run */
+            run: number;
+            /** Scenario */
+            scenario: string;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "running" | "waiting";
+            /**
+             * Position
+             * @description place among those that wait for the same server, from 1 on; 0 when it goes on
+             */
+            position: number;
+            /** Created */
+            created: string;
+            /** Parameters */
+            parameters: {
+                [key: string]: unknown;
+            };
+            /**
+             * Time
+             * @description [s] up to which it has been recorded
+             */
+            time: number;
+            /**
+             * Duration
+             * @description [s] that it will take at most
+             */
+            duration: number;
+        };
+        /**
          * Refusal
          * @description The body of every answer with a status of 400 or more.
          */
@@ -2070,7 +2152,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "running" | "done" | "failed" | "stopped" | "killed";
+            status: "waiting" | "running" | "done" | "failed" | "stopped" | "killed" | "cancelled";
             /** Error */
             error: string | null;
             /** State Hash */
@@ -2113,7 +2195,7 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "running" | "done" | "failed" | "stopped" | "killed";
+            status: "waiting" | "running" | "done" | "failed" | "stopped" | "killed" | "cancelled";
             /** Error */
             error: string | null;
             /** State Hash */
@@ -2279,11 +2361,16 @@ export interface components {
         };
         /**
          * Started
-         * @description The number of a run that has begun.
+         * @description The number of a run that has begun, or that waits for its turn.
          */
         Started: {
             /** Run */
             run: number;
+            /**
+             * Position
+             * @description place among those that wait, from 1 on; 0 when it has begun
+             */
+            position: number;
         };
         /**
          * StateNews
@@ -2298,13 +2385,19 @@ export interface components {
              * Status
              * @enum {string}
              */
-            status: "starting" | "running" | "paused" | "done" | "stopped" | "failed";
+            status: "waiting" | "starting" | "running" | "paused" | "done" | "stopped" | "failed" | "cancelled";
             /** Time */
             time: number;
             /** Pace */
             pace: number | "fast";
             /** Duration S */
             duration_s: number;
+            /**
+             * Position
+             * @description place among those that wait for their turn, from 1 on; 0 when it does not
+             * @default 0
+             */
+            position: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -3503,6 +3596,228 @@ export interface operations {
             };
             /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
             401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    runs_in_queue_api_queue_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Queued"][];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    cancel_api_runs__run__cancel_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Run"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -5,6 +5,7 @@ import type { Status } from "../model/run";
 import { Icon } from "./Icon";
 
 const COLORS: Record<Status, string> = {
+  waiting: "grape",
   starting: "gray",
   running: "blue",
   paused: "yellow",
@@ -12,6 +13,7 @@ const COLORS: Record<Status, string> = {
   failed: "red",
   stopped: "gray",
   killed: "red",
+  cancelled: "gray",
 };
 
 interface Props {

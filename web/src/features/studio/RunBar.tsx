@@ -1,6 +1,7 @@
 /** Run, pause, step and stop; how fast, and how far the run is. */
 
 import { ActionIcon, Button, NativeSelect, Progress, Text, Tooltip } from "@mantine/core";
+import { Link } from "@tanstack/react-router";
 import type { Pace } from "../../api/types";
 import type { Status } from "../../model/run";
 import { isLive } from "../../model/run";
@@ -16,6 +17,8 @@ export interface Progressing {
   time: number;
   duration: number;
   factor: number;
+  /** Place among the runs that wait, from 1 on. */
+  position: number;
   error: string | null;
 }
 
@@ -118,7 +121,7 @@ function Motion({ progress, blocked, onPause, onResume, onStep, onStop }: Props)
         label="Step one tick, 20 ms (.)"
         onClick={onStep}
         reason={isLive(status) ? "" : blocked}
-        disabled={status === "running" || status === "starting"}
+        disabled={status === "running" || status === "starting" || status === "waiting"}
       />
       <Press id="stop" icon="stop" label="Stop" onClick={onStop} disabled={!isLive(status)} />
     </ActionIcon.Group>
@@ -175,6 +178,11 @@ function TimeShown({ progress, duration }: { progress: Progressing | undefined; 
             <Text span size="xs" fw={600} data-testid="current-run">
               #{progress.run}
             </Text>
+            {progress.position ? (
+              <Link to="/queue" data-testid="position">
+                place {progress.position}
+              </Link>
+            ) : null}
             <StatusBadge status={progress.status} error={progress.error} />
           </span>
         ) : null}

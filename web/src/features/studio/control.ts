@@ -66,10 +66,10 @@ function useStarter({ id, draft, update, seed, blocked }: Omit<ControlProps, "li
     const body = { scenario: id, set: changes, seed, pace, paused, ...(parent === null ? {} : { parent }) };
     start.mutate(body, {
       onError: (error) => notifyError(Object.keys(changes).length ? ofForm(error) : error),
-      onSuccess: ({ run }) => {
+      onSuccess: ({ run, status }) => {
         update({ parent: run });
         // A first step out of rest is one step, too; a run that is not up yet just stays at its start.
-        if (paused) order.mutate({ run, order: "step" });
+        if (paused && status !== "waiting") order.mutate({ run, order: "step" });
         navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run } });
       },
     });

@@ -24,7 +24,7 @@ export function useFarewell(live: LiveState | undefined, run: number | undefined
       <Link to="/runs/$run" params={{ run: String(run) }}>
         Show its metrics and charts
       </Link>,
-      status === "done" ? "teal" : status === "stopped" ? "gray" : "red",
+      status === "done" ? "teal" : status === "stopped" || status === "cancelled" ? "gray" : "red",
     );
   }, [status, run, client]);
 }

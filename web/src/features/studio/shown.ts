@@ -39,12 +39,13 @@ export function useShownRun(run: number | undefined, charted: readonly string[])
   };
 }
 
-const fromLive = ({ run, status, time, duration_s, real_time_factor, error }: LiveState): Progressing => ({
+const fromLive = ({ run, status, time, duration_s, real_time_factor, position, error }: LiveState): Progressing => ({
   run,
   status,
   time,
   duration: duration_s,
   factor: real_time_factor,
+  position,
   error,
 });
 
@@ -54,6 +55,7 @@ const fromStored = ({ run, status, sim_time_s, error, document }: RunDetail): Pr
   time: sim_time_s ?? 0,
   duration: durationOf(document) || (sim_time_s ?? 0),
   factor: 0,
+  position: 0,
   error,
 });
 

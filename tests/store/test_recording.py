@@ -1,0 +1,159 @@
+"""What a run records is on the disk while it goes on: a run that is killed, that fails or for which there is no room keeps what it had."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import psutil
+import pytest
+
+from studio import job
+from studio.errors import ScenarioError
+from studio.execution import shelf
+from studio.execution.simulation import simulation
+from studio.store import recording
+from studio.store.runs import open_runs, read_runs
+from tests.patience import until
+
+LONG = {"clock.duration": 3600}
+
+
+def running(sample, db, changes):
+    """A process that runs a scenario."""
+    code = (
+        "from studio import job; from studio.store.runs import open_runs;"
+        f"job.run(job.load({str(sample)!r}, {changes!r}), runs=open_runs({str(db)!r}))"
+    )
+    return subprocess.Popen([sys.executable, "-c", code])
+
+
+def recorded_until(db, time):
+    """Up to when a run has been recorded, when that is later than a time."""
+    return [last for _, folder in recording.found(db) if (last := recording.until(folder)) > time]
+
+
+def test_a_killed_run_keeps_what_it_had(sample, tmp_path):
+    """It is read where it lies, is in the database after the next start, and is what the same run has up to that time, bit by bit."""
+    db = tmp_path / "runs.db"
+    process = running(sample, db, LONG)
+    until(lambda: recorded_until(db, 3.0) and list(tmp_path.glob("runs.db.recording/*/log_0.arrays")), "three seconds of the run")
+    assert read_runs(db).trace(1, ["leader.speed"])["time"][-1] >= 3.0, "a run that goes on can be looked at"
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    seen = read_runs(db)
+    row, before = seen.find(1), seen.trace(1, ["leader.speed", "follower_1.gap", "follower_1.front.range"])
+    last = before["time"][-1]
+    assert (row.status, row.sim_time_s) == ("killed", last) and f"until {last:g} s is kept" in row.error
+    assert {each["name"] for each in seen.channels(1)} >= {"leader.speed", "leader.time_gap"} and seen.record(1).time[-1] == last
+    runs = open_runs(db)
+    row, after = runs.find(1), runs.trace(1, list(before)[1:])
+    assert (row.status, row.sim_time_s, row.state_hash) == ("killed", last, None) and f"until {last:g} s is kept" in row.error
+    assert row.metrics["min_gap"].value > 0 and not (tmp_path / "runs.db.recording").exists()
+    whole = job.run(job.load(sample, {"clock.duration": float(np.ceil(last))}))
+    for name, values in before.items():
+        expected = (whole.time if name == "time" else whole.trace(name))[: values.size]
+        assert values.tobytes() == after[name].tobytes() == expected.tobytes()
+    sent = runs.messages(1)
+    assert sent.time.size > 0 and np.array_equal(sent.time, whole.record.messages.time[: sent.time.size])
+    lost = [[each for each in events if each.kind == "message_lost"] for events in (runs.events(1), whole.record.happenings)]
+    assert lost[0] and lost[0] == lost[1][: len(lost[0])]
+
+
+def test_a_run_that_goes_on_is_left_alone(sample, tmp_path):
+    """Whoever opens the database meanwhile takes nothing in."""
+    db = tmp_path / "runs.db"
+    process = running(sample, db, LONG)
+    until(lambda: recorded_until(db, 0.5), "half a second of the run")
+    assert open_runs(db).find(1).status == "running" and recorded_until(db, 0.5)
+    process.kill()
+    process.wait()
+
+
+def test_an_interrupted_run_keeps_what_it_had(sample, tmp_path):
+    db = tmp_path / "runs.db"
+
+    def interrupt(share):
+        if share > 0.001:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        job.run(job.load(sample, LONG), runs=open_runs(db), progress=interrupt)
+    row = read_runs(db).find(1)
+    assert row.status == "stopped" and "KeyboardInterrupt" in row.error and row.sim_time_s >= 3.6
+    assert read_runs(db).trace(1, ["leader.speed"])["time"][-1] == row.sim_time_s and row.metrics
+
+
+def test_a_run_that_fills_the_disk_ends_and_keeps_what_it_had(sample, tmp_path):
+    """Files of this process may have 20 MB each; the third chunk of samples finds no room."""
+    changes = {"clock.duration": 60, "recording.traffic": True}
+    code = f"""
+import resource
+from studio import job
+from studio.store.runs import open_runs
+loaded = job.load({str(sample)!r}, {changes!r})
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000_000, 20_000_000))
+print(job.run(loaded, runs=open_runs("runs.db")).status)
+"""
+    told = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert told.stdout == "failed\n"
+    runs = read_runs(tmp_path / "runs.db")
+    row, kept = runs.find(1), runs.trace(1, ["leader.speed"])
+    assert row.status == "failed" and "no room left to record" in row.error and row.metrics["min_gap"].value > 0
+    assert 10.0 < row.sim_time_s < 60.0 and abs(kept["time"][-1] - row.sim_time_s) < 0.021
+    whole = job.run(job.load(sample, {"clock.duration": float(np.ceil(row.sim_time_s))}))
+    assert kept["leader.speed"].tobytes() == whole.trace("leader.speed")[: kept["time"].size].tobytes()
+
+
+def test_a_run_that_has_recorded_as_much_as_may_be_ends(sample, tmp_path):
+    loaded = job.load(sample, {"clock.duration": 40})
+    run = simulation(job.prepare(loaded), shelf=shelf.Folder(tmp_path, most=14_000_000))
+    while not run.is_over:
+        run.advance(100)
+    result = job.outcome(loaded, run)
+    assert result.status == "failed" and "as much as may be" in result.error and result.metrics["min_gap"].value > 0
+
+
+def test_memory_does_not_grow_with_the_run(sample, tmp_path):
+    """What a process has of its own, beside files that are mapped, is the same after 100 MB as after 10."""
+    loaded = job.load(sample, {"clock.duration": 3600, "recording.traffic": True, "traffic.count": 40, "recording.period": 0.02})
+    run = simulation(job.prepare(loaded), shelf=shelf.Folder(tmp_path))
+    own, sizes = psutil.Process(), []
+    for _ in range(4):
+        run.advance(2000)
+        memory = own.memory_info()
+        sizes.append(memory.rss - memory.shared)
+    assert run.recorder.count == 8000 and sum(each.stat().st_size for each in tmp_path.iterdir()) > 100e6
+    assert sizes[-1] - sizes[0] < 20e6
+
+
+def test_a_run_for_which_there_is_no_room_is_refused(sample, tmp_path, monkeypatch):
+    monkeypatch.setattr(job.shutil, "disk_usage", lambda path: job.shutil._ntuple_diskusage(100, 99, 1_000_000))
+    with pytest.raises(ScenarioError, match=r"(?s)too much.*25\.2 MB: 5 vehicles.*at most 0\.2 MB.*free on the disk"):
+        job.run(job.load(sample, {"clock.duration": 360}), runs=open_runs(tmp_path / "runs.db"))
+
+
+def test_a_recording_that_cannot_be_read_is_set_aside(sample, tmp_path):
+    """And holds up nobody."""
+    db = tmp_path / "runs.db"
+    process = running(sample, db, LONG)
+    until(lambda: recorded_until(db, 0.5), "half a second of the run")
+    process.kill()
+    process.wait()
+    ((_, folder),) = recording.found(db)
+    (folder / "about.jsonl").write_text("{}\n")
+    row = open_runs(db).find(1)
+    assert row.status == "killed" and f"damaged-{folder.name}" in row.error
+    assert (folder.parent / f"damaged-{folder.name}").is_dir() and open_runs(db).find(1) == row
+
+
+def test_what_was_not_written_whole_is_not_there(tmp_path):
+    kept = shelf.Folder(tmp_path)
+    kept.append("log", np.arange(3), np.ones((2, 2), np.float32))
+    kept.write("events", [{"a": 1}])
+    for name in ("log.jsonl", "events.jsonl"):
+        with Path(tmp_path, name).open("a") as file:
+            file.write('[12, [["<i8"')
+    ((first, second),) = shelf.Folder(tmp_path).appended("log")
+    assert first.tolist() == [0, 1, 2] and second.tolist() == [[1, 1], [1, 1]] and kept.lines("events") == [{"a": 1}]
