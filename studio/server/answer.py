@@ -604,6 +604,19 @@ class MapReport(BaseModel):
     seconds: float = Field(description="time that the import took [s]")
 
 
+class ReportFile(MapReport):
+    """All of a report.json that is told."""
+
+    model_config = ConfigDict(extra="allow", allow_inf_nan=False)
+
+    source: str
+    attribution: str
+    licence: str
+    bbox: str | None
+    bounds_m: tuple[float, float, float, float]
+    digest: str
+
+
 class MapCorrection(BaseModel):
     """A change of the tags of a map element: `tags` are set, `removed` are taken away."""
 

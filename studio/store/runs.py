@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
-from studio.errors import Problem, StoreError, UnknownError, short
+from studio.errors import Problem, StoreError, StudioError, UnknownError, short
 from studio.execution.happening import Happening, Number
 from studio.store import owner, waiting
 from studio.store.tables import open_database, read_database, reopen_database, unusable
@@ -175,7 +175,8 @@ class Runs:
                 result = waiting.read(file)
                 (row,) = result["runs"]
                 if any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]])):
-                    self.put({"metrics": [], "events": [], "pieces": []} | result)
+                    with self.intact(row["run"], "result"):
+                        self.put({name: [] for name in waiting.TABLES} | result)
                     file.unlink()
 
     def end(self, run: int, status: str, error: str) -> None:
@@ -204,7 +205,9 @@ class Runs:
         """Reading of what was kept of a run; when that is not as it was written, raises StoreError."""
         try:
             yield
-        except (ValueError, LookupError, TypeError, OSError, RuntimeError, AttributeError) as error:
+        except (StudioError, MemoryError):
+            raise
+        except Exception as error:  # what was damaged can be anything
             why = f"cannot be read ({type(error).__name__}: {short(str(error))})"
             problem = Problem(f"{what} of run {run}", why, remedy="run it again, or take a copy of the database")
             raise StoreError(f"Run {run} is damaged in {self.path}.", [problem]) from None
@@ -246,9 +249,13 @@ class Runs:
         """A row as it is now: one that says "running" although its process has gone was killed, unless its result waits."""
         if row["status"] != "running":
             return row
-        if found := waiting.of(self.path, row):
+        try:
+            found, why = waiting.of(self.path, row), KILLED
+        except StoreError as damaged:
+            found, why = None, str(damaged)
+        if found:
             return row | found[1] | {"error": f"{WAITS.format(found[0])} {found[1]['error'] or ''}".strip()}
-        return row | {"status": "killed", "error": KILLED} if owner.is_gone(row["process"], row["process_mark"]) else row
+        return row | {"status": "killed", "error": why} if owner.is_gone(row["process"], row["process_mark"]) else row
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""
