@@ -24,6 +24,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 
 LONGEST = 600  # characters of each part of a problem; what was sent may be of any length
+LONGEST_LIST = 50_000  # characters of all problems
 LONGEST_MESSAGE = 8000  # characters; the traceback of a user's own code may stand in it
 
 
@@ -60,7 +61,7 @@ class StudioError(Exception):
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.message = cut(self.message, LONGEST_MESSAGE)
+        self.message, self.problems = cut(self.message, LONGEST_MESSAGE), first(self.problems)
 
     def __str__(self) -> str:
         return "\n".join([self.message, *(f"  {problem}" for problem in self.problems)])
@@ -129,6 +130,17 @@ class SizeError(StudioError):
 
 class ServerError(StudioError):
     """The server cannot start."""
+
+
+def first(problems: list[Problem]) -> list[Problem]:
+    """The problems, or as many as can be told, and how many there are besides."""
+    kept, room = [], LONGEST_LIST
+    for each in problems:
+        room -= sum(map(len, vars(each).values()))
+        if room < 0:
+            return [*kept, Problem("", f"there are {len(problems) - len(kept)} more problems", remedy="mend these first")]
+        kept.append(each)
+    return kept
 
 
 def cut(text: str, limit: int) -> str:

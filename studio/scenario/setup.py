@@ -6,7 +6,7 @@ change(document, {path: value})        an exchange of a kind keeps the settings 
 
 from typing import Any
 
-from studio.errors import Problem, ScenarioError, UnknownError
+from studio.errors import Problem, ScenarioError, UnknownError, short
 from studio.kind import preset, registry
 from studio.scenario import edit, file, finding
 from studio.scenario.schema import Application, Scenario, json_schema, sort_at
@@ -65,7 +65,7 @@ def check_text(path: str, value: Any, where: str) -> None:
     try:
         is_text({path: value})
     except ValueError as error:
-        raise ScenarioError(f"{where} cannot be changed so.", [Problem(ascii(path), str(error), ascii(value), "Unicode")]) from None
+        raise ScenarioError(f"{where} cannot be changed so.", [Problem(short(path), str(error), short(value), "Unicode")]) from None
 
 
 def whole(earlier: list[str], path: str) -> list[str]:

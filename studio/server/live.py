@@ -9,7 +9,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable, Generator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from math import inf, isfinite
 from pathlib import Path
@@ -74,7 +74,8 @@ class LiveRun:
         except Gone as gone:
             status, reason = self.explanation(gone.code)
             if self.given_up:  # a row of a process that died by itself is found by whoever reads it next
-                reopen_runs(self.db).end(self.run, status, reason)
+                with closing(reopen_runs(self.db)) as runs:
+                    runs.end(self.run, status, reason)
             self.on_end_news(status, reason)
         finally:
             self.process.end()

@@ -225,9 +225,15 @@ class Runs:
     def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
         query = f"select * from runs where {where} order by run desc limit ?"
-        rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
-        metrics = self.metrics_of([row["run"] for row in rows])
-        return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+        try:
+            rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
+            metrics = self.metrics_of([row["run"] for row in rows])
+            return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+        except (LookupError, TypeError) as error:
+            problem = Problem(
+                "runs", f"have not the columns that they should have ({short(str(error))})", remedy="take a copy of the database"
+            )
+            raise StoreError(f"The list of runs is damaged in {self.path}.", [problem]) from None
 
     def rows(self, query: str, values=()) -> list[dict[str, Any]]:
         """Rows of a query as dictionaries."""

@@ -504,10 +504,6 @@ def scenario_torn(station: Station, chance: random.Random) -> None:
 
 FAULTS = (
     *(
-        Fault(f"application: {name}", misbehaving(name), name in ("interrupting", "forking"))
-        for name in ("raising", "hanging", *APPLICATIONS)
-    ),
-    *(
         Fault(f"worker: {each.name}", to_worker(each), each == signal.SIGKILL)
         for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGSTOP, signal.SIGSEGV, signal.SIGHUP)
     ),
@@ -541,6 +537,10 @@ FAULTS = (
     Fault("clock stepped backwards", stepped(-86400.0), False, own_clock),
     Fault("scenarios, maps and kinds gone", files_gone),
     Fault("scenario torn", scenario_torn, True),
+    *(
+        Fault(f"application: {name}", misbehaving(name), name in ("interrupting", "forking"))
+        for name in ("raising", "hanging", *APPLICATIONS)
+    ),
 )
 
 

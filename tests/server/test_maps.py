@@ -263,6 +263,8 @@ def test_an_upload_without_room_is_refused_before_it_comes(tmp_path):
 
 
 def test_an_upload_that_breaks_off_leaves_nothing(client, folder):
+    """In the folder, nor in what the server says."""
+
     def broken():
         yield b"<osm"
         raise OSError("the cable")
@@ -271,6 +273,7 @@ def test_an_upload_that_breaks_off_leaves_nothing(client, folder):
         client.post("/api/maps?name=half.osm", content=broken())
     until(lambda: not leftovers(folder), "a tidy folder")
     assert not (folder / "half").exists()
+    assert "Traceback" not in (folder.parent.parent / "server.log").read_text()
 
 
 # -- downloads, cancelling, crashes ------------------------------------------------------------------
@@ -512,6 +515,9 @@ def test_a_report_that_is_broken_is_told_in_the_list(tmp_path):
         ("source", 10**30),
         ("licence", None),
         ("digest", 5),
+        ("origin", {"latitude": 2**63, "longitude": 0}),
+        ("origin", {"latitude": 1, "longitude": 10**400}),
+        ("guesses", [{"latitude": "x", "longitude": 0}]),
         ("lane_km", "x"),
     ],
 )
