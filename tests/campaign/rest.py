@@ -213,6 +213,13 @@ class Siege:
             wrong = str(error)[:500]
         return f"{answer.status_code // 100}xx", took, f"{case.method} {case.formatted_path[:80]}: {wrong}" if wrong else ""
 
+    def afterwards(self, seed: int) -> Row:
+        """The server after all that: it has told no traceback where it was started."""
+        row, log = Row("rest", "the server afterwards", seed), self.station.log()
+        with row.trying(f"holds {self.station.held().memory:.0f} MB"):
+            assert "Traceback" not in log, log[log.index("Traceback") :][-1500:]
+        return row
+
     # -- below HTTP ----------------------------------------------------------------------------------
 
     def lines(self, kind: str, *, seed: int, count: int, seconds: float = 1e9) -> Row:
@@ -299,3 +306,4 @@ def rows(siege: Siege, *, seed: int, count: int, seconds: float, only: str = "")
         yield siege.lines(kind, seed=seed, count=count, seconds=each)
     for kind in [kind for kind in MODES if only in kind]:
         yield siege.described(MODES[kind], number=seed, count=min(count, MOST_CASES), seconds=3 * each)
+    yield siege.afterwards(seed)

@@ -51,6 +51,10 @@ def test_the_description(siege, kind):
     nothing_is_wrong(siege.described(rest.MODES[kind], number=SEED, count=CASES))
 
 
+def test_the_server_afterwards(siege):
+    nothing_is_wrong(siege.afterwards(SEED))
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_files(reader, name):
     nothing_is_wrong(files.campaign(reader, name, seed=SEED, count=MUTANTS))
