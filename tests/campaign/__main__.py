@@ -1,6 +1,8 @@
 """The long form: `python -m tests.campaign --parts rest,files,faults,soak --seed 1 --minutes 60 --out table.md`."""
 
 import argparse
+import signal
+import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -31,6 +33,7 @@ def arguments() -> argparse.Namespace:
 
 def main() -> int:
     """Runs the parts one after another; 1 when something was wrong."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # ends its servers too
     asked = arguments()
     parts = asked.parts.split(",")
     whole = sum(SHARES[each] for each in parts)

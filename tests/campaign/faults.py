@@ -370,7 +370,7 @@ def short_files() -> None:
 
 def files_that_cannot_grow(station: Station, chance: random.Random) -> None:
     """Runs until the database cannot grow any more: that is told, and the history can be read."""
-    for _ in range(12):
+    for _ in range(6):
         run = station.client.post("/api/live", json={"scenario": SCENARIO, "set": {"clock.duration": 20}, "pace": "fast"})
         assert run.status_code in (201, 503), run.text[:300]
         if run.status_code == 201:
@@ -532,15 +532,12 @@ FAULTS = (
     Fault("sockets lost", lost_sockets, True),
     Fault("slow reader", slow_reader),
     Fault("questions without an end", slow_askers),
-    Fault("upload that breaks off", upload_that_breaks_off, True),
-    Fault("clock stepped forwards", stepped(86400.0), True, own_clock),
+    Fault("upload that breaks off", upload_that_breaks_off),
+    Fault("clock stepped forwards", stepped(86400.0), False, own_clock),
     Fault("clock stepped backwards", stepped(-86400.0), False, own_clock),
     Fault("scenarios, maps and kinds gone", files_gone),
     Fault("scenario torn", scenario_torn, True),
-    *(
-        Fault(f"application: {name}", misbehaving(name), name in ("interrupting", "forking"))
-        for name in ("raising", "hanging", *APPLICATIONS)
-    ),
+    *(Fault(f"application: {name}", misbehaving(name), name == "interrupting") for name in ("raising", "hanging", *APPLICATIONS)),
 )
 
 

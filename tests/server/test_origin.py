@@ -1,5 +1,6 @@
 """Pages from elsewhere get 403, over HTTP and over WebSockets; our page and programs without Origin pass."""
 
+import asyncio
 import socket
 
 import pytest
@@ -7,6 +8,7 @@ from fastapi import FastAPI, Response, WebSocket
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from studio.server.door import told
 from studio.server.origin import SameOrigin
 from studio.server.serve import listen
 
@@ -139,3 +141,15 @@ def test_small_answers_are_sent_at_once():
         assert listening.proto == socket.IPPROTO_TCP
     finally:
         listening.close()
+
+
+def test_what_the_system_refuses_is_told_in_one_line(caplog):
+    """No descriptor for another connection: asyncio would say so with a traceback, again and again."""
+    loop = asyncio.new_event_loop()
+    told(loop, {"message": "no more connections", "exception": OSError(24, "Too many open files")})
+    assert [(each.getMessage(), each.exc_info) for each in caplog.records] == [
+        ("no more connections: [Errno 24] Too many open files", None)
+    ]
+    told(loop, {"message": "a mistake", "exception": ValueError()})
+    loop.close()
+    assert caplog.records[-1].exc_info
