@@ -13,6 +13,7 @@ import numpy as np
 
 from tests.campaign.station import Held, Station
 from tests.campaign.table import Row
+from tests.patience import until
 
 BLOCKS = 10  # means that the line goes through
 WARMING = 0.2  # share of the runs before anything is measured: caches fill
@@ -47,7 +48,8 @@ def once(station: Station, chance: random.Random) -> None:
     for order in chance.sample(("pause", "step", "resume", "step"), chance.randrange(4)):
         station.client.post(f"/api/live/{run}/{order}")
     station.client.post(f"/api/live/{run}/stop")
-    assert station.over(run) in ("done", "stopped")
+    # one that had to be ended looks killed until it is put down that it was stopped
+    until(lambda: station.status(run) in ("done", "stopped"), f"run {run} to be stopped")
     station.client.get(f"/api/runs/{run}").raise_for_status()
 
 
@@ -58,7 +60,7 @@ def campaign(station: Station, *, seed: int, count: int, seconds: float = 1e9) -
     for _ in range(count):
         if time.monotonic() > until:
             break
-        with runs.trying("ended"):
+        with runs.trying("ended as they should"):
             once(station, chance)
         held.append(station.held())
     return [runs, *(growth(name, [getattr(each, name) for each in held], seed) for name in Held._fields)]
