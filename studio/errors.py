@@ -23,16 +23,24 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 
+LONGEST = 600  # characters of each part of a problem; what was sent may be of any length
+LONGEST_LIST = 50_000  # characters of all problems
+LONGEST_MESSAGE = 8000  # characters; the traceback of a user's own code may stand in it
+
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong: where it stands, what is wrong, the value, what is allowed, how to mend it."""
+    """One thing that is wrong: where it stands, what is wrong, the value, what is allowed, how to mend it. Each of some length at most."""
 
     where: str
     what: str
     value: str = ""
     allowed: str = ""
     remedy: str = ""
+
+    def __post_init__(self) -> None:
+        for name, text in vars(self).items():
+            object.__setattr__(self, name, cut(text, LONGEST))
 
     def __str__(self) -> str:
         text = f"{self.where}: {self.what}"
@@ -51,6 +59,9 @@ class StudioError(Exception):
 
     message: str
     problems: list[Problem] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.message, self.problems = cut(self.message, LONGEST_MESSAGE), first(self.problems)
 
     def __str__(self) -> str:
         return "\n".join([self.message, *(f"  {problem}" for problem in self.problems)])
@@ -119,6 +130,27 @@ class SizeError(StudioError):
 
 class ServerError(StudioError):
     """The server cannot start."""
+
+
+def first(problems: list[Problem]) -> list[Problem]:
+    """The problems, or as many as can be told, and how many there are besides."""
+    kept, room = [], LONGEST_LIST
+    for each in problems:
+        room -= sum(map(len, vars(each).values()))
+        if room < 0:
+            return [*kept, Problem("", f"there are {len(problems) - len(kept)} more problems", remedy="mend these first")]
+        kept.append(each)
+    return kept
+
+
+def cut(text: str, limit: int) -> str:
+    """A text of at most so many characters: the middle of a longer one is left out.
+
+    >>> cut("there is nothing to see", 11)
+    'there … see'
+    """
+    kept = limit - 3
+    return text if len(text) <= limit else f"{text[: kept - kept // 3].rstrip()} … {text[len(text) - kept // 3 :].lstrip()}"
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

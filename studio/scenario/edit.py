@@ -1,5 +1,6 @@
 """Changes of a document by dotted path, as `--set`, the page and sweeps make them: short for a JSON patch (scenario/text/patch.py)."""
 
+from collections.abc import Iterator
 from typing import Any
 
 from studio.errors import Problem, ScenarioError, nearest
@@ -22,18 +23,19 @@ def parse_assignment(text: str) -> tuple[str, Any]:
         raise ScenarioError(f"--set {text} cannot be read.", error.problems) from None
 
 
-def known_paths(document: Any, prefix: str = "") -> list[str]:
-    """Paths of all leaves of a document."""
-    if isinstance(document, dict) and document:
-        return [path for key, value in document.items() for path in known_paths(value, f"{prefix}{key}.")]
-    if isinstance(document, list) and any(isinstance(item, dict) for item in document):
-        return [path for i, value in enumerate(document) for path in known_paths(value, f"{prefix}{i}.")]
-    return [prefix[:-1]]
+def leaves(document: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Paths and values of all leaves of a document, of keys with dots in them too."""
+    is_table = isinstance(document, list) and any(isinstance(item, dict) for item in document)
+    inner = document.items() if isinstance(document, dict) else enumerate(document) if is_table else ()
+    if not inner:
+        yield prefix[:-1], document
+    for key, value in inner:
+        yield from leaves(value, f"{prefix}{key}.")
 
 
 def flatten(document: Any) -> dict[str, Any]:
     """Leaves of a document by path."""
-    return {path: get(document, path) for path in known_paths(document)}
+    return dict(leaves(document))
 
 
 def get(document: Any, path: str) -> Any:
@@ -86,4 +88,4 @@ def nearest_path(full: dict, path: str) -> str:
         prefix = ".".join(parts) + "." if parts else ""
         text = nearest(wrong, [str(key) for key in level])
         return text.replace("did you mean '", f"did you mean '{prefix}")
-    return nearest(path, known_paths(full))
+    return nearest(path, flatten(full))

@@ -489,5 +489,7 @@ def child(node: dict, part: str) -> dict:
     for pattern, found in node.get("patternProperties", {}).items():
         if re.match(pattern, part):
             return found
+    for found in node.get("patternProperties", {}).values():
+        return found  # under a name that is wrong itself
     found = node.get("items") if part.isdigit() else node.get("additionalProperties")
     return found if isinstance(found, dict) else {}

@@ -6,11 +6,11 @@ change(document, {path: value})        an exchange of a kind keeps the settings 
 
 from typing import Any
 
-from studio.errors import Problem, ScenarioError, UnknownError
+from studio.errors import Problem, ScenarioError, UnknownError, short
 from studio.kind import preset, registry
 from studio.scenario import edit, file, finding
 from studio.scenario.schema import Application, Scenario, json_schema, sort_at
-from studio.scenario.text.patch import operation, patched
+from studio.scenario.text.patch import is_text, operation, patched
 
 
 def complete(document: dict[str, Any], where: str) -> Scenario:
@@ -44,8 +44,10 @@ def filled(where: str, path: str, group: Application) -> tuple[Application, list
 def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dict[str, Any]:
     """The document with the changes, not yet validated: fields that depend on each other can be changed together.
 
-    Raises ScenarioError for a path that does not exist.
+    Raises ScenarioError for a path that does not exist, or text that no file can hold.
     """
+    for path, value in changes.items():
+        check_text(path, value, where)
     full, rest = laid_out(document, where), dict(changes)
     for i, path in enumerate(changes):
         if sort := exchanged_sort(full, path):
@@ -56,6 +58,14 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
     for path, value in rest.items():
         document = patched(document, edit.assignment(document, full, path, value))
     return document
+
+
+def check_text(path: str, value: Any, where: str) -> None:
+    """Raises ScenarioError for half characters, which a command line may hand over."""
+    try:
+        is_text({path: value})
+    except ValueError as error:
+        raise ScenarioError(f"{where} cannot be changed so.", [Problem(short(path), str(error), short(value), "Unicode")]) from None
 
 
 def whole(earlier: list[str], path: str) -> list[str]:
@@ -87,7 +97,7 @@ def exchanged(document: dict[str, Any], full: dict[str, Any], sort: str, path: s
     at = f"{place}.parameters" if sort == "application" else place
     fields = settings_of(sort, name)
     given = edit.get(document, at) if edit.has(document, at) else None
-    kept = {key: value for key, value in (given or {}).items() if key in fields}
+    kept = {key: value for key, value in given.items() if key in fields} if isinstance(given, dict) else {}
     settings = kept | {key: rest.pop(f"{at}.{key}") for key in fields if f"{at}.{key}" in rest}
     if sort == "application":
         return patched(document, [operation("replace", path.split("."), value=name), operation("add", at.split("."), value=settings)])

@@ -624,6 +624,39 @@ class MapReport(BaseModel):
     seconds: float = Field(description="time that the import took [s]")
 
 
+class Place(BaseModel):
+    """Where something of a report lies, whatever else is told of it."""
+
+    model_config = ConfigDict(extra="allow", strict=True)
+
+    latitude: float = Field(ge=-90.0, le=90.0)
+    longitude: float = Field(ge=-180.0, le=180.0)
+
+
+class ReportPlaces(BaseModel):
+    """What a report.json says of places."""
+
+    model_config = ConfigDict(extra="allow")
+
+    origin: Place
+    guesses: list[Place] = []
+    skipped: list[Place] = []
+    corrected: list[Place] = []
+
+
+class ReportFile(MapReport):
+    """All of a report.json that is told."""
+
+    model_config = ConfigDict(extra="allow", allow_inf_nan=False)
+
+    source: str
+    attribution: str
+    licence: str
+    bbox: str | None
+    bounds_m: tuple[float, float, float, float]
+    digest: str
+
+
 class MapCorrection(BaseModel):
     """A change of the tags of a map element: `tags` are set, `removed` are taken away."""
 

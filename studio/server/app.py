@@ -11,6 +11,7 @@ from typing import Any
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
 from studio.errors import (
@@ -44,6 +45,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.exception_handler(StudioError)(refused)
     app.exception_handler(RequestValidationError)(misread)
     app.exception_handler(HTTPException)(unanswered)
+    app.exception_handler(ClientDisconnect)(left)
     app.exception_handler(Exception)(mistaken)
     app.include_router(routes.router)
     app.include_router(map_routes.router)
@@ -112,6 +114,11 @@ async def unanswered(request: Request, error: HTTPException) -> Response:
     where = "body" if error.status_code == 400 else f"{request.method} {short(request.url.path)}"
     problem = Problem(where, error.detail, allowed=(error.headers or {}).get("Allow", ""), remedy=SEE)
     return refusal(StudioError("The request cannot be answered.", [problem]), error.status_code)
+
+
+async def left(request: Request, error: ClientDisconnect) -> Response:
+    """Who asked has gone before the end of the question: nobody hears the answer, and nothing is wrong here."""
+    return refusal(SizeError("The body is not complete.", [Problem("body", "broke off", remedy="send it again")]), 400)
 
 
 async def mistaken(request: Request, error: Exception) -> Response:

@@ -4,13 +4,26 @@ Numerics, map tools and the scene take two seconds to import. The page needs non
 """
 
 import asyncio
+import logging
 from collections.abc import Callable
 from contextlib import AsyncExitStack
+from typing import Any
 
 from fastapi import FastAPI
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from studio.server.origin import INNER
+
+LOG = logging.getLogger(__name__)
+
+
+def told(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """One line for what the system refuses, such as another connection; the loop's own words for everything else."""
+    error = context.get("exception")
+    if isinstance(error, OSError):
+        LOG.warning("%s: %s", context["message"], error)
+    else:
+        loop.default_exception_handler(context)
 
 
 class Door:
@@ -34,6 +47,7 @@ class Door:
     async def live(self, receive: Receive, send: Send) -> None:
         """Opens when the server starts, closes when it ends."""
         await receive()
+        asyncio.get_running_loop().set_exception_handler(told)
         self.inside = asyncio.create_task(self.open())
         await send({"type": "lifespan.startup.complete"})
         await receive()

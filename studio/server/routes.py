@@ -1,5 +1,6 @@
 """REST under /api. Every route calls the function that the command line calls too."""
 
+from collections.abc import Iterator
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
@@ -24,6 +25,7 @@ from studio.store import trace
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
 from studio.store.queue import queue
+from studio.store.runs import Runs
 from studio.world import channel
 
 YAML: dict[int | str, dict[str, Any]] = {
@@ -41,6 +43,18 @@ def desk_of(request: Request) -> Desk:
 
 
 AtDesk = Annotated[Desk, Depends(desk_of)]
+
+
+def opened_runs(desk: AtDesk) -> Iterator[Runs]:
+    """The run database, for one request: closed when that is over, not when somebody clears up."""
+    kept = desk.runs()
+    try:
+        yield kept
+    finally:
+        kept.close()
+
+
+KeptRuns = Annotated[Runs, Depends(opened_runs)]
 
 
 @router.get("/info")
@@ -139,10 +153,10 @@ def measure_of(kind: Kind) -> answer.Measure:
 
 
 @router.get("/runs")
-def runs(desk: AtDesk, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.Run]:  # fmt: skip
+def runs(kept: KeptRuns, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.Run]:
     """Runs, newest first."""
     where, values = ("scenario = ?", [scenario]) if scenario else ("1", [])
-    return [answer.Run(**row.as_json()) for row in desk.runs().select(where=where, values=values, limit=limit)]
+    return [answer.Run(**row.as_json()) for row in kept.select(where=where, values=values, limit=limit)]
 
 
 @router.post("/runs", status_code=202)
@@ -165,9 +179,8 @@ def cancel(run: int, desk: AtDesk) -> answer.Run:
 
 
 @router.get("/runs/{run}")
-def run(run: int, desk: AtDesk) -> answer.RunDetail:
+def run(run: int, kept: KeptRuns) -> answer.RunDetail:
     """One run with its scenario, channels and events."""
-    kept = desk.runs()
     row = kept.find(run)
     events = [answer.event(each) for each in kept.events(run)]
     return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events)
@@ -176,13 +189,12 @@ def run(run: int, desk: AtDesk) -> answer.RunDetail:
 @router.get("/runs/{run}/trace")
 def run_trace(
     run: int,
-    desk: AtDesk,
+    kept: KeptRuns,
     channels: Annotated[str, Query(description="names, separated by commas")],
     points: Annotated[int, Query(ge=2, le=1_000_000, description="about as many rows are returned; extremes are kept")] = 2000,
 ) -> answer.Trace:
     """Selected channels of a run."""
     names = [name.strip() for name in channels.split(",") if name.strip()]
-    kept = desk.runs()
     units = {each["name"]: each["unit"] for each in kept.channels(run)}
     columns = trace.decimate(kept.trace(run, names), points)
     values = {name: answer.TraceColumn(unit=units[name], values=plain(columns[name])) for name in names}
@@ -191,16 +203,16 @@ def run_trace(
 
 @router.get("/runs/{run}/explanation")
 def run_explanation(
-    run: int, desk: AtDesk, event: Annotated[str, Query(description="number in this list, or kind; all without it")] = ""
+    run: int, kept: KeptRuns, event: Annotated[str, Query(description="number in this list, or kind; all without it")] = ""
 ) -> list[answer.Explanation]:
     """Why collisions, near misses and hard brakes happened in a run."""
-    return [answer.Explanation(**each.as_json(), lines=each.lines) for each in explanation(desk.runs(), run, event)]
+    return [answer.Explanation(**each.as_json(), lines=each.lines) for each in explanation(kept, run, event)]
 
 
 @router.get("/compare")
-def compare(a: int, b: int, desk: AtDesk) -> answer.Comparison:
+def compare(a: int, b: int, kept: KeptRuns) -> answer.Comparison:
     """Two runs side by side."""
-    return answer.Comparison(**compare_runs(desk.runs(), a, b))
+    return answer.Comparison(**compare_runs(kept, a, b))
 
 
 @router.get("/live")

@@ -255,7 +255,7 @@ def start(pipe: Connection, order: Order) -> None:
         ended(runs, number, "killed", SERVER_ENDED)
     except StoreError as error:
         pipe.send(("end", ended(runs, number, "failed", str(error)), str(error)))
-    except Exception:
+    except BaseException:  # a user's code may raise anything, an interrupt too
         pipe.send(("end", ended(runs, number, "failed", traceback.format_exc()), traceback.format_exc()))
 
 

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 from sqlite_utils import Database
 
 from studio.assess.metric import Measured
-from studio.errors import Problem, StoreError, UnknownError, short
+from studio.errors import Problem, StoreError, StudioError, UnknownError, short
 from studio.execution.happening import Happening, Number
 from studio.store import owner, recording, waiting
 from studio.store.tables import open_database, read_database, reopen_database, unusable
@@ -292,7 +292,8 @@ class Runs:
         (row,) = result["runs"]
         belongs = any(waiting.belongs(row, each) for each in self.rows("select * from runs where run = ?", [row["run"]]))
         if belongs:
-            self.put({"metrics": [], "events": [], "pieces": []} | result)
+            with self.intact(row["run"], "result"):
+                self.put({name: [] for name in waiting.TABLES} | result)
         return belongs
 
     def end(self, run: int, status: str, error: str) -> None:
@@ -321,7 +322,9 @@ class Runs:
         """Reading of what was kept of a run; when that is not as it was written, raises StoreError."""
         try:
             yield
-        except (ValueError, LookupError, TypeError, OSError, RuntimeError, AttributeError) as error:
+        except (StudioError, MemoryError):
+            raise
+        except Exception as error:  # what was damaged can be anything
             why = f"cannot be read ({type(error).__name__}: {short(str(error))})"
             problem = Problem(f"{what} of run {run}", why, remedy="run it again, or take a copy of the database")
             raise StoreError(f"Run {run} is damaged in {self.path}.", [problem]) from None
@@ -339,10 +342,16 @@ class Runs:
     def select(self, *, where: str = "1", values: Sequence[Any] = (), limit: int = -1) -> list[Row]:
         """Runs, newest first, with their metrics."""
         query = f"select * from runs where {where} order by run desc limit ?"
-        with self.looking():
-            rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
-            metrics = self.metrics_of([row["run"] for row in rows])
-        return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+        try:
+            with self.looking():
+                rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
+                metrics = self.metrics_of([row["run"] for row in rows])
+            return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+        except (LookupError, TypeError) as error:
+            problem = Problem(
+                "runs", f"have not the columns that they should have ({short(str(error))})", remedy="take a copy of the database"
+            )
+            raise StoreError(f"The list of runs is damaged in {self.path}.", [problem]) from None
 
     @contextmanager
     def looking(self) -> Generator[None]:
@@ -379,12 +388,16 @@ class Runs:
             return row | {"status": "cancelled", "error": LEFT}
         if row["status"] != "running":
             return row
-        if found := waiting.of(self.path, row):
+        try:
+            found, why = waiting.of(self.path, row), KILLED
+        except StoreError as damaged:
+            found, why = None, str(damaged)
+        if found:
             return row | found[1] | {"error": f"{WAITS.format(found[0])} {found[1]['error'] or ''}".strip()}
         if not owner.is_gone(row["process"], row["process_mark"]):
             return row
         folder = recording.folder_of(self.path, row)
-        seen = row | {"status": "killed", "error": KILLED} | recording.ending(folder)
+        seen = row | {"status": "killed", "error": why} | recording.ending(folder)
         last = recording.until(folder)
         return seen | {"error": f"{seen['error']} {UNTIL.format(last)}", "sim_time_s": last} if last else seen
 

@@ -96,9 +96,14 @@ def read(file: Path, tables: tuple[str, ...] = tuple(TABLES)) -> Result:
         with closing(sqlite3.connect(f"{file.absolute().as_uri()}?mode=ro", uri=True)) as connection:
             database = Database(connection)
             present = set(database.table_names())
-            result = {name: list(database.table(name).rows) for name in tables if name in present}
-    except sqlite3.Error as error:
-        raise StoreError(f"{file} cannot be read.", [Problem(str(file), str(error))]) from None
-    if len(result.get("runs", ())) != 1 or not {"run", "status", "error", *OWNER} <= result["runs"][0].keys():
-        raise StoreError(f"{file} is no result that waits.", [Problem(str(file), "does not hold the row of one run")])
-    return result
+            found = {name: list(database.table(name).rows) for name in tables if name in present}
+    except (sqlite3.Error, UnicodeError) as error:
+        raise damaged(file, str(error)) from None
+    if len(found.get("runs", ())) != 1 or not found["runs"][0].keys() >= {"run", "status", "error", *OWNER}:
+        raise damaged(file, "is not the result of one run")
+    return found
+
+
+def damaged(file: Path, why: str) -> StoreError:
+    """What is told of a file that is not as it was written."""
+    return StoreError(f"{file} cannot be read.", [Problem(str(file), why, remedy="move it elsewhere, and run it again")])

@@ -141,3 +141,25 @@ def test_fields_that_depend_on_each_other_change_together(sample):
 def test_values_that_yaml_chokes_on(value):
     with pytest.raises(ScenarioError, match="--set title"):
         edit.parse_assignment(f"title={value}")
+
+
+def test_leaves_are_found_whatever_their_names_are():
+    """A name may hold dots, or be none at all."""
+    odd = {"a.b": {"": 1, "c": []}, "d": [{"e": 2}], "f": {}}
+    assert edit.flatten(odd) == {"a.b.": 1, "a.b.c": [], "d.0.e": 2, "f": {}}
+
+
+@pytest.mark.parametrize("whole", ["x", [], 5, [{}]])
+@pytest.mark.parametrize("path", ["vehicles.leader.driver", "applications.platoon", "radio"])
+def test_a_kind_in_what_is_none(sample, path, whole):
+    """What is set as a whole before may be anything: that is refused, whatever is set in it afterwards."""
+    last = "application" if path.startswith("applications") else "kind"
+    with pytest.raises(ScenarioError):
+        job.load(sample, {path: whole, f"{path}.{last}": "cacc"})
+
+
+@pytest.mark.parametrize("changes", [{"title": "\udcff"}, {"\ud800": 1}, {"vehicles": {"a": ["\udfff"]}}, {"seed": 10**5000}])
+def test_what_no_file_can_hold(sample, changes):
+    """A command line hands over bytes that are no text as half characters."""
+    with pytest.raises(ScenarioError, match="cannot be changed so"):
+        job.load(sample, changes)

@@ -13,7 +13,7 @@ import pytest
 import yaml
 
 from studio import job
-from studio.errors import ServerError
+from studio.errors import MapError, ServerError
 from studio.road import load
 from studio.server import maps as server_maps
 from studio.server.maps import job as map_job
@@ -263,6 +263,8 @@ def test_an_upload_without_room_is_refused_before_it_comes(tmp_path):
 
 
 def test_an_upload_that_breaks_off_leaves_nothing(client, folder):
+    """In the folder, nor in what the server says."""
+
     def broken():
         yield b"<osm"
         raise OSError("the cable")
@@ -271,6 +273,7 @@ def test_an_upload_that_breaks_off_leaves_nothing(client, folder):
         client.post("/api/maps?name=half.osm", content=broken())
     until(lambda: not leftovers(folder), "a tidy folder")
     assert not (folder / "half").exists()
+    assert "Traceback" not in (folder.parent.parent / "server.log").read_text()
 
 
 # -- downloads, cancelling, crashes ------------------------------------------------------------------
@@ -501,6 +504,36 @@ def test_a_report_that_is_broken_is_told_in_the_list(tmp_path):
         (tmp_path / "maps" / "odd" / "report.json").write_text(text)
         (row,) = server_maps.Maps(tmp_path).rows()
         assert "import the map again" in row.problem
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("bounds_m", 10**20),
+        ("bounds_m", [[], 0, 0, 0]),
+        ("bbox", -1),
+        ("source", 10**30),
+        ("licence", None),
+        ("digest", 5),
+        ("origin", {"latitude": 2**63, "longitude": 0}),
+        ("origin", {"latitude": 1, "longitude": 10**400}),
+        ("guesses", [{"latitude": "x", "longitude": 0}]),
+        ("lane_km", "x"),
+    ],
+)
+def test_a_report_with_one_field_that_is_broken_is_told(folder, perth, field, value):
+    """Whatever is told of an import is looked at before: the list tells of it, and the map itself is refused."""
+    report = folder / perth / "report.json"
+    good = report.read_bytes()
+    try:
+        report.write_text(json.dumps(json.loads(good) | {field: value}))
+        maps = server_maps.Maps(folder.parent)
+        (row,) = [each for each in maps.rows() if each.id == perth]
+        assert "import the map again" in row.problem
+        with pytest.raises(MapError, match="import the map again"):
+            maps.detail(perth)
+    finally:
+        report.write_bytes(good)
 
 
 def test_names_for_the_disk():

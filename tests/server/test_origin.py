@@ -1,11 +1,16 @@
 """Pages from elsewhere get 403, over HTTP and over WebSockets; our page and programs without Origin pass."""
 
+import asyncio
+import socket
+
 import pytest
 from fastapi import FastAPI, Response, WebSocket
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
+from studio.server.door import told
 from studio.server.origin import SameOrigin
+from studio.server.serve import listen
 
 OURS = "127.0.0.1:8000"
 
@@ -18,7 +23,7 @@ def client(**options) -> TestClient:
         return "here"
 
     @app.websocket("/socket")
-    async def socket(connection: WebSocket) -> None:
+    async def speak(connection: WebSocket) -> None:
         await connection.accept()
         await connection.send_text("here")
         await connection.close()
@@ -127,3 +132,24 @@ def test_every_answer_says_what_a_browser_may_do_with_it():
             assert answer.headers["cross-origin-resource-policy"] == "same-origin"
             assert "frame-ancestors 'none'" in answer.headers["content-security-policy"]
         assert here.get("/own").headers.get_list("content-security-policy") == ["default-src 'self'"]
+
+
+def test_small_answers_are_sent_at_once():
+    """asyncio takes Nagle's delay only from a socket that names its protocol; with it, an answer on a line that is kept waits 40 ms."""
+    listening = listen("127.0.0.1", 0)
+    try:
+        assert listening.proto == socket.IPPROTO_TCP
+    finally:
+        listening.close()
+
+
+def test_what_the_system_refuses_is_told_in_one_line(caplog):
+    """No descriptor for another connection: asyncio would say so with a traceback, again and again."""
+    loop = asyncio.new_event_loop()
+    told(loop, {"message": "no more connections", "exception": OSError(24, "Too many open files")})
+    assert [(each.getMessage(), each.exc_info) for each in caplog.records] == [
+        ("no more connections: [Errno 24] Too many open files", None)
+    ]
+    told(loop, {"message": "a mistake", "exception": ValueError()})
+    loop.close()
+    assert caplog.records[-1].exc_info

@@ -3,6 +3,7 @@
 import json
 import os
 
+import psutil
 import pytest
 
 from studio import job
@@ -288,3 +289,11 @@ def test_the_glossary_explains_every_channel_and_metric(client, pair):
     assert all(each["meaning"] for each in found["channels"])
     assert all(each["title"] and each["explanation"] for each in found["metrics"])
     assert metrics["min_ttc"]["title"] == "Least time to collision" and metrics["min_ttc"]["goal"] == "higher"
+
+
+def test_a_database_is_closed_when_its_request_is_over(client, pair, server):
+    """Whatever has been asked, and whether it was refused: no descriptor waits for somebody to clear up."""
+    for address in ("runs", "runs/1", "runs/999", "runs/1/trace?channels=leader.speed", "runs/1/explanation", "compare?a=1&b=2"):
+        client.get(f"/api/{address}")
+    process = psutil.Process(server[2].pid)
+    until(lambda: not [each for each in process.open_files() if "runs.db" in each.path], "the database to be closed")

@@ -146,6 +146,8 @@ DAMAGES = {
     "events that are none": "update events set numbers = '7', units = 'x'",
     "metrics about nobody": "update metrics set subject = 'x'",
     "no table": "drop table metrics",
+    "columns of another name": "alter table runs rename column scenario_hash to hash",
+    "no numbers of runs": "alter table runs rename column run to number",
 }
 
 

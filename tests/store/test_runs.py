@@ -293,3 +293,13 @@ def test_a_file_of_the_first_layout_keeps_its_events(tmp_path):
     with runs.writing():
         runs.database.table("events").insert(event_row(1, newer))
     assert runs.events(1)[1] == newer and runs.find(1).status == "done"
+
+
+def test_a_damaged_digest_is_told(sample, tmp_path):
+    """One that is a number, larger than any of SQLite's."""
+    runs = open_runs(tmp_path / "runs.db")
+    row = job.run(job.load(sample, {"clock.duration": 0.1}), runs=runs).row
+    runs.database.execute("update runs set kinds = ?", ['{"driver.attentive": 99999999999999999999999}'])
+    runs.database.conn.commit()
+    with pytest.raises(StoreError, match=f"Run {row.run} is damaged"):
+        runs.sources(runs.find(row.run))

@@ -114,3 +114,26 @@ def test_a_result_goes_into_no_other_database(sample, tmp_path):
     first = job.run(short(sample), runs=open_runs(db))
     assert open_runs(db).find(1) == first.row
     assert len(list(waiting.found(db))) == 1
+
+
+@pytest.mark.parametrize(
+    "damage", ["delete from runs", "insert into runs select * from runs", "alter table runs drop column created", "no SQLite file"]
+)
+def test_a_damaged_result_is_told_and_holds_up_nobody(sample, tmp_path, damage):
+    """What waits there waits on; the list can be read, other results go in, and new runs begin."""
+    db = tmp_path / "runs.db"
+    _, holder = run_refused(sample, db, LOCKED)
+    holder.close()
+    (file,) = waiting.found(db)
+    if damage == "no SQLite file":
+        file.write_bytes(b"noise" * 1000)
+    else:
+        with sqlite3.connect(file) as connection:
+            connection.executescript(f"create table kept as select * from runs; drop table runs; alter table kept rename to runs; {damage}")
+    with sqlite3.connect(db) as connection:
+        connection.execute(f"update runs set process = {NOBODY}")
+    (row,) = read_runs(db).select()
+    assert row.status == "killed" and str(file) in row.error
+    runs = open_runs(db)
+    assert job.run(short(sample), runs=runs).row.status == "done"
+    assert list(waiting.found(db)) == [file]

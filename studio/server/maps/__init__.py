@@ -211,7 +211,8 @@ def report_of(path: Path) -> dict[str, Any]:
     """The report of an import's folder; raises MapError."""
     try:
         text = json.loads((path / folder.REPORT).read_text(encoding="utf-8"))
-        answer.MapReport(**numbered(text, (text["origin"]["latitude"], text["origin"]["longitude"])))
+        answer.ReportPlaces.model_validate(text)
+        answer.ReportFile(**numbered(text, (text["origin"]["latitude"], text["origin"]["longitude"])))
         return text
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise MapError(f"{path.name}: its {folder.REPORT} cannot be read; import the map again") from None

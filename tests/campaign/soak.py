@@ -1,0 +1,81 @@
+"""Soak: live runs begun and ended one after another, and what the server holds while they come and go.
+
+Growth is the slope of a straight line through what was held after each run, with the uncertainty of that slope. Neighbouring values
+depend on each other, so the uncertainty is that of the means of blocks, which do not.
+"""
+
+import random
+import time
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from tests.campaign.station import Held, Station
+from tests.campaign.table import Row
+from tests.patience import until
+
+BLOCKS = 10  # means that the line goes through
+WARMING = 0.2  # share of the runs before anything is measured: caches fill
+SURE = 3.0  # standard deviations of a slope that is growth
+MOST_OVER = 16  # runs that a server remembers, and a little more: those grow at first
+LEAST = Held(memory=5.0, descriptors=1.0, threads=1.0, processes=1.0)  # over all runs: less is none
+
+
+class Slope(NamedTuple):
+    """How something grows with each run."""
+
+    value: float
+    deviation: float
+
+    def __str__(self) -> str:
+        return f"{self.value:+.4f} ± {self.deviation:.4f}"
+
+
+def slope(values: list[float]) -> Slope:
+    """Of a straight line through the means of blocks of values, per value."""
+    blocks = [float(np.mean(each)) for each in np.array_split(np.array(values), min(BLOCKS, len(values)))]
+    at = np.arange(len(blocks), dtype=float) * len(values) / len(blocks)
+    x, y = at - at.mean(), np.array(blocks) - np.mean(blocks)
+    value = float((x * y).sum() / (x * x).sum())
+    rest = y - value * x
+    return Slope(value, sqrt(float((rest * rest).sum()) / max(len(blocks) - 2, 1) / float((x * x).sum())))
+
+
+def once(station: Station, chance: random.Random) -> None:
+    """A live run that is begun, perhaps paused, stepped, looked at, and ended."""
+    run = station.live(set={"clock.duration": chance.choice((0.2, 2, 60))}, pace=chance.choice(("fast", 5.0)), paused=chance.random() < 0.3)
+    for order in chance.sample(("pause", "step", "resume", "step"), chance.randrange(4)):
+        station.client.post(f"/api/live/{run}/{order}")
+    station.client.post(f"/api/live/{run}/stop")
+    # one that had to be ended looks killed until it is put down that it was stopped
+    until(lambda: station.status(run) in ("done", "stopped"), f"run {run} to be stopped")
+    station.client.get(f"/api/runs/{run}").raise_for_status()
+
+
+def campaign(station: Station, *, seed: int, count: int, seconds: float = 1e9) -> list[Row]:
+    """So many runs, or as many as there is time for; a row for the runs, and one for each thing that is held."""
+    runs, held, until = Row("soak", "live runs", seed), [], time.monotonic() + seconds
+    chance = random.Random(f"{seed}/soak")
+    for _ in range(count):
+        if time.monotonic() > until:
+            break
+        with runs.trying("ended as they should"):
+            once(station, chance)
+        held.append(station.held())
+    return [runs, *(growth(name, [getattr(each, name) for each in held], seed) for name in Held._fields)]
+
+
+def growth(name: str, values: list[float], seed: int) -> Row:
+    """Whether something grows."""
+    row = Row("soak", f"{name} held", seed)
+    steady = values[min(int(WARMING * len(values)) + MOST_OVER, len(values) // 2) :]
+    if len(steady) < 3:
+        row.blame(f"{len(values)} values are too few")
+        return row
+    found = slope(steady)
+    row.tried = len(steady)
+    row.came[f"{np.mean(steady[:5]):.1f} at first, {np.mean(steady[-5:]):.1f} at last, {found} a run"] = 1
+    if found.value > SURE * found.deviation and found.value * len(steady) > getattr(LEAST, name):
+        row.blame(f"grows by {found} a run")
+    return row
