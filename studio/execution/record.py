@@ -315,14 +315,16 @@ class Recorder:
     trail: Trail
     probe_share: list[slice]
     shelf: Shelf
-    blocks: Roll = field(init=False)
+    times_of: Roll = field(init=False)
+    values_of: Roll = field(init=False)  # a sample lies in one piece
     progress: np.ndarray = field(init=False)  # how many samples there are, up to when [s], for who finds the shelf without its process
     now: Chunk = field(init=False)  # the last chunk
     count: int = 0
     sample: Callable[[int, int], None] = field(init=False)  # writes the channels to a place of the last chunk
 
     def __post_init__(self) -> None:
-        self.blocks = self.shelf.roll("values", (self.room, 1 + len(CHANNELS) * self.columns.size))
+        self.times_of = self.shelf.roll("times", (self.room,))
+        self.values_of = self.shelf.roll("values", (self.room, len(CHANNELS), self.columns.size))
         self.progress = self.shelf.roll("progress", (2,)).begin()
         self.progress[:] = 0.0
 
@@ -331,7 +333,7 @@ class Recorder:
         if world.clock.k % self.every == 0:
             place = self.count % self.room
             if place == 0:
-                self.now = self.chunk(self.blocks.begin())
+                self.now = Chunk(self.times_of.begin(), self.values_of.begin())
                 self.sample = channel.sampler(world, self.columns, self.now.values)
             self.now.time[place] = world.clock.time
             self.sample(place, k)
@@ -345,14 +347,15 @@ class Recorder:
         """How many samples a chunk holds."""
         return max(min(CHUNK // (8 * (1 + len(CHANNELS) * self.columns.size)), self.most), 1)
 
-    def chunk(self, block: np.ndarray) -> Chunk:
-        """A block as times and values: a sample lies in one piece."""
-        return Chunk(block[:, 0], block[:, 1:].reshape(len(block), len(CHANNELS), self.columns.size))
+    def chunk(self, number: int) -> Chunk:
+        """One that has begun."""
+        return Chunk(self.times_of[number], self.values_of[number])
 
     def chunks(self, count: int) -> Iterator[Chunk]:
         """The first samples, chunk by chunk."""
         for first in range(0, count, self.room):
-            yield self.chunk(self.blocks[first // self.room][: count - first])
+            chunk, here = self.chunk(first // self.room), slice(count - first)
+            yield Chunk(chunk.time[here], chunk.values[here])
 
     def times(self, count: int) -> np.ndarray:
         """Times of the first samples [s]."""
@@ -369,7 +372,7 @@ class Recorder:
 
     def samples(self, numbers: list[int]) -> tuple[np.ndarray, np.ndarray]:
         """Times and values of some samples, of all worlds."""
-        chunks = {i: self.chunk(self.blocks[i]) for i in {number // self.room for number in numbers}}
+        chunks = {i: self.chunk(i) for i in {number // self.room for number in numbers}}
         found = [(chunks[i // self.room], i % self.room) for i in numbers]
         values = np.array([chunk.values[place] for chunk, place in found])
         return np.array([chunk.time[place] for chunk, place in found]), np.moveaxis(values, 0, -1)

@@ -4,7 +4,7 @@ A tyre past its peak of slip transmits less than it could: its use of adhesion i
 kept as one number, of a bit for each.
 """
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
 from studio.model import adhesion, tyre
 from studio.rows import Role, Table
 from studio.vehicle.contact import MU
@@ -29,14 +29,55 @@ SLIDING = ADHESION.row(
 def use(columns, n, tyres, tyres_of, wheels, ground, values):
     """Use of adhesion of some of n vehicles, float64[wheel, vehicle]; tyres_of int64[2, n] are those of the front and the rear axle.
 
+    Vehicles that stand side by side on the same tyres are gone through together, wheel by wheel, in vector registers.
+    """
+    values[SLIDING] = 0.0
+    first = 0
+    while first < columns.size:
+        end = first + alike(first, columns, tyres_of)
+        for corner in range(4):
+            t, w = tyre_at(tyres, tyres_of[corner // 2, columns[first]]), corner * n + columns[first]
+            run = slice(w, w + end - first)
+            F_x, F_y, F_z, mu = wheels[F_X, run], wheels[F_Y, run], wheels[F_Z, run], ground[MU, run]
+            use_corner(t, F_x, F_y, F_z, mu, values[corner, first:end])
+            slide(t, corner, wheels[KAPPA, run], wheels[ALPHA, run], F_z, mu, values[SLIDING, first:end])
+        first = end
+
+
+@inlined
+def alike(first, columns, tyres_of):
+    """How many of the vehicles from one on stand side by side on the same tyres."""
+    v, count = columns[first], 1
+    while first + count < columns.size and columns[first + count] == v + count and has_same(v, v + count, tyres_of):
+        count += 1
+    return count
+
+
+@inlined
+def has_same(v, other, tyres_of):
+    """Whether two vehicles have the same tyres."""
+    return tyres_of[0, v] == tyres_of[0, other] and tyres_of[1, v] == tyres_of[1, other]
+
+
+@inlined
+def load(t, F_z):
+    """The load [N] that counts."""
+    return min(F_z, OVERLOAD * t.LFZO * t.FNOMIN)
+
+
+@inlined
+def use_corner(t, F_x, F_y, F_z, mu, values):
+    """Use of adhesion of one wheel of several vehicles.
+
     Forces are those that have just acted. Where the ground has become slippery since, they are more than it gives now: all of it is used.
     """
-    for i in range(columns.size):
-        values[SLIDING, i] = 0.0
-        for corner in range(4):
-            w, side = corner * n + columns[i], 1.0 - 2.0 * (corner % 2)
-            t = tyre_at(tyres, tyres_of[corner // 2, columns[i]])
-            F = min(wheels[F_Z, w], OVERLOAD * t.LFZO * t.FNOMIN)
-            values[corner, i] = min(adhesion.used(t, wheels[F_X, w], wheels[F_Y, w], F, ground[MU, w]), 1.0)
-            if tyre.slides(t, wheels[KAPPA, w], side * wheels[ALPHA, w], F, ground[MU, w]):
-                values[SLIDING, i] += 1 << corner
+    for i in range(values.size):
+        values[i] = min(adhesion.used(t, F_x[i], F_y[i], load(t, F_z[i]), mu[i]), 1.0)
+
+
+@inlined
+def slide(t, corner, kappa, alpha, F_z, mu, values):
+    """Adds the bit of a corner for those whose tyre is past its peak there."""
+    side, bit = 1.0 - 2.0 * (corner % 2), float(1 << corner)
+    for i in range(values.size):
+        values[i] += bit if tyre.slides(t, kappa[i], side * alpha[i], load(t, F_z[i]), mu[i]) else 0.0
