@@ -9,6 +9,7 @@ import shapely
 from studio.model.radio import propagation
 from studio.road import load
 from studio.road.network import Building
+from studio.road.network.curve import resampled
 from studio.road.network.shadow import (
     EYE,
     SKY_REACH,
@@ -176,6 +177,16 @@ def test_the_sky_of_a_real_place_is_that_of_shapely(here):
     for lane in rng.choice([each.id for each in here.lanes], 6):
         x, y = here.lanes[lane].centre[:, 0]
         assert sky_above(shadow_of(here), 0, x, y) == pytest.approx(1.0 - horizon(here, x, y, azimuths).mean(), abs=1e-9)
+
+
+def test_the_sky_over_lanes_is_there_before_anybody_asks(here):
+    """It is the same as when somebody asks; and where no lane is nearby it is left until then."""
+    found, asked = shadow_of(here), shadow(here.scenery.buildings)
+    known = int(np.count_nonzero(found.sky))
+    for lane in here.lanes[::7]:
+        for place in resampled(lane.centre, 3.0).T:
+            assert open_sky(found, 0, *place) == open_sky(asked, 0, *place)
+    assert np.count_nonzero(found.sky) == known < found.sky.size
 
 
 def test_the_sky_in_a_round_court():

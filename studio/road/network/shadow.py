@@ -19,7 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.compiled import inlined, lean
-from studio.road.network import Building, Network, grid
+from studio.road import kept
+from studio.road.network import Building, Lane, Network, curve, grid
 from studio.road.network.grid import CELLS, COLUMNS, MARGIN, ROWS, SIZE, SOUTH, WEST, Grid, columns_passed, place, rows_passed
 from studio.road.network.index import once
 
@@ -28,6 +29,7 @@ WALL_FIRST, WALL_COUNT, COLUMN_LOW, COLUMN_HIGH, ROW_LOW, ROW_HIGH = range(6)
 
 CELL = 32.0  # [m]
 SKY_CELL = 4.0  # [m]
+ASIDE = 1.0  # [m] from the middle of a lane, cars are mostly not farther
 FINER = int(CELL / SKY_CELL)
 SKY_REACH = 200.0  # [m] farther buildings hardly rise over nearer ones
 AZIMUTHS = 24
@@ -49,8 +51,24 @@ class Shadow(NamedTuple):
 
 @once
 def shadow_of(network: Network) -> Shadow:
-    """The buildings of a map."""
-    return shadow(network.scenery.buildings)
+    """The buildings of a map, and the sky over its lanes; kept on disk."""
+    return kept.of_map(network.digest, "shadows", Shadow, lambda: made(network), maker=__file__)
+
+
+def made(network: Network) -> Shadow:
+    """The same, made anew."""
+    found = shadow(network.scenery.buildings)
+    for lane in network.lanes:
+        look_up(found, *along(lane))
+    return found
+
+
+def along(lane: Lane) -> np.ndarray:
+    """Places all along the middle of a lane and beside it, where cars are [m], float64[2, n]."""
+    line = curve.resampled(lane.centre, 0.5 * ASIDE)
+    to = np.gradient(line, axis=1)
+    aside = ASIDE * np.array([-to[1], to[0]]) / np.hypot(*to)
+    return np.concatenate([line - aside, line, line + aside], axis=1)
 
 
 def shadow(buildings: Sequence[Building]) -> Shadow:
@@ -206,6 +224,13 @@ def level(z0, z1, base, top):
 
 
 # -- the sky ---------------------------------------------------------------------------------------
+
+
+@lean
+def look_up(shadow, xs, ys):
+    """Works out the sky above places on the only map."""
+    for i in range(xs.size):
+        open_sky(shadow, 0, xs[i], ys[i])
 
 
 @lean
