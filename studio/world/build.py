@@ -187,12 +187,15 @@ def minded(intervention: Intervention) -> list[float]:
 
 
 def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops, web: Web) -> Roads:
-    """Points, the line that every vehicle is on, stop lines, strands, signals and surface."""
+    """Points, the line that every vehicle is on, stop lines, strands, signals and surface.
+
+    What is known of a point lies side by side in memory: it is asked for together.
+    """
     _, stop_station, stop_link = stops
     raised = [ground.is_raised(car.path) for each in settings for car in each.cars]
     return Roads(
-        points=lines.points,
-        chart=chart_of(lines, settings),
+        points=np.asfortranarray(lines.points),
+        chart=np.asfortranarray(chart_of(lines, settings)),
         path_first=table[LINE_FIRST, lines.base],
         path_count=table[LINE_COUNT, lines.base],
         raised=np.array(raised, dtype=np.int64),
