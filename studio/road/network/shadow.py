@@ -12,7 +12,7 @@ A line is looked at from its western end, so that both directions give the same 
 an `Index`. Maps without buildings have no cells.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import cos, floor, inf, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -52,7 +52,14 @@ class Shadow(NamedTuple):
 @once
 def shadow_of(network: Network) -> Shadow:
     """The buildings of a map, and the sky over its lanes; kept on disk."""
-    return kept.of_map(network.digest, "shadows", Shadow, lambda: made(network), maker=__file__)
+    return kept.of_map(network.digest, "shadows", Shadow, lambda: made(network), *content(network.scenery.buildings), maker=__file__)
+
+
+def content(buildings: Sequence[Building]) -> Iterator[bytes]:
+    """All that is looked at of buildings."""
+    for each in buildings:
+        yield from (ring.tobytes() for ring in (each.outline, *each.holes))
+        yield np.array([each.base, each.height]).tobytes()
 
 
 def made(network: Network) -> Shadow:
