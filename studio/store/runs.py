@@ -220,7 +220,11 @@ class Runs:
 
     def is_left(self, row: dict[str, Any]) -> bool:
         """Whether a run was not finished, and will not be: its process has gone, and no result waits."""
-        return row["status"] == "running" and owner.is_gone(row["process"], row["process_mark"]) and not waiting.of(self.path, row)
+        if row["status"] != "running" or not owner.is_gone(row["process"], row["process_mark"]):
+            return False
+        with suppress(StoreError):
+            return not waiting.of(self.path, row)
+        return True
 
     def shelf(self, run: int) -> "Folder":
         """Where a run that begins is recorded. Raises StoreError."""

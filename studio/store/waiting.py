@@ -43,12 +43,11 @@ def results(database: Path) -> Iterator[tuple[Path, Result]]:
 
 
 def of(database: Path, run: dict[str, Any]) -> tuple[Path, dict[str, Any]] | None:
-    """The file in which the result of a run waits, and what its row will be."""
+    """The file in which the result of a run waits, and what its row will be. Raises StoreError when that file is damaged."""
     for file in [each for folder in folders(database) if (each := folder / file_name(run["run"])).is_file()]:
-        with suppress(StoreError):
-            row = read(file, ("runs",))["runs"][0]
-            if belongs(row, run):
-                return file, row
+        row = read(file, ("runs",))["runs"][0]
+        if belongs(row, run):
+            return file, row
     return None
 
 
