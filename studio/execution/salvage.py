@@ -57,13 +57,12 @@ def salvaged(folder: Folder) -> Record | None:
 def sampled(folder: Folder, known: dict[str, Any], count: int) -> tuple[np.ndarray, np.ndarray]:
     """Times [s], and values [channel, vehicle, sample]."""
     room, shape = known["room"], (len(known["channels"]), len(known["vehicles"]))
-    roll = folder.roll("values", (room, 1 + shape[0] * shape[1]))
+    times, samples = folder.roll("times", (room,)), folder.roll("values", (room, *shape))
     time, values = np.empty(count), np.full((len(CHANNELS), shape[1], count), np.nan)
     place = [known["channels"].index(each.name) if each.name in known["channels"] else -1 for each in CHANNELS]
     for first in range(0, count, room):
-        block = roll[first // room][: count - first]
-        time[first : first + room] = block[:, 0]
-        found = block[:, 1:].reshape(-1, *shape)
+        time[first : first + room] = times[first // room][: count - first]
+        found = samples[first // room][: count - first]
         for row, at in enumerate(place):
             if at >= 0:
                 values[row, :, first : first + room] = found[:, at].T

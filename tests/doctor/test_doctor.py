@@ -124,10 +124,9 @@ def test_empty_pages_are_given_back(tmp_path):
     """Not under a run that goes on, whose result would have to wait."""
     db = database(tmp_path / "runs.db")
     runs = open_runs(db)
-    runs.put(
-        result_of(3)
-        | {"runs": [{"run": 3}], "events": [], "pieces": [{"run": 3, "column": "sent", "number": 1, "bytes": os.urandom(80_000_000)}]}
-    )
+    big = begun(runs)
+    piece = {"run": big, "column": "sent", "number": 1, "bytes": os.urandom(80_000_000)}
+    runs.put(result_of(big) | {"runs": [{"run": big, "status": "done"}], "events": [], "pieces": [piece]})
     with runs.writing():
         runs.database.conn.execute("delete from pieces")
     number = begun(runs)
