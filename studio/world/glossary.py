@@ -15,6 +15,7 @@ from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
 from studio.world.chart import CHART
 from studio.world.mail import MAIL
+from studio.world.passes.census import CENSUS, PAIR
 from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.passes.sight import SIGHT
@@ -25,7 +26,7 @@ from studio.world.table.unit import GPS_SET, HEARD, LOGGED, OUTPUT, SATELLITE, S
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
     MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD, LOGGED,
-    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, PLACE, MAIL, SIGHT, CHART,
+    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, CENSUS, PAIR, PLACE, MAIL, SIGHT, CHART,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 
