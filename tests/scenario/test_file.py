@@ -56,11 +56,6 @@ def test_a_preset_gives_what_is_not_given(document):
         ("applications.platoon.preset", "series", ["applications.platoon.preset", "'series'", "'cacc' has no presets"]),
         ("vehicles.leader.position", {"along": 1, "road": "x"}, ["vehicles.leader.position", "either"]),
         ("version", 1, ["version", "1"]),
-        (
-            "vehicles.two words",
-            {"speed": 1, "sensors": {"front": {"kind": "ultrasound"}}},
-            ["vehicles.two words.sensors.front.kind", "'ultrasound'"],
-        ),
         ("vehicles.leader.sped", 2, ["vehicles.leader.sped", "did you mean 'speed'"]),
     ],
 )
