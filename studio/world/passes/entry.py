@@ -16,9 +16,10 @@ from studio.vehicle.state import ACTIVE, V_X
 from studio.world.passes.ground import touch_all
 from studio.world.passes.queue import KEY, THERE, WHO, from_station
 from studio.world.table.mind import HEADWAY, SPEED_FACTOR, STANDSTILL, STATION, STOOD
-from studio.world.table.web import ENTER, START
+from studio.world.table.web import ENTER, ITS_ENTER, ITS_LEAVE, OWN_ENTER, START
 
 COMFORT, GENTLE = 2.0, 1.0  # [m/s²] braking at the end of the first lane; behind somebody
+MOMENT = 4.0  # [s]
 FAR = 100.0  # [m] nobody beyond is minded
 NOT_YET = -1.0  # [s] of one who has not come in
 
@@ -71,7 +72,9 @@ def enter(v, count, points, path_first, path_count, raised, drive_first, drive_c
     speed = min(permitted, lane_speed(v, drive_first[v], drive_count[v], web, parameter))
     if gap < inf:
         speed = min(speed, speed_behind(gap, max(state[V_X, other], 0.0), drivers[STANDSTILL, v], drivers[HEADWAY, v]))
-    if speed < 0.0:
+    if speed < 0.0 or is_crossed(
+        v, world_of[v], drive_first[v], drive_count[v], web, first, place, at, state, parameter, drivers[STANDSTILL, v]
+    ):
         return False
     if raised[v] != 0:
         touch_all(v, state.shape[1], 0.0, points, p, path_count[v], ground)
@@ -94,6 +97,25 @@ def last_there(v, world, drive, count, web, first, place, at, parameter):
             if other != v and place[THERE, i - 1] != 0:
                 return enter + there + parameter[FRONT, other] - parameter[LENGTH, other] - parameter[FRONT, v], other
     return inf, v
+
+
+@inlined
+def is_crossed(v, world, drive, count, web, first, place, at, state, parameter, s_0):
+    """Whether somebody is, or will be in a moment, where his way meets the place on which v would stand."""
+    for d in range(drive, drive + count):
+        if web.drive[ENTER, d] > parameter[LENGTH, v]:
+            break
+        for m in range(web.first[web.strand[d]], web.first[web.strand[d] + 1]):
+            if web.drive[ENTER, d] + web.span[OWN_ENTER, m] > parameter[LENGTH, v]:
+                continue
+            queue = world * web.right.size + web.partner[m]
+            i, end = from_station(queue, -inf, first, place, at)
+            while i < end and place[KEY, i] == queue:
+                other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
+                comes = nose + s_0 + MOMENT * max(state[V_X, other], 0.0) > web.span[ITS_ENTER, m]
+                if other != v and comes and nose - parameter[LENGTH, other] < web.span[ITS_LEAVE, m] + s_0:
+                    return True
+    return False
 
 
 @inlined
