@@ -6,7 +6,7 @@
     waited       it has stood, and drives again; how long it stood
     ring         it has stood in a ring of vehicles each of whom waits for the next; how long. Looked for once a second among whom drivers
                  mind (MINDED), so that a long queue is none
-    conflict     its front has entered a place where it gives way to another who was on his way there; how hard the other braked for it
+    conflict     its front has entered a place where it gives way to another who was on his way there, or on it; how hard the other braked
     violation    a conflict in which the other braked harder than drivers do to be kind, or came to a crossing where the first had only
                  just left, or had not yet
     entered      a car of a flow has come in; how late
@@ -35,7 +35,7 @@ from studio.world.passes.notice import has_passed_red
 from studio.world.passes.queue import EARLY, KEY, NEAR, WHO, first_drive, from_station, station_on
 from studio.world.passes.traffic import ARRIVAL
 from studio.world.table.mind import MINDED, OFFSET, RED_STATION, STATION, STOOD
-from studio.world.table.web import ENTER, ITS_ENTER, LANE, OWN_ENTER, OWN_LEAVE
+from studio.world.table.web import ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE
 from studio.world.world import World
 
 COUNTED = ("arrived", "at red", "off", "waited", "ring", "conflict", "violation", "entered", "outside")
@@ -211,12 +211,15 @@ def enter(v, before, bumper, now, state, parameter, mind, world_of, drive_first,
 
 @inlined
 def meet(v, m, key, nose, bumper, now, state, parameter, mind, web, first, place, at, pairs):
-    """Everybody who was on his way to a place that v has entered."""
+    """Everybody who was on his way to a place that v has entered, or on it."""
     i, end = from_station(key, -inf, first, place, at)
     while i < end and place[KEY, i] == key:
         other, left, i = place[WHO, i], web.span[ITS_ENTER, m] - at[i] - parameter[FRONT, place[WHO, i]], i + 1
         red = mind[RED_STATION, other] - mind[STATION, other] - parameter[FRONT, other]
-        if other != v and 0.0 < left < min(red, NEAR + EARLY * max(state[V_X, other], 0.0)):
+        is_there = (
+            web.shape[m] == ACROSS and left <= 0.0 and left + parameter[LENGTH, other] > web.span[ITS_ENTER, m] - web.span[ITS_LEAVE, m]
+        )
+        if other != v and (is_there or 0.0 < left < min(red, NEAR + EARLY * max(state[V_X, other], 0.0))):
             open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, pairs)
 
 
