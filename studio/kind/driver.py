@@ -35,7 +35,7 @@ class Sees(NamedTuple):
     yaw_rate: Annotated[float, "rad/s"] = 0.0  # own, left positive
     desired_speed: Annotated[float, "m/s"] = 0.0  # that limits, bends and sight permit, times the own speed factor
     ahead_gap: Annotated[float, "m"] = inf  # bumper to bumper, to the vehicle or object ahead that asks most
-    ahead_speed: Annotated[float, "m/s"] = 0.0  # of the same
+    ahead_speed: Annotated[float, "m/s"] = 0.0  # of the same; for one who crosses ahead, that with which one comes when he is gone
     first_gap: Annotated[float, "m"] = inf  # to the car that goes first at a merge or crossing, as if it drove ahead already
     first_speed: Annotated[float, "m/s"] = 0.0  # of the same
     stop_distance: Annotated[float, "m"] = inf  # from the front bumper to the next line where a light or those who go first ask for a stop

@@ -289,12 +289,12 @@ class Traffic(Part, defer_build=True):
         max_length=300,
         title="Model",
         examples=MODELS,
-        description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario",
+        description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario; not used where there is a mix",
     )
     mix: dict[str, Annotated[float, Field(gt=0, le=1e6)]] = Field(
         {}, title="Mix", description="several models with their shares instead of one", max_length=30
     )
-    speed: float = number(10.0, unit="m/s", title="Initial speed", ge=0, le=40)
+    speed: float = number(10.0, unit="m/s", title="Initial speed", description="of cars that are about from the start", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
 

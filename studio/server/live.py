@@ -99,11 +99,11 @@ class LiveRun:
     def abandon(self) -> None:
         """The server ends, and its process with it; if the run goes on still, the next server takes in what was recorded."""
         was_over, self.is_left = self.is_over, True
+        if not was_over:
+            with suppress(StudioError):  # before its process ends: whoever sees it gone is to find why
+                reopen_runs(self.db).leave(self.run, "killed", worker.SERVER_ENDED)
         if self.process is not None:
             self.process.end(0.0)
-        if not was_over:
-            with suppress(StudioError):
-                reopen_runs(self.db).leave(self.run, "killed", worker.SERVER_ENDED)
 
     def explanation(self, code: int | None) -> tuple[answer.Over, str]:
         """Status and reason of a run whose process has gone without a word."""

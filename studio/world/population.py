@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import log
 from typing import NamedTuple
+from zlib import crc32
 
 import numpy as np
 
@@ -170,7 +171,7 @@ def departures(name: str, flow: Flow, scenario: Scenario) -> np.ndarray:
     end, every = min(flow.end or np.inf, scenario.clock.duration), HOUR / flow.rate
     if flow.headways == "even":
         return np.arange(flow.begin + 0.5 * every, end, every)
-    seed, who = scenario.seed_of("traffic"), int.from_bytes(name.encode()[-7:])
+    seed, who = scenario.seed_of("traffic"), crc32(name.encode())
     times, time = [], flow.begin
     while time < end:
         time -= every * log(1.0 - uniform(seed, who, TRAFFIC_HEADWAY, len(times)))

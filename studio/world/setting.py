@@ -223,6 +223,10 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         if begin is not None and not begin.is_of_an_event and begin.at >= scenario.clock.duration:
             latest = f"< {scenario.clock.duration:g} s"
             found.append(Problem(f"{where}: measures.{name}.begin.at", "is after the end of the run", f"{begin.at:g} s", latest))
+    for name, flow in scenario.traffic.flows.items():
+        if flow.begin >= scenario.clock.duration:
+            latest = f"< {scenario.clock.duration:g} s"
+            found.append(Problem(f"{where}: traffic.flows.{name}.begin", "is after the end of the run", f"{flow.begin:g} s", latest))
     for name, group in scenario.applications.items():
         parts = tick / (group.cycle or tick)
         if parts < 1 - 1e-9 or abs(parts - round(parts)) > 1e-6 * parts:

@@ -410,7 +410,16 @@ class World:
         radio = [part for post in u.posts for part in (post.ring, post.inbox, post.memory, post.kept)]
         sensed = [part for each in u.mounted for part in (each.out, each.ring, each.output)]
         units = [u.satellite, u.now, *sensed, *radio, *(part for air in u.airs for part in air.state)]
-        happened = [*(e.of(w) for w in range(e.found.size)), s.phase, s.turned, s.since, s.met, o.standing, self.detours.choice]
+        happened = [
+            *(e.of(w) for w in range(e.found.size)),
+            s.phase,
+            s.turned,
+            s.since,
+            s.met,
+            o.standing,
+            self.detours.choice,
+            self.demand.gone,
+        ]
         return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
@@ -470,4 +479,6 @@ class World:
         self.units.now[PRESENT, self.units.world == number] = 0.0
         self.vehicles.state[ACTIVE, columns] = 0.0
         self.vehicles.returns[columns] = 0
+        mine, d = self.demand.world == number, self.demand
+        d.gone[mine] = np.diff(d.first)[mine]  # nobody is due any more
         self.hosted = [hosted for hosted in self.hosted if {group.world for group in hosted.groups} != {number}]

@@ -13,7 +13,7 @@ from studio.execution.simulation import simulation
 from studio.road import load
 from studio.vehicle.state import ACTIVE, V_X, VEHICLE
 from studio.world.passes import census
-from studio.world.passes.census import C_KIND, C_VALUE, C_WHO, CENSUS, EVERY, IN_RING, RING
+from studio.world.passes.census import C_KIND, C_VALUE, C_WHO, CENSUS, EVERY, RING
 from studio.world.table.mind import MIND, MINDED
 from tests.conftest import ROOT
 from tests.road.conftest import Draft
@@ -125,7 +125,6 @@ def test_who_drives_breaks_a_ring():
 def test_two_rings_are_two_and_a_queue_is_none():
     assert ringed([1, 0, 3, 4, 2, 4, 5])[0] == [3 * EVERY] * 5 + [0.0, 0.0]
     assert ringed([-1, 0, 1, 2, 3])[0] == [0.0] * 5
-    assert IN_RING > 10**9
 
 
 # -- who comes in ----------------------------------------------------------------------------------
@@ -138,6 +137,14 @@ def flow(seconds=60, **changes):
     settings = {"route": next(iter(document["routes"])), "rate": 1800, **changes}
     document |= {"traffic": {"flows": {"main": settings}}, "script": {}, "goals": {}, "measures": {}}
     return job.prepare(replace(loaded, scenario=type(loaded.scenario).model_validate(document)))
+
+
+def flow_named(name, route, seconds):
+    """The times at which cars of a flow of this name are due, lane by lane."""
+    loaded = job.load(ROOT / "scenarios" / "motorway_platoon.yaml", {"clock.duration": seconds})
+    document = loaded.scenario.model_dump(mode="json", exclude_unset=True)
+    document |= {"traffic": {"flows": {name: {"route": route, "rate": 1800}}}, "script": {}, "goals": {}, "measures": {}}
+    return [each.due for each in job.prepare(replace(loaded, scenario=type(loaded.scenario).model_validate(document))).sources]
 
 
 def test_a_flow_comes_in_when_it_is_due():
@@ -157,6 +164,35 @@ def test_random_headways_are_exponential():
     assert np.mean(headways) == pytest.approx(2.0, rel=0.07)
     assert np.std(headways) == pytest.approx(2.0, rel=0.10)
     assert (np.diff(np.sort(headways)) > 0).all()
+
+
+def test_flows_are_drawn_apart():
+    """Also those whose names end alike; and each is the same whatever others there are."""
+    route = flow().scenario.traffic.flows["main"].route
+    one, other = (flow_named(name, route, seconds=600) for name in ("north_entry", "south_entry"))
+    assert not set(one[0]) & set(other[0])
+    assert (flow_named("north_entry", route, seconds=600)[0] == one[0]).all()
+
+
+def test_a_world_that_has_failed_lets_nobody_in():
+    """Its flow's cars come in no more, and those of the world beside it do."""
+    running = simulation(flow(), flow())
+    running.advance(100)
+    running.fail(0, "for a test")
+    running.advance(1000)
+    w, of = running.world, running.world.worlds.of
+    assert not w.vehicles.state[ACTIVE, of == 0].any()
+    assert w.vehicles.state[ACTIVE, of == 1].sum() > 5
+
+
+def test_a_flow_after_the_end_of_the_run_is_refused():
+    with pytest.raises(StudioError, match=r"traffic\.flows\.main\.begin"):
+        flow(begin=60)
+
+
+def test_a_flow_on_no_route_is_refused():
+    with pytest.raises(StudioError, match=r"traffic\.flows\.main\.route"):
+        flow(route="nowhere")
 
 
 def test_more_than_a_road_takes_waits_outside():

@@ -58,9 +58,12 @@ AT_LIGHT = 1.0  # [m] from a line, a stop line is that of its light
 
 
 @inlined
-def waits(v, d, last, own, line, bumper, decided, state, parameter, places, points, path_first, path_count, world, number, entity, web,
-          first, place, at, drivers, mind):  # fmt: skip
-    """Whether a driver has to wait before a line [m] for those whom he meets on a strand; he minds all of them."""
+def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, places, points, path_first, path_count, world, number, entity,
+          web, first, place, at, drivers, mind):  # fmt: skip
+    """Whether a driver has to wait before a line [m] for those whom he meets on a strand; he minds all of them.
+
+    `inside` says that he is on a way right behind which this strand begins.
+    """
     strand, to_line = web.strand[d], line - bumper
     is_way = web.right[strand] != LANE and to_line >= 0.0
     if is_way and mind[RED_STATION, v] <= web.drive[ENTER, d] + AT_LIGHT:
@@ -71,7 +74,6 @@ def waits(v, d, last, own, line, bumper, decided, state, parameter, places, poin
         if not must and web.crosses[strand] == 1:
             who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers)
             must = who != NOBODY
-    inside = is_way and d > 0 and web.right[web.strand[d - 1]] != LANE and web.drive[ENTER, d - 1] < bumper
     top = top_speed(v, d, drivers, points, path_first, path_count, web, mind)
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:

@@ -19,7 +19,7 @@ from studio.road.ways.path import (
 )
 from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, STEER_RATE, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
-from studio.world.passes.junction import BESIDE, STANDING, has_to_let_pass, waits
+from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, waits
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
 from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_unseen, let_in
@@ -72,7 +72,6 @@ MARGIN, DECIDING = 12.0, 3.0  # [m], [m/s²] how far before a way drivers mind w
 AHEAD_OF_ONE = 2  # of those ahead are minded: the next, and the one before him
 LOOK, LOOKING = 60.0, 2.0  # [m], [m/s²] how far ahead drivers mind who drives there: LOOK + v²/LOOKING
 AWAY = 2.0  # [m/s] who has become faster than this stands no more
-ELBOW_ROOM = 0.2  # [m] that a driver leaves beside the body to what stands there
 ARRIVAL = 6.0  # [m] before the end of its path a car has arrived
 
 
@@ -210,7 +209,7 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
     rear, far = bumper - parameter[LENGTH, v], bumper + LOOK + speed * speed / LOOKING
     near = bumper + MARGIN + speed + speed * speed / DECIDING
     left, may_go, decided = AHEAD_OF_ONE, True, mind[WAY_STATION, v]
-    mind[WAY_STATION, v], line, behind = inf, inf, -inf
+    mind[WAY_STATION, v], line, behind, inside = inf, inf, -inf, False
     for d in range(first_drive(rear, drive_first, drive_count, web), drive_first + drive_count):
         enter, strand = web.drive[ENTER, d], web.strand[d]
         is_way = web.right[strand] != LANE
@@ -234,9 +233,10 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
             behind = web.drive[LEAVE, d] if enter > bumper else -inf
         if may_go and (enter <= near or goes_on) and is_met(strand, web):
             may_go = not waits(
-                v, d, drive_first + drive_count, own, line if is_way else enter, bumper, decided, state, parameter, places, points,
-                path_first, path_count, world, number, entity, web, first, place, at, drivers, mind,
+                v, d, drive_first + drive_count, own, line if is_way else enter, bumper, inside and is_way, decided, state, parameter,
+                places, points, path_first, path_count, world, number, entity, web, first, place, at, drivers, mind,
             )  # fmt: skip
+        inside = is_way and enter <= bumper
 
 
 @inlined

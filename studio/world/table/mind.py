@@ -47,7 +47,7 @@ STOOD = MIND.row("stood", "s", "how long the vehicle has stood, and has not driv
 HALTED = MIND.row("halted", "m", "station of the last line at which the vehicle has come to a halt", role=Role.STATE)
 FOLLOWING = MIND.row("following", "m/s²", "acceleration that traffic ahead permits")
 FOLLOW_GAP = MIND.row("follow_gap", "m", "gap to whoever ahead permits least; infinite when there is nobody")
-FOLLOW_SPEED = MIND.row("follow_speed", "m/s", "speed of the same")
+FOLLOW_SPEED = MIND.row("follow_speed", "m/s", "speed of the same; for one who crosses ahead, that with which one comes when he is gone")
 YIELDING = MIND.row("yielding", "m/s²", "acceleration that cars permit which reach a merge or crossing first")
 FIRST_GAP = MIND.row("first_gap", "m", "gap to the one of these that permits least, as if it drove ahead; infinite when there is none")
 FIRST_SPEED = MIND.row("first_speed", "m/s", "speed of the same")
