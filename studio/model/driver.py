@@ -99,10 +99,9 @@ def must_stop(v, distance):
 
 
 @compiled
-def must_stop_hard(v, distance, to_line):
-    """The same for one who cannot stop so, but `to_line` [m] away cannot pass before it is red either: he brakes harder."""
-    comes_too_late = to_line > v * max(AMBER, v / AMBER_PER)
-    return comes_too_late and v * BRAKE_TIME + v * v / (2.0 * STOP_HARD) < distance - STOP_LAST
+def is_red_then(v, distance):
+    """Whether a light `distance` [m] ahead that is amber now will be red for one who goes on with v [m/s]."""
+    return distance > v * max(AMBER, v / AMBER_PER)
 
 
 @compiled

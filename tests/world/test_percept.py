@@ -8,9 +8,12 @@ import pytest
 from studio import job
 from studio.model import driver
 from studio.road.drawn.motorway import motorway
+from studio.road.network.signals import AMBER, GREEN, RED
 from studio.scenario.setup import complete
+from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import A_X, V_X, X, Y
 from studio.world.build import build
+from studio.world.passes.traffic import next_red
 from studio.world.setting import setting
 from studio.world.snapshot import restore, snapshot
 from studio.world.table.mind import (
@@ -129,7 +132,25 @@ def test_who_answers_late_decides_earlier_whether_to_stop():
     v, late = 14.0, 0.7 * 14.0
     assert driver.must_stop(v, 31.0) and not driver.must_stop(v, driver.foreseen_gap(31.0, v, 0.0, 0.0, 0.7))
     assert driver.must_stop(v, driver.foreseen_gap(31.0 + late, v, 0.0, 0.0, 0.7))
-    assert driver.must_stop_hard(v, 26.0, 42.5) and not driver.must_stop_hard(v, 26.0, 41.5) and not driver.must_stop_hard(v, 18.0, 42.5)
+    assert driver.is_red_then(v, 42.5) and not driver.is_red_then(v, 41.5)
+
+
+def test_who_sees_red_and_cannot_stop_firmly_stops_hard(sample):
+    """Lights that turn red at once 17 m before cars with 10 m/s: firm braking needs 17.5 m, and the hard one that does is asked for."""
+    loaded = job.load(sample, {"traffic.count": 0})
+    world = build([job.prepare(replace(loaded, scenario=loaded.scenario.model_copy(update={"applications": {}, "script": {}})))])
+    world.roads.forced[:] = GREEN
+    tick(world)
+    v, r = world.vehicles, world.roads
+    car = int(np.flatnonzero(r.stop_count)[0])
+    line = r.stop_station[r.stop_first[car]]
+    v.mind[STATION, car] = line - 17.0 - v.parameter[FRONT, car]
+    assert not driver.must_stop(10.0, 17.0) and driver.can_stop(10.0, 17.0 - 10.0 * driver.BRAKE_TIME)
+    for light, stops in ((GREEN, False), (AMBER, False), (RED, True)):
+        shown = np.full(r.shown.size, light)
+        v.state[V_X, car] = 10.0
+        found = next_red.py_func(car, v.state, v.parameter, v.drivers, v.mind, r.stop_first[car], 1, r.stop_station, r.stop_link, shown)
+        assert np.isfinite(found) == stops
 
 
 # -- errors, attention, sway -----------------------------------------------------------------------------
@@ -227,6 +248,6 @@ def collisions(seconds, count, **style):
 
 
 def test_the_traffic_is_not_safe_by_construction():
-    """Nobody hits anybody among usual drivers; among some who look away for four seconds, ten times a minute, several do each hour."""
-    assert collisions(90.0, 100) == 0.0
+    """Nobody hits anybody among usual drivers, nor among late ones; among some who look away for four seconds several do each hour."""
+    assert collisions(90.0, 100) == collisions(90.0, 100, expected_reaction=0.7) == 0.0
     assert collisions(90.0, 100, distraction_rate=10.0, distraction_length=4.0) > 2.0

@@ -18,7 +18,7 @@ from math import inf, sqrt
 
 from studio.compiled import inlined
 from studio.model import driver
-from studio.model.passage import AFTER, arrival, arrival_below, is_enough, merging_headway, wanted_gap
+from studio.model.passage import AFTER, PATIENT, arrival, arrival_below, is_enough, merging_headway, wanted_gap
 from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
@@ -275,7 +275,11 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
     red = mind[RED_STATION, other] - mind[STATION, other] - parameter[FRONT, other]
     turn, partner = web.turn[m], web.partner[m]
     is_committed = web.right[partner] == LANE or its_nose > 0.0
-    if red <= its_way or turn == NONE or (turn == TAKE and not is_committed):
+    if red <= its_way or (turn == TAKE and not is_committed):
+        return False
+    if turn == NONE:
+        if sets_off_before(v, other, its_way, state, drivers, mind):
+            follow(v, number[other], to_enter, 0.0, state, drivers, mind)
         return False
     its_time = mind[MISJUDGED, v] * comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
@@ -288,6 +292,16 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
     return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
+
+
+@inlined
+def sets_off_before(v, other, its_way, state, drivers, mind):
+    """Whether v stands, and one who comes would have to brake too hard if v set off into his way; who has waited for long does."""
+    if state[V_X, v] >= STANDING or state[V_X, other] <= CRAWL or mind[STOOD, v] > PATIENT:
+        return False
+    then = driver.foreseen_speed(state[V_X, other], mind[GAINED, other])
+    there = driver.foreseen_gap(its_way, state[V_X, other], mind[GAINED, other], 0.0, drivers[EXPECTED, other])
+    return not driver.must_stop(then, there)
 
 
 @inlined
@@ -348,7 +362,8 @@ def is_crawling(other, its_way, state):
 def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
     """Of two of whom none has to wait, who is there first goes first; whether v has to wait for the other before the line."""
     own_time = comes_in(v, to_enter, state, drivers, mind)
-    if state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other]):
+    is_first = state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other])
+    if is_first and not sets_off_before(v, other, its_way, state, drivers, mind):
         return False
     if web.shape[m] == ALONG:
         let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)

@@ -8,7 +8,7 @@ from math import cos, inf, isfinite, sin, sqrt
 from studio.compiled import inlined, lean
 from studio.kind.driver import Sees
 from studio.model import driver, helm
-from studio.road.network.signals import GREEN, signal_state
+from studio.road.network.signals import GREEN, RED, signal_state
 from studio.road.ways.path import (
     PATH_CURVATURE,
     PATH_HEADING,
@@ -113,13 +113,14 @@ def clip(s, count):
 
 
 @inlined
-def will_stop(v, distance, station, state, drivers, mind):
+def will_stop(v, distance, station, light, state, drivers, mind):
     """Whether the driver stops for a light that is not green; who has decided to at a tick before stays with it."""
     speed, gained = state[V_X, v], mind[GAINED, v]
     if mind[RED_STATION, v] == station and driver.can_stop(speed, distance):
         return True
     then, there = driver.foreseen_speed(speed, gained), driver.foreseen_gap(distance, speed, gained, 0.0, drivers[EXPECTED, v])
-    return driver.must_stop(then, there) or (drivers[EXPECTED, v] > 0.0 and driver.must_stop_hard(then, there, distance))
+    comes_too_late = light == RED or driver.is_red_then(speed, distance)
+    return driver.must_stop(then, there) or (comes_too_late and driver.can_stop(then, there - then * driver.BRAKE_TIME))
 
 
 @inlined
@@ -129,7 +130,7 @@ def next_red(v, state, parameter, drivers, mind, stop_first, stop_count, stop_st
     for i in range(stop_first, stop_first + stop_count):
         distance = stop_station[i] - bumper
         is_shown = 0.0 < distance <= drivers[SIGHT, v] and shown[stop_link[i]] != GREEN
-        if is_shown and will_stop(v, distance, stop_station[i], state, drivers, mind):
+        if is_shown and will_stop(v, distance, stop_station[i], shown[stop_link[i]], state, drivers, mind):
             return stop_station[i]
     return inf
 
