@@ -11,13 +11,15 @@ from studio.road.drawn.motorway import motorway
 from studio.road.network.signals import AMBER, GREEN, RED
 from studio.scenario.setup import complete
 from studio.vehicle.parameter import FRONT
-from studio.vehicle.state import A_X, V_X, X, Y
+from studio.vehicle.state import A_X, V_X, VEHICLE, X, Y
 from studio.world.build import build
+from studio.world.passes.junction import sets_off_before
 from studio.world.passes.traffic import next_red
 from studio.world.setting import setting
 from studio.world.snapshot import restore, snapshot
 from studio.world.table.mind import (
     AWAY,
+    DRIVER,
     EXPECTED,
     FOLLOW_GAP,
     FRONT_OFFSET,
@@ -25,11 +27,13 @@ from studio.world.table.mind import (
     GAP_SHARE,
     HEADWAY,
     INTENT,
+    MIND,
     MISJUDGED,
     PENDING,
     SEEN_GAP,
     STARTLED,
     STATION,
+    STOOD,
     SURPRISED,
     SWAYED,
     WISH,
@@ -251,3 +255,22 @@ def test_the_traffic_is_not_safe_by_construction():
     """Nobody hits anybody among usual drivers, nor among late ones; among some who look away for four seconds several do each hour."""
     assert collisions(90.0, 100) == collisions(90.0, 100, expected_reaction=0.7) == 0.0
     assert collisions(90.0, 100, distraction_rate=10.0, distraction_length=4.0) > 2.0
+
+
+@pytest.mark.parametrize(
+    ("way", "speed", "stood", "late", "waits"),
+    [
+        (20.0, 13.0, 5.0, 0.0, True),  # 13 m/s need 27 m
+        (28.0, 13.0, 5.0, 0.0, False),
+        (28.0, 13.0, 5.0, 0.7, True),  # and 9.1 m more where one answers late
+        (38.0, 13.0, 5.0, 0.7, False),
+        (20.0, 2.0, 5.0, 0.7, False),  # who crawls lets others in
+        (20.0, 13.0, 31.0, 0.7, False),
+    ],
+)
+def test_nobody_sets_off_into_the_way_of_one_who_would_have_to_brake_hard(way, speed, stood, late, waits):
+    state, drivers, mind = np.zeros((len(VEHICLE), 2)), np.zeros((len(DRIVER), 2)), np.zeros((len(MIND), 2))
+    state[V_X, 1], drivers[EXPECTED], mind[STOOD, 0] = speed, late, stood
+    assert sets_off_before.py_func(0, 1, way, state, drivers, mind) == waits
+    state[V_X, 0] = 3.0
+    assert not sets_off_before.py_func(0, 1, way, state, drivers, mind)
