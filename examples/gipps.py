@@ -23,6 +23,7 @@ HARDEST = 8.0  # [m/s²]
 class Settings(Driver):
     """What such a driver is like, besides what every driver has."""
 
+    expected_reaction: float = number(0.0, unit="s", title="Reaction besides τ", ge=0, le=2)
     reaction_time: float = number(0.7, unit="s", title="Reaction time τ", ge=0.1, le=3)
     expected_braking: float = number(3.0, unit="m/s²", title="Braking b_ahead that he expects of others", ge=0.5, le=9)
 

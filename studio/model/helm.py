@@ -103,7 +103,7 @@ def bounded(kappa, bend, a, v, rate, L):
 @inlined
 def ahead(car, psi, gain, yaw_damping):
     """Road wheel angle [rad] forwards."""
-    v, per = max(car.speed, ROLLING), car.compliance
+    v, per = max(car.rolling, ROLLING), car.compliance
     k = tail(v, gain, per)
     outwards = SWING * car.wheelbase * car.wheelbase * car.curvature
     chi, back = way_back(car.offset + outwards, k, arc(v, k, car.wheelbase, car.steering_rate, car.steering_max))
@@ -118,7 +118,7 @@ def ahead(car, psi, gain, yaw_damping):
 @inlined
 def backwards(car, psi):
     """Road wheel angle [rad] backwards: offset and course of the rear axle, whose way turns by kappa + K (course - wanted) - that back."""
-    v, L = abs(car.speed), car.wheelbase
+    v, L = abs(car.rolling), car.wheelbase
     K = PROMPT / (L + SWIFT * v)
     forth = L * cos(psi)
     e = car.offset - L * sin(psi) - 0.5 * car.curvature * forth * forth
@@ -136,5 +136,5 @@ def path_steering(car, gain, yaw_damping):
     steered away, yaw_damping [s].
     """
     psi = wrapped(car.heading)
-    angle = backwards(car, psi) if car.speed < -BACKING else ahead(car, psi, gain, yaw_damping)
+    angle = backwards(car, psi) if car.rolling < -BACKING else ahead(car, psi, gain, yaw_damping)
     return min(max(angle, -car.steering_max), car.steering_max)

@@ -18,8 +18,8 @@ LOW, HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
 # Streams: one per purpose, so that switching noise on in one place changes nothing elsewhere.
 (
     RANGE_NOISE, RATE_NOISE, MESSAGE_LOSS, MESSAGE_DELAY, TRAFFIC_ROUTE, TRAFFIC_PLACE, TRAFFIC_STYLE, GPS_DRIFT, GPS_NOISE, TRIP,
-    BUS_NOISE, TRAFFIC_MODEL, TRAFFIC_HEADWAY,
-) = range(13)  # fmt: skip
+    BUS_NOISE, TRAFFIC_MODEL, TRAFFIC_HEADWAY, DRIVER_REACTION, DRIVER_ATTENTION, DRIVER_ERROR,
+) = range(16)  # fmt: skip
 
 
 @compiled

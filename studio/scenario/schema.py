@@ -369,7 +369,9 @@ class Goal(Part):
 class Seeds(Part):
     """Seeds of single streams of chance; where none is given the scenario's counts. So one of them can be varied while the rest stays."""
 
-    traffic: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the traffic", description="its routes, places and styles")
+    traffic: int | None = Field(
+        None, ge=0, le=2**63 - 1, title="Seed of the traffic", description="its routes, places and styles; what chance does to drivers"
+    )
     sensors: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the sensors", description="of their errors")
     satellites: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the satellites", description="errors of cars' positions")
     radio: int | None = Field(None, ge=0, le=2**63 - 1, title="Seed of the radio", description="of loss and delay of messages")

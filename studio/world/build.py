@@ -4,6 +4,7 @@ build([settings])   →  World         arrays, one column per vehicle, world aft
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -11,7 +12,8 @@ import numpy as np
 from studio.application.port import ACTUATORS
 from studio.conventions import GRAVITY
 from studio.kind.driver import Driver
-from studio.model.driver import sight_speed
+from studio.model.driver import GAP_SHARES, reaction, sight_speed, temper
+from studio.model.random import DRIVER_REACTION, normal
 from studio.road.network import shadow
 from studio.scenario.schema import REASONS, Intervention, Weather
 from studio.vehicle.command import U_DRIVE
@@ -31,13 +33,31 @@ from studio.world.passes import ground
 from studio.world.passes.control import wheel_torque
 from studio.world.passes.entry import NOT_YET
 from studio.world.passes.neighbour import neighbours
+from studio.world.passes.percept import PLACES
 from studio.world.passes.queue import queues
 from studio.world.probe import reader_of
 from studio.world.script import script_of
 from studio.world.seat import seats
 from studio.world.setting import Setting
 from studio.world.snapshot import gather, origin_of
-from studio.world.table.mind import DRIVER, GAP, MIND, NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, SIGHT, STATION, WAY_STATION
+from studio.world.table.mind import (
+    DRIVER,
+    EXPECTED,
+    GAP,
+    MIND,
+    MISJUDGED,
+    NEEDED_COLLISION,
+    NEEDED_RED,
+    NEEDED_WAY,
+    SEEN_FIRST_GAP,
+    SEEN_GAP,
+    SEEN_STOP,
+    SIGHT,
+    SPREAD,
+    STATION,
+    SURPRISED,
+    WAY_STATION,
+)  # fmt: skip
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_DRIVE, LINE_DRIVES, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.table.web import Web
 from studio.world.web import web_of
@@ -49,9 +69,10 @@ FIRST_HITS = 64  # collisions of a world that there is room for at first
 def build(settings: Sequence[Setting]) -> World:
     """The world of a batch of settings. All share one clock."""
     clock = settings[0].scenario.clock
-    cars = [car for each in settings for car in each.cars]
+    cars = [replace(car, driver=car.driver.tempered()) for each in settings for car in each.cars]
     worlds = worlds_of(settings)
     vehicles = vehicles_of(cars, [each.scenario.weather for each in settings for _ in each.cars])
+    draw_reactions(vehicles.drivers, worlds)
     lines = lines_of(settings)
     stops = stops_of(lines, starts(np.array([len(each.network.signals) for each in settings])))
     obstacles = obstacles_of(settings, lines)
@@ -98,12 +119,13 @@ def worlds_of(settings: Sequence[Setting]) -> Worlds:
         first=np.concatenate([[0], np.cumsum(counts)[:-1]]),
         count=counts,
         seed=seeds_of(settings, "sensors"),
+        driver_seed=seeds_of(settings, "traffic"),
         satellite_seed=seeds_of(settings, "satellites"),
         radio_seed=seeds_of(settings, "radio"),
     )
 
 
-def seeds_of(settings: Sequence[Setting], stream: Literal["sensors", "satellites", "radio"]) -> np.ndarray:
+def seeds_of(settings: Sequence[Setting], stream: Literal["traffic", "sensors", "satellites", "radio"]) -> np.ndarray:
     """The seed of a stream in each world."""
     return np.array([each.scenario.seed_of(stream) for each in settings], dtype=np.uint64)
 
@@ -126,13 +148,15 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     mind[GAP] = np.nan  # nobody has looked yet
-    mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, WAY_STATION]] = np.inf
+    mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, WAY_STATION, SEEN_GAP, SEEN_FIRST_GAP, SEEN_STOP]] = np.inf
+    mind[MISJUDGED] = 1.0
     made = fleet(starts, ground=ground_of(cars))
     made.state[ACTIVE, [car.is_outside for car in cars]] = 0.0
     return Vehicles(
         **vars(made),
         drivers=np.array([driver_rows(car, weather) for car, weather in zip(cars, weathers, strict=True)]).T.copy(),
         mind=mind,
+        intents=np.zeros((PLACES, n)),
         returns=np.array([int(car.returns) for car in cars]),
         any_returns=any(car.returns or car.is_outside for car in cars),
         removed=np.zeros(n, dtype=np.int64),
@@ -171,9 +195,17 @@ def at_start(setting: Setting) -> Vehicles:
 
 
 def driver_rows(car: Car, weather: Weather) -> list[float]:
-    """What a driver is like, how far one sees, how fast this lets him go, and for what he overrules an application."""
+    """What a driver is like, how far one sees, how fast this lets him go, for what he overrules an application, and which gaps he takes."""
     own = [getattr(car.driver, row.name) for row in DRIVER[:SIGHT]]
-    return [*own, weather.visibility, speed_within_sight(car.driver, weather), *minded(car.intervention)]
+    gap_share = temper(car.driver.aggressiveness, *GAP_SHARES)
+    return [*own, weather.visibility, speed_within_sight(car.driver, weather), *minded(car.intervention), gap_share]
+
+
+def draw_reactions(drivers: np.ndarray, worlds: Worlds) -> None:
+    """Makes of medians the reaction times of single drivers: who is slow is so for what he expects and for what surprises him."""
+    for v, (world, who) in enumerate(zip(worlds.of, worlds.entity, strict=True)):
+        z = normal(worlds.driver_seed[world], who, DRIVER_REACTION, 0)
+        drivers[[EXPECTED, SURPRISED], v] = [reaction(drivers[row, v], drivers[SPREAD, v], z) for row in (EXPECTED, SURPRISED)]
 
 
 def speed_within_sight(driver: Driver, weather: Weather) -> float:

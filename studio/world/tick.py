@@ -16,7 +16,7 @@ from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
 from studio.world.board.post import taking_turns
-from studio.world.passes import collision, control, entry, ground, neighbour, queue, traffic
+from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic
 from studio.world.table.mind import STATION
 from studio.world.world import World
 
@@ -191,9 +191,26 @@ def mind_movers(world: World) -> tuple:
 
 
 def think(world: World) -> None:
-    """Drivers decide, one kind after the other."""
-    v = world.vehicles
+    """Drivers perceive whom they mind, decide, one kind after the other, and answer in their time."""
+    v, clock = world.vehicles, world.clock
+    perceive(world, clock.k, clock.time)
     world.unfit = sum([seats.decide(v.state, v.parameter, v.mind) for seats in world.seats])
+    answer(world, clock.k, clock.time)
+
+
+@given
+def perceive(world: World) -> tuple:
+    """What drivers take that to be which they mind, at tick k and a time [s]."""
+    v, w, tick = world.vehicles, world.worlds, world.clock.tick
+    chance = (w.of, w.entity, w.driver_seed)
+    return percept.perceive, tick, percept.renewal(tick), v.state, v.parameter, *chance, v.drivers, v.mind
+
+
+@given
+def answer(world: World) -> tuple:
+    """What their feet do at tick k and a time [s]."""
+    v, tick = world.vehicles, world.clock.tick
+    return percept.answer, tick, percept.stride(tick), v.state, v.drivers, v.mind, v.intents
 
 
 def sense(world: World, refuse: Refuse = let_through) -> None:

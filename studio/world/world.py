@@ -51,6 +51,7 @@ class Vehicles(Fleet):
 
     drivers: np.ndarray
     mind: Moving
+    intents: Moving  # accelerations that drivers have decided on, [place in a ring, vehicle]
     returns: np.ndarray  # 1 for traffic, which comes in again after it has arrived
     any_returns: bool  # at the start; or comes in from outside
     removed: Moving  # 1 for one that the script has taken away
@@ -67,6 +68,7 @@ class Worlds:
     first: np.ndarray  # per world
     count: np.ndarray  # per world
     seed: np.ndarray  # per world, of sensors
+    driver_seed: np.ndarray  # per world
     satellite_seed: np.ndarray  # per world
     radio_seed: np.ndarray  # per world
 
@@ -420,7 +422,7 @@ class World:
             self.detours.choice,
             self.demand.gone,
         ]
-        return [v.state, v.wheels, v.mind, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
+        return [v.state, v.wheels, v.mind, v.intents, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
 
     def digest(self, number: int | None = None) -> str:
         """SHA-256 of these parts and the clock; of those of one world, which do not depend on the batch that it runs in."""
@@ -433,7 +435,7 @@ class World:
         """The shares of one world in the moving parts."""
         v, u, e, s, o, d = self.vehicles, self.units, self.events, self.script, self.obstacles, self.detours
         columns, of = self.columns(number), self.worlds.of
-        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.commands, RING), (u.satellite, 1)
+        per_vehicle = (v.state, 1), (v.wheels, 4), (v.mind, 1), (v.intents, 1), (v.commands, RING), (u.satellite, 1)
         for part, groups in per_vehicle:
             yield part.reshape(part.shape[0], groups, self.size)[:, :, columns]
         yield u.now[:, u.world == number]

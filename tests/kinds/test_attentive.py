@@ -16,7 +16,7 @@ USUAL = tuple_of(attentive, attentive.Settings)(*numbers(attentive.Settings()))
 speeds, gaps, small = st.floats(0, 60), st.one_of(st.just(inf), st.floats(-5, 300)), st.floats(-1, 1)
 anything = st.builds(
     Sees, speeds, small, speeds, gaps, speeds, gaps, speeds, gaps, small, small, st.floats(-0.1, 0.1), st.floats(0, 0.01),
-    st.floats(0.1, 1), st.floats(0.1, 1), st.floats(1, 7), st.floats(0, 0.01), small,
+    st.floats(0.1, 1), st.floats(0.1, 1), st.floats(1, 7), st.floats(0, 0.01), small, speeds,
 )  # fmt: skip
 
 

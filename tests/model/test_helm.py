@@ -12,9 +12,9 @@ from studio.model import helm
 
 K, C = 0.1, 0.01  # [1/m] tail and arc
 FIRST = asin(C / K)  # [rad] course where both meet
-CAR = Sees(speed=10.0, compliance=0.005, understeer=0.001, steering_max=0.6)
+CAR = Sees(rolling=10.0, compliance=0.005, understeer=0.001, steering_max=0.6)
 cars = st.builds(
-    Sees, speed=st.floats(-15, 60), yaw_rate=st.floats(-1, 1), offset=st.floats(-50, 50), heading=st.floats(-7, 7),
+    Sees, rolling=st.floats(-15, 60), yaw_rate=st.floats(-1, 1), offset=st.floats(-50, 50), heading=st.floats(-7, 7),
     curvature=st.floats(-0.2, 0.2), compliance=st.floats(0.001, 0.02), steering_max=st.floats(0.3, 1.1), steering_rate=st.floats(0.1, 1),
     wheelbase=st.floats(1.5, 7), understeer=st.floats(-0.001, 0.01), sideways=st.floats(-5, 5),
 )  # fmt: skip
@@ -84,16 +84,16 @@ def test_what_is_asked_is_bounded(car):
     angle = steered(car)
     assert isfinite(angle) and abs(angle) <= car.steering_max
     assert helm.path_steering.py_func(car, 2.0, 0.1) == pytest.approx(angle, rel=1e-9, abs=1e-12)
-    per_bend = car.wheelbase + max(car.understeer, 0.0) * car.speed**2
-    if car.speed > 0.1:
-        assert abs(steered(car, curvature=0.0)) / per_bend * car.speed**2 <= helm.HARD * (1 + 1e-9)
+    per_bend = car.wheelbase + max(car.understeer, 0.0) * car.rolling**2
+    if car.rolling > 0.1:
+        assert abs(steered(car, curvature=0.0)) / per_bend * car.rolling**2 <= helm.HARD * (1 + 1e-9)
 
 
 def test_on_the_path_nothing_is_steered_and_beside_it_back():
     assert steered(CAR) == 0.0
     assert steered(CAR, offset=0.5) < 0.0 < steered(CAR, offset=-0.5)
-    assert steered(CAR, speed=-3.0) == 0.0
-    assert steered(CAR, speed=-3.0, offset=0.5) < 0.0  # backwards the nose goes to the left, so that the tail comes back to the right
+    assert steered(CAR, rolling=-3.0) == 0.0
+    assert steered(CAR, rolling=-3.0, offset=0.5) < 0.0  # backwards the nose goes to the left, so that the tail comes back to the right
 
 
 def test_a_car_that_has_turned_once_around_is_where_it_was():
@@ -103,5 +103,5 @@ def test_a_car_that_has_turned_once_around_is_where_it_was():
 def test_a_bend_gets_the_angle_of_the_steady_bend():
     """Front axle wide by L² kappa/8, along the path, turning as it does: L kappa, and the slip; on a line as much longer as it is wide."""
     kappa, v = 0.01, 10.0
-    car = CAR._replace(curvature=kappa, offset=-helm.SWING * 2.7**2 * kappa, yaw_rate=v * kappa, heading=-2.7 * kappa, speed=v)
+    car = CAR._replace(curvature=kappa, offset=-helm.SWING * 2.7**2 * kappa, yaw_rate=v * kappa, heading=-2.7 * kappa, rolling=v)
     assert steered(car) == pytest.approx(2.7 * kappa + 0.005 * v * v * kappa, rel=1e-3)

@@ -15,7 +15,7 @@ from studio.vehicle.shift import start
 from studio.vehicle.state import ACTIVE, V_X
 from studio.world.passes.ground import touch_all
 from studio.world.passes.queue import KEY, THERE, WHO, from_station
-from studio.world.table.mind import HEADWAY, SPEED_FACTOR, STANDSTILL, STATION, STOOD
+from studio.world.table.mind import EXPECTED, HEADWAY, SPEED_FACTOR, STANDSTILL, STATION, STOOD
 from studio.world.table.web import ENTER, ITS_ENTER, ITS_LEAVE, OWN_ENTER, START
 
 COMFORT, GENTLE = 2.0, 1.0  # [m/s²] braking at the end of the first lane; behind somebody
@@ -69,7 +69,7 @@ def enter(v, count, points, path_first, path_count, raised, drive_first, drive_c
     p = path_first[v]
     permitted = drivers[SPEED_FACTOR, v] * points[PATH_SPEED, p]
     gap, other = last_there(v, world_of[v], drive_first[v], drive_count[v], web, first, place, at, parameter)
-    speed = min(permitted, lane_speed(v, drive_first[v], drive_count[v], web, parameter))
+    speed = min(permitted, lane_speed(v, drive_first[v], drive_count[v], web, parameter, drivers))
     if gap < inf:
         speed = min(speed, speed_behind(gap, max(state[V_X, other], 0.0), drivers[STANDSTILL, v], drivers[HEADWAY, v]))
     if speed < 0.0 or is_crossed(
@@ -126,8 +126,9 @@ def speed_behind(gap, v, s_0, T):
 
 
 @inlined
-def lane_speed(v, d, count, web, parameter):
-    """Speed [m/s] from which one can stop in comfort at the end of the first lane."""
+def lane_speed(v, d, count, web, parameter, drivers):
+    """Speed [m/s] from which one can stop in comfort at the end of the first lane, once one has answered."""
     if count < 2:
         return inf
-    return sqrt(2.0 * COMFORT * max(web.drive[ENTER, d + 1] - parameter[FRONT, v] - driver.STOP_CLOSE, 0.0))
+    t, room = drivers[EXPECTED, v], max(web.drive[ENTER, d + 1] - parameter[FRONT, v] - driver.STOP_CLOSE, 0.0)
+    return COMFORT * (sqrt(t * t + 2.0 * room / COMFORT) - t)

@@ -18,7 +18,7 @@ from math import inf, sqrt
 
 from studio.compiled import inlined
 from studio.model import driver
-from studio.model.passage import AFTER, arrival, arrival_below, is_enough, merging_headway, wanted_gap
+from studio.model.passage import AFTER, PATIENT, arrival, arrival_below, is_enough, merging_headway, wanted_gap
 from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
@@ -29,10 +29,14 @@ from studio.world.passes.regard import behind, follow, is_ahead, is_in_the_way, 
 from studio.world.table.mind import (
     BRAKE_COMFORT,
     COMFORT,
+    EXPECTED,
     FIRST,
     FOLLOW_GAP,
     FOLLOW_SPEED,
+    GAINED,
+    GAP_SHARE,
     HALTED,
+    MISJUDGED,
     RED_STATION,
     SPEED_FACTOR,
     STANDSTILL,
@@ -87,7 +91,7 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
                 entity, web, drivers, mind,
             ):  # fmt: skip
                 must, who = True, number[other]
-    return must and is_way and is_held(v, who, line, to_line, decided, state, mind)
+    return must and is_way and is_held(v, who, line, to_line, decided, state, drivers, mind)
 
 
 @inlined
@@ -99,13 +103,14 @@ def earliest(m, web):
 
 
 @inlined
-def is_held(v, who, line, to_line, decided, state, mind):
+def is_held(v, who, line, to_line, decided, state, drivers, mind):
     """Whether a driver stops before a line, for `who` if it is for somebody.
 
     Who would have to brake too hard goes on, but who had `decided` to stop there stays with it.
     """
-    speed = state[V_X, v]
-    if driver.must_stop(speed, to_line) or (decided == line and driver.can_stop(speed, to_line)):
+    speed, gained = state[V_X, v], mind[GAINED, v]
+    then, there = driver.foreseen_speed(speed, gained), driver.foreseen_gap(to_line, speed, gained, 0.0, drivers[EXPECTED, v])
+    if driver.must_stop(then, there) or (decided == line and driver.can_stop(speed, to_line)):
         mind[WAY_STATION, v], mind[FIRST, v] = line, who
         return True
     return False
@@ -165,8 +170,8 @@ def top_speed(v, d, drivers, points, path_first, path_count, web, mind):
 
 @inlined
 def slow_arrival(v, distance, top, state, drivers, mind):
-    """When v is `distance` [m] on at the latest [s], if it drives as slowly as its bend asks for already."""
-    return arrival_below(distance, max(state[V_X, v], 0.0), free(v, state, drivers, mind), top)
+    """When v is `distance` [m] on at the latest [s], if it drives as slowly as its bend asks for already, once v has answered."""
+    return arrival_below(distance, max(state[V_X, v], 0.0), free(v, state, drivers, mind), top) + drivers[EXPECTED, v]
 
 
 @inlined
@@ -270,9 +275,13 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
     red = mind[RED_STATION, other] - mind[STATION, other] - parameter[FRONT, other]
     turn, partner = web.turn[m], web.partner[m]
     is_committed = web.right[partner] == LANE or its_nose > 0.0
-    if red <= its_way or turn == NONE or (turn == TAKE and not is_committed):
+    if red <= its_way or (turn == TAKE and not is_committed):
         return False
-    its_time = comes_in(other, its_way, state, drivers, mind)
+    if turn == NONE:
+        if sets_off_before(v, other, its_way, state, drivers, mind):
+            follow(v, number[other], to_enter, 0.0, state, drivers, mind)
+        return False
+    its_time = mind[MISJUDGED, v] * comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
     if turn == GIVE and (to_line >= 0.0 or at_light):
         if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
@@ -283,6 +292,16 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
     return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
+
+
+@inlined
+def sets_off_before(v, other, its_way, state, drivers, mind):
+    """Whether v stands, and one who comes would have to brake too hard if v set off into his way; who has waited for long does."""
+    if state[V_X, v] >= STANDING or state[V_X, other] <= CRAWL or mind[STOOD, v] > PATIENT:
+        return False
+    then = driver.foreseen_speed(state[V_X, other], mind[GAINED, other])
+    there = driver.foreseen_gap(its_way, state[V_X, other], mind[GAINED, other], 0.0, drivers[EXPECTED, other])
+    return not driver.must_stop(then, there)
 
 
 @inlined
@@ -317,19 +336,19 @@ def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, sta
     a, to_wait = free(v, state, drivers, mind), max(to_line - driver.STOP_CLOSE, 0.0)
     across = web.span[OWN_LEAVE, m] + parameter[LENGTH, v]
     lag = its_time - arrival_below(to_wait, max(state[V_X, v], 0.0), a, top)
-    return is_enough(lag, wanted_gap(web.critical[strand], mind[STOOD, v]), across, state[V_X, v], drivers[COMFORT, v]) and is_safe(
-        v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web
-    )
+    return is_enough(
+        lag, wanted_gap(drivers[GAP_SHARE, v] * web.critical[strand], mind[STOOD, v]), across, state[V_X, v], drivers[COMFORT, v]
+    ) and is_safe(v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web, drivers)
 
 
 @inlined
-def is_safe(v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web):
+def is_safe(v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web, drivers):
     """Whether v has left before the other comes; where lines run together, whether he need not brake hard behind v."""
     speed = max(state[V_X, v], 0.0)
     if web.shape[m] == ALONG:
         return its_time > own_time + merging_headway(state[V_X, other], sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
     way = to_enter + web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + parameter[LENGTH, v]
-    return its_time > arrival_below(way, speed, a, top) + AFTER
+    return its_time > arrival_below(way, speed, a, top) + drivers[EXPECTED, v] + AFTER
 
 
 @inlined
@@ -343,7 +362,8 @@ def is_crawling(other, its_way, state):
 def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind):
     """Of two of whom none has to wait, who is there first goes first; whether v has to wait for the other before the line."""
     own_time = comes_in(v, to_enter, state, drivers, mind)
-    if state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other]):
+    is_first = state[V_X, other] <= STANDING or its_time > own_time or (its_time == own_time and entity[v] < entity[other])
+    if is_first and not sets_off_before(v, other, its_way, state, drivers, mind):
         return False
     if web.shape[m] == ALONG:
         let_in(v, number[other], to_enter - its_way - parameter[LENGTH, other], state[V_X, other], state, drivers, mind)
@@ -381,4 +401,4 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
             continue  # who stands there and is behind lets one in who has stood as well
         if tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
             who = number[other]
-    return who != NOBODY and is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind)
+    return who != NOBODY and is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, drivers, mind)

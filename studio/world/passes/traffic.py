@@ -8,7 +8,7 @@ from math import cos, inf, isfinite, sin, sqrt
 from studio.compiled import inlined, lean
 from studio.kind.driver import Sees
 from studio.model import driver, helm
-from studio.road.network.signals import GREEN, signal_state
+from studio.road.network.signals import GREEN, RED, signal_state
 from studio.road.ways.path import (
     PATH_CURVATURE,
     PATH_HEADING,
@@ -29,17 +29,20 @@ from studio.world.table.mind import (
     BRAKE_COMFORT,
     COMFORT,
     D_PSI,
+    EXPECTED,
     FIRST,
-    FIRST_GAP,
-    FIRST_SPEED,
-    FOLLOW_GAP,
-    FOLLOW_SPEED,
     FRONT_OFFSET,
+    GAINED,
     GAP,
     MINDED,
     OFFSET,
     PATH_KAPPA,
     RED_STATION,
+    SEEN_FIRST_GAP,
+    SEEN_FIRST_SPEED,
+    SEEN_GAP,
+    SEEN_SPEED,
+    SEEN_STOP,
     SIGHT,
     SIGHT_SPEED,
     SPEED_FACTOR,
@@ -47,6 +50,7 @@ from studio.world.table.mind import (
     STEER_WISH,
     STOOD,
     STOPPING,
+    SWAYED,
     V_DESIRED,
     WAY_STATION,
     WISH,
@@ -109,19 +113,24 @@ def clip(s, count):
 
 
 @inlined
-def will_stop(v, distance, station, state, mind):
+def will_stop(v, distance, station, light, state, drivers, mind):
     """Whether the driver stops for a light that is not green; who has decided to at a tick before stays with it."""
-    decided = mind[RED_STATION, v] == station and driver.can_stop(state[V_X, v], distance)
-    return decided or driver.must_stop(state[V_X, v], distance)
+    speed, gained = state[V_X, v], mind[GAINED, v]
+    if mind[RED_STATION, v] == station and driver.can_stop(speed, distance):
+        return True
+    then, there = driver.foreseen_speed(speed, gained), driver.foreseen_gap(distance, speed, gained, 0.0, drivers[EXPECTED, v])
+    comes_too_late = light == RED or driver.is_red_then(speed, distance)
+    return driver.must_stop(then, there) or (comes_too_late and driver.can_stop(then, there - then * driver.BRAKE_TIME))
 
 
 @inlined
-def next_red(v, state, parameter, mind, stop_first, stop_count, stop_station, stop_link, shown, sight):
+def next_red(v, state, parameter, drivers, mind, stop_first, stop_count, stop_station, stop_link, shown):
     """Station [m] of the next stop line in sight ahead of the bumper that shows no green and at which the driver will stop."""
     bumper = mind[STATION, v] + parameter[FRONT, v]
     for i in range(stop_first, stop_first + stop_count):
         distance = stop_station[i] - bumper
-        if 0.0 < distance <= sight and shown[stop_link[i]] != GREEN and will_stop(v, distance, stop_station[i], state, mind):
+        is_shown = 0.0 < distance <= drivers[SIGHT, v] and shown[stop_link[i]] != GREEN
+        if is_shown and will_stop(v, distance, stop_station[i], shown[stop_link[i]], state, drivers, mind):
             return stop_station[i]
     return inf
 
@@ -138,9 +147,7 @@ def orient(tick, state, parameter, places, points, path_first, path_count, stop_
             state[ACTIVE, v] = 0.0
         permitted = drivers[SPEED_FACTOR, v] * permitted_speed(v, state, points, path_first[v], path_count[v], mind)
         mind[V_DESIRED, v] = min(permitted, drivers[SIGHT_SPEED, v])
-        mind[RED_STATION, v] = next_red(
-            v, state, parameter, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown, drivers[SIGHT, v]
-        )
+        mind[RED_STATION, v] = next_red(v, state, parameter, drivers, mind, stop_first[v], stop_count[v], stop_station, stop_link, shown)
         stand(v, tick, state, mind)
         forget(v, mind)
         mind[STOPPING, v] = before_line(v, state, parameter, drivers, mind)
@@ -322,10 +329,11 @@ def sees(v, state, parameter, mind):
     """What a driver of any kind sees of all this."""
     front, rear = compliance(v, L_F, L_R, C_FRONT, parameter), compliance(v, L_R, L_F, C_REAR, parameter)
     return Sees(
-        state[V_X, v], state[YAW_RATE, v], mind[V_DESIRED, v], mind[FOLLOW_GAP, v], mind[FOLLOW_SPEED, v], mind[FIRST_GAP, v],
-        mind[FIRST_SPEED, v], min(mind[RED_STATION, v], mind[WAY_STATION, v]) - mind[STATION, v] - parameter[FRONT, v],
-        mind[FRONT_OFFSET, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v], parameter[STEER_RATE, v],
-        parameter[L_F, v] + parameter[L_R, v], front - rear, state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v],
+        driver.foreseen_speed(state[V_X, v], mind[GAINED, v]), state[YAW_RATE, v], mind[V_DESIRED, v], mind[SEEN_GAP, v],
+        mind[SEEN_SPEED, v], mind[SEEN_FIRST_GAP, v], mind[SEEN_FIRST_SPEED, v], mind[SEEN_STOP, v],
+        mind[FRONT_OFFSET, v] - mind[SWAYED, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v],
+        parameter[STEER_RATE, v], parameter[L_F, v] + parameter[L_R, v], front - rear,
+        state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v], state[V_X, v],
     )  # fmt: skip
 
 

@@ -11,12 +11,22 @@ BRAKE_COMFORT = DRIVER.row("deceleration", "m/s²", "comfortable deceleration")
 HEADWAY = DRIVER.row("time_headway", "s", "wanted headway")
 STANDSTILL = DRIVER.row("standstill_gap", "m", "wanted gap at rest")
 SPEED_FACTOR = DRIVER.row("speed_factor", "1", "wanted speed over the permitted one")
+EXPECTED = DRIVER.row("expected_reaction", "s", "from seeing what is expected to answering it, as drawn for this driver")
+SURPRISED = DRIVER.row("surprised_reaction", "s", "the same for what comes up by surprise")
+SPREAD = DRIVER.row("reaction_spread", "1", "standard deviation of the logarithm of both among drivers")
+GAP_ERROR = DRIVER.row("gap_error", "1", "relative error of gaps and times that are estimated, standard deviation")
+CLOSING_ERROR = DRIVER.row("closing_error", "1/s", "error of the speed of what is ahead, per gap, standard deviation")
+DISTRACTION_RATE = DRIVER.row("distraction_rate", "1/min", "how often he looks away")
+DISTRACTION_LENGTH = DRIVER.row("distraction_length", "s", "for how long, median")
+SWAY = DRIVER.row("sway", "m", "standard deviation of the place in the lane that he wants")
+SWAY_TIME = DRIVER.row("sway_time", "s", "in which this is forgotten")
 SIGHT = DRIVER.row("sight", "m", "how far the weather lets the driver see")
 SIGHT_SPEED = DRIVER.row("sight_speed", "m/s", "from which the driver stops within sight")
 MINDS_COLLISION = DRIVER.row("minds_collision", "1", "1 when the driver overrules an application before a collision")
 MINDS_RED = DRIVER.row("minds_red_light", "1", "1 when he does before a red light")
 MINDS_WAY = DRIVER.row("minds_right_of_way", "1", "1 when he does before a car that goes first")
 REACTION_TIME = DRIVER.row("reaction_time", "s", "that it has to be needed before he does")
+GAP_SHARE = DRIVER.row("gap_share", "1", "of the usual critical gap that he takes")
 
 MIND = Table("mind", Role.DERIVED, per="vehicle")
 STATION = MIND.row("station", "m", "arc length along the own path", role=Role.STATE, label="Distance along the route")
@@ -58,6 +68,33 @@ MINDED = MIND.row(
 STOPPING = MIND.row("stopping", "m/s²", "acceleration that the next stop line permits")
 FIRST = MIND.row("first", "1", "number in its world of who goes first, and is waited for; -1 for nobody")
 WAITED_FOR = MIND.row("waited_for", "1", "the same at the tick before", role=Role.STATE)
+AWAY = MIND.row("inattentive", "1", "1 while the driver looks away", role=Role.STATE, label="Driver looks away")
+LOOKS_UNTIL = MIND.row("looks_until", "s", "when he looks away, or back, the next time; 0 before it was drawn", role=Role.STATE)
+SEEN_GAP = MIND.row(
+    "seen_gap", "m", "gap to whoever ahead permits least as the driver takes it to be when he will have answered; infinite when there is "
+    "nobody", role=Role.STATE,
+)  # fmt: skip
+SEEN_SPEED = MIND.row("seen_speed", "m/s", "speed of the same as he takes it to be", role=Role.STATE)
+SEEN_FIRST_GAP = MIND.row("seen_first_gap", "m", "the same gap to whoever goes first", role=Role.STATE)
+SEEN_FIRST_SPEED = MIND.row("seen_first_speed", "m/s", "and his speed", role=Role.STATE)
+SEEN_STOP = MIND.row("seen_stop", "m", "distance to the next line to stop at, likewise", role=Role.STATE)
+WRONG_GAP = MIND.row("wrong_gap", "1", "how wrong gaps are estimated just now, in standard deviations", role=Role.STATE)
+WRONG_CLOSING = MIND.row("wrong_closing", "1", "the same for speeds", role=Role.STATE)
+MISJUDGED = MIND.row("misjudged", "1", "an estimated gap over the true one", role=Role.STATE, label="Estimated over true gap")
+SWAY_FROM = MIND.row("sway_from", "m", "place in the lane that the driver wanted last, left positive", role=Role.STATE)
+SWAY_TO = MIND.row("sway_to", "m", "the one that he moves to", role=Role.STATE)
+SWAYED = MIND.row("swayed", "m", "place in the lane that he wants now, left of the path", label="Wanted place in the lane")
+INTENT = MIND.row("intent", "m/s²", "acceleration that the driver has decided on, which his foot will do", role=Role.STATE)
+PENDING = MIND.row("pending", "m/s", "change of speed that is decided and not done yet", role=Role.STATE)
+UNMET = MIND.row("unmet", "m/s²", "acceleration of the car beyond what his foot has asked for, as he feels it", role=Role.STATE)
+GAINED = MIND.row("gained", "m/s", "change of own speed until he will have answered, as he expects it")
+STARTLED = MIND.row(
+    "startled",
+    "s",
+    "until when a surprise keeps him from deciding anew; 0 when none does",
+    role=Role.STATE,
+    label="Driver is surprised until",
+)
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
 NEEDED_COLLISION = MIND.row("needed_collision", "s", "since when he would brake before a collision; infinite when not", role=Role.STATE)
