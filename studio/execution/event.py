@@ -33,6 +33,7 @@ from studio.world.table.event import (
     MESSAGE_LOST,
     NOTICE_SHOWN,
     OUT_OF_REACH,
+    ROUTE_FILE,
     SCRIPT_BEGUN,
     SCRIPT_CUT,
     SCRIPT_ENDED,
@@ -144,6 +145,7 @@ def foreseen(setting: Setting) -> Iterator[Happening]:
     yield from hopeless(setting)
     yield from out_of_reach(setting)
     yield from rerouted(setting)
+    yield from (happening(ROUTE_FILE, 0.0, what=each) for each in setting.imported)
 
 
 class Teller:

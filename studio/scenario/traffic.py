@@ -177,6 +177,10 @@ class Traffic(Part, defer_build=True):
     )  # fmt: skip
     flows: dict[Name, Flow] = Field({}, title="Flows")
     matrices: dict[Name, Matrix] = Field({}, title="Matrices", description="trips between origins and destinations")
+    routes: str | None = Field(
+        None, min_length=1, max_length=300, title="Route file",
+        description="of SUMO, relative to the scenario (.rou.xml, .rou.xml.gz): its types, vehicles, trips and flows",
+    )  # fmt: skip
     types: dict[Name, CarType] = Field({}, title="Types", description="models with drivers of their own")
     model: str = model_field(
         "ford_escort", "a name of the catalogue, a vehicle file (YAML) relative to the scenario, or a type; not used where there is a mix"
@@ -192,7 +196,7 @@ class Traffic(Part, defer_build=True):
     @property
     def is_there(self) -> bool:
         """Whether anybody is asked for."""
-        return bool(self.count or self.flows or self.matrices)
+        return bool(self.count or self.flows or self.matrices or self.routes)
 
     def manned(self, name: str) -> Manned:
         """The type of this name, or else the model, with its drivers."""

@@ -26,8 +26,9 @@ from studio.world import crew
 from studio.world.car import Car, footprint
 from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
+from studio.world.demand.imported import imported
 from studio.world.demand.population import CAR_LENGTH, END_CLEARANCE, traffic
-from studio.world.demand.source import Detour, Source, sources_of
+from studio.world.demand.source import Detour, Source, sources_of, streams
 from studio.world.demand.style import type_problems
 from studio.world.effect import Walk
 from studio.world.exclusive import exclusive
@@ -53,6 +54,8 @@ class Setting:
     spots: dict[str, tuple[float, float]]  # [m] where the stations stand
     sources: tuple[Source, ...] = ()  # where the cars of flows and matrices come in
     detours: tuple[Detour, ...] = ()  # what closed roads do to them
+    imported: tuple[str, ...] = ()  # what is told of the route file
+    routes_digest: str = ""  # of the route file
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -69,16 +72,18 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
     refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
-    models = models_of(scenario, folder, where)
+    asked = imported(scenario, network, folder, where)
+    models = models_of(asked.scenario, folder, where)
     paths = paths_of(scenario, network, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     found = sites(scenario, network)
     check_starts(cars, found, where)
     works = Works(found)
     check_works(cars, works, where)
-    sources, detours = sources_of(scenario, network, works, where)
-    filled = tuple(cars + traffic(scenario, network, models, cars, works, sources))
-    return Setting(scenario, network, filled, found, works, spots(scenario, network, where), sources, detours)
+    sources, detours = sources_of([*streams(scenario), *asked.streams], network, works, where)
+    filled = tuple(cars + traffic(asked.scenario, network, models, cars, works, sources))
+    stations = spots(scenario, network, where)
+    return Setting(scenario, network, filled, found, works, stations, sources, detours, asked.told, asked.digest)
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -185,8 +190,9 @@ def models_named(scenario: Scenario) -> dict[str, str]:
 
 
 def named_files(scenario: Scenario) -> dict[str, str]:
-    """The files that a scenario names, by path: its map, and vehicles that are no names of the catalogue."""
-    return {"map.file": scenario.map.file} | {path: model for path, model in models_named(scenario).items() if is_file(model)}
+    """The files that a scenario names, by path: its map, its routes, and vehicles that are no names of the catalogue."""
+    routes = {"traffic.routes": scenario.traffic.routes} if scenario.traffic.routes else {}
+    return {"map.file": scenario.map.file} | routes | {path: model for path, model in models_named(scenario).items() if is_file(model)}
 
 
 def is_file(model: str) -> bool:
@@ -226,8 +232,8 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         if begin is not None and not begin.is_of_an_event and begin.at >= scenario.clock.duration:
             latest = f"< {scenario.clock.duration:g} s"
             found.append(Problem(f"{where}: measures.{name}.begin.at", "is after the end of the run", f"{begin.at:g} s", latest))
-    for part, streams in (("flows", scenario.traffic.flows), ("matrices", scenario.traffic.matrices)):
-        for name, each in streams.items():
+    for part, known in (("flows", scenario.traffic.flows), ("matrices", scenario.traffic.matrices)):
+        for name, each in known.items():
             if each.begin >= scenario.clock.duration:
                 latest = f"< {scenario.clock.duration:g} s"
                 found.append(Problem(f"{where}: traffic.{part}.{name}.begin", "is after the end of the run", f"{each.begin:g} s", latest))

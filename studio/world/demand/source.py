@@ -1,12 +1,14 @@
 """Sources: where the cars of flows and of matrices come in, on which way, and when.
 
-sources_of(scenario, network, works, where)   →  (Source, ...), (Detour, ...)
+streams(scenario)                             →  Stream, those of the flows and matrices
+sources_of(streams, network, works, where)    →  (Source, ...), (Detour, ...)
 
-A stream, which is a flow or a trip of a matrix, has a source for every lane that it may start in; cars are due there in the order of time.
+A stream, which is a flow, a trip of a matrix, or cars of a route file, has a source for every lane that it may start in; cars are due
+there in the order of time.
 Where works close a road altogether, those that are due meanwhile take the quickest way around it, if there is one.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, log
@@ -68,13 +70,13 @@ class Stream:
     speeds: tuple = ()
 
 
-def sources_of(scenario: Scenario, network: Network, works: Works, where: str) -> tuple[tuple[Source, ...], tuple[Detour, ...]]:
-    """All sources, in the order of names, and what closed roads do to them; raises RouteError for what cannot be driven."""
+def sources_of(asked: Iterable[Stream], network: Network, works: Works, where: str) -> tuple[tuple[Source, ...], tuple[Detour, ...]]:
+    """All sources, in the order of streams, and what closed roads do to them; raises RouteError for what cannot be driven."""
     sources: list[Source] = []
     detours: list[Detour] = []
     problems: list[Problem] = []
     closures = list(closures_of(works.sites))
-    for stream in streams(scenario):
+    for stream in asked:
         try:
             for closed, due in parts(stream, closures):
                 ways, found = ways_of(stream, closed, network, where)
