@@ -15,6 +15,7 @@ from studio.kind.settings import Name, Part, RouteName, number
 from studio.kind.slot import OneOf, Slot
 
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
+MOST_CARS = 3000  # that go round, or are about of all flows at once
 AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
 
 
@@ -172,9 +173,12 @@ class Traffic(Part, defer_build=True):
     """Cars that fill the map: so many on the ways from any arm to any other, and those that come in and leave."""
 
     count: int = Field(
-        0, ge=0, le=3000, title="Number of cars", json_schema_extra={"unit": "1"},
+        0, ge=0, le=MOST_CARS, title="Number of cars", json_schema_extra={"unit": "1"},
         description="who has arrived comes in again where his way begins; for whom there is no room at the start waits outside",
     )  # fmt: skip
+    density: float | None = number(
+        None, unit="1/km", title="Density", gt=0, le=150, description="cars per kilometre of lane, instead of their number"
+    )
     flows: dict[Name, Flow] = Field({}, title="Flows")
     matrices: dict[Name, Matrix] = Field({}, title="Matrices", description="trips between origins and destinations")
     routes: str | None = Field(
@@ -193,10 +197,16 @@ class Traffic(Part, defer_build=True):
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
     spread: Spread = spread_field()
 
+    @model_validator(mode="after")
+    def one_number(self):
+        if self.count and self.density is not None:
+            raise ValueError("give either `count` or `density`")
+        return self
+
     @property
     def is_there(self) -> bool:
         """Whether anybody is asked for."""
-        return bool(self.count or self.flows or self.matrices or self.routes)
+        return bool(self.count or self.density or self.flows or self.matrices or self.routes)
 
     def manned(self, name: str) -> Manned:
         """The type of this name, or else the model, with its drivers."""

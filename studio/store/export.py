@@ -86,7 +86,7 @@ def vehicle(name: str, row: list[float], body: Body, cast: Cast, box: Box | None
     lane, pos, slope = cast.ways[manned.way].place(station + body.front)
     if box is not None:
         ((x, y),) = box.degrees(np.array([[x], [y]]))
-    return Seen(name, manned.model, x, y, (90.0 - degrees(heading)) % 360.0, speed, acceleration, lane, pos, degrees(atan(slope)))
+    return Seen(name, manned.model, x, y, round(90.0 - degrees(heading), 2) % 360.0, speed, acceleration, lane, pos, degrees(atan(slope)))
 
 
 def fcd(samples: Iterator[tuple[float, list[Seen]]], digits: int) -> Iterator[str]:
@@ -103,7 +103,7 @@ def element(each: Seen, digits: int) -> str:
     """A vehicle in XML."""
     place = f'x="{each.x:.{digits}f}" y="{each.y:.{digits}f}" angle="{each.angle:.2f}"'
     on = f'pos="{each.pos:.2f}" lane={quoteattr(each.lane)} slope="{each.slope:.2f}"'
-    return f'<vehicle id={quoteattr(each.name)} {place} type={quoteattr(each.model)} speed="{each.speed:.2f}" {on}/>'
+    return f'<vehicle id={quoteattr(each.name)} {place} type={quoteattr(each.model)} speed="{abs(each.speed):.2f}" {on}/>'
 
 
 def table(samples: Iterator[tuple[float, list[Seen]]], digits: int) -> Iterator[str]:
@@ -112,7 +112,7 @@ def table(samples: Iterator[tuple[float, list[Seen]]], digits: int) -> Iterator[
     for time, vehicles in samples:
         yield "".join(
             line(
-                (f"{time:.3f}", each.name, each.model, f"{each.x:.{digits}f}", f"{each.y:.{digits}f}", f"{each.angle:.3f}",
+                (f"{time:.3f}", each.name, each.model, f"{each.x:.{digits}f}", f"{each.y:.{digits}f}", f"{each.angle:.2f}",
                  f"{each.speed:.3f}", f"{each.acceleration:.3f}", each.lane, f"{each.pos:.3f}", f"{each.slope:.3f}")
             )
             for each in vehicles

@@ -2,12 +2,17 @@
 
 import csv
 import io
+import os
+import subprocess
+import sys
 from math import cos, radians, sin
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pyproj
 import pytest
+import sumo
 
 from studio import job
 from studio.cli import app
@@ -30,6 +35,19 @@ def document(made, **options):
     """The floating car data as elements."""
     runs, run = made
     return ElementTree.fromstring("".join(export(runs, run.row.run, "fcd", **options)))
+
+
+def test_sumo_itself_reads_it(made, tmp_path):
+    """Its schema has every attribute, and its exporter for network simulators takes the file: so many nodes as there are vehicles."""
+    runs, run = made
+    schema = ElementTree.parse(Path(sumo.SUMO_HOME) / "data" / "xsd" / "fcd_file.xsd")
+    (kind,) = [each for each in schema.getroot() if each.get("name") == "vehicle"]
+    assert set(document(made)[0][0].attrib) <= {each.get("name") for each in kind.iter("{http://www.w3.org/2001/XMLSchema}attribute")}
+    (tmp_path / "run.fcd.xml").write_text("".join(export(runs, run.row.run, "fcd")))
+    exporter = Path(sumo.SUMO_HOME) / "tools" / "traceExporter.py"
+    command = [sys.executable, exporter, "--fcd-input", "run.fcd.xml", "--ns2mobility-output", "out.ns2", "--penetration", "1"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, env=os.environ | {"SUMO_HOME": sumo.SUMO_HOME})
+    assert (tmp_path / "out.ns2").read_text().count("set X_") == len(run.record.vehicles)
 
 
 def rows(made, **options):

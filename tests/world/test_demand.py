@@ -137,6 +137,29 @@ def test_a_distribution_without_room_is_refused():
         prepared(count=3, spread={"time_headway": NORMAL | {"least": 2.5}})
 
 
+# -- how many --------------------------------------------------------------------------------------
+
+
+def test_a_density_is_cars_per_kilometre_of_lane():
+    setting = prepared(density=5.0, spacing=8)
+    kilometres = sum(lane.length for lane in setting.network.lanes if not lane.internal) / 1000
+    assert len(drivers(setting)) == round(5.0 * kilometres)
+
+
+@pytest.mark.parametrize(
+    ("traffic", "said"),
+    [
+        ({"density": 5.0, "count": 3}, "either `count` or `density`"),
+        ({"density": 0.001}, r"traffic\.density: makes 0 cars of [\d.]+ km"),
+        ({"density": 150.0}, r"traffic\.density: makes \d+ cars.*1 to 3000"),
+        ({"flows": {f"f{i}": {"route": "eastbound", "rate": 20_000} for i in range(4)}}, "traffic: would have [0-9]+ cars"),
+    ],
+)  # fmt: skip
+def test_numbers_that_cannot_be_are_refused(traffic, said):
+    with pytest.raises((StudioError, ValueError), match=said):
+        prepared(seconds=600.0, **traffic)
+
+
 # -- origins and destinations ----------------------------------------------------------------------
 
 

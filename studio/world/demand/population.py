@@ -20,7 +20,7 @@ from studio.road.ways.route import all_routes
 from studio.road.ways.strand import driven, strands_of
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Gps, Intervention, Scenario
-from studio.scenario.traffic import Manned
+from studio.scenario.traffic import MOST_CARS, Manned
 from studio.world.car import Car, footprint, position
 from studio.world.demand.source import Source
 from studio.world.demand.style import Who, driver_of, kind_of, who_of
@@ -60,7 +60,7 @@ def population(scenario: Scenario, network: Network, models: Models, named: list
     """Cars at random on the ways, none near another; those that find no place wait where a way begins. Raises ScenarioError."""
     taken = [position(car.path, car.station) for car in named]
     bodies = [footprint(car.name, car.model, car.path, car.station) for car in named]
-    for i in range(scenario.traffic.count):
+    for i in range(number_of(scenario, network)):
         of = kind_of(Who(i), scenario, None)
         model = models[of.model]
         found = free_place(i, scenario, network, taken, bodies, model, works)
@@ -70,6 +70,21 @@ def population(scenario: Scenario, network: Network, models: Models, named: list
             bodies.append(footprint(name_of(i), model, way, station))
         speed = min(scenario.traffic.speed, float(way.points[PATH_SPEED, int(station)]))
         yield replace(car(i, Who(i), scenario, of, models, way, station, speed), returns=True, is_outside=found is None)
+
+
+def number_of(scenario: Scenario, network: Network) -> int:
+    """How many go round: as many as the scenario says, or as a density makes of all lanes for cars. Raises ScenarioError."""
+    if scenario.traffic.density is None:
+        return scenario.traffic.count
+    kilometres = sum(lane.length for lane in network.lanes if lane.open and not lane.internal) / 1000.0
+    count = round(scenario.traffic.density * kilometres)
+    if not 1 <= count <= MOST_CARS:
+        what = f"makes {count} cars of {kilometres:.2f} km of lanes"
+        problem = Problem(
+            "traffic.density", what, f"{scenario.traffic.density:g} /km", f"1 to {MOST_CARS} cars", "change it, or the map's radius"
+        )
+        raise ScenarioError("The traffic has no number of cars that can be.", [problem])
+    return count
 
 
 def outside(i: int, scenario: Scenario, network: Network, works: Works) -> Path:
@@ -124,8 +139,11 @@ def in_junction(network: Network, way: Path, station: float) -> bool:
 
 
 def flowing(scenario: Scenario, models: Models, sources: Sequence[Source], first: int) -> Iterator[Car]:
-    """The cars of all sources, which wait outside."""
-    number = first
+    """The cars of all sources, which wait outside; raises ScenarioError when they would be too many at once."""
+    number, needs = first, sum(map(needed, sources))
+    if needs > MOST_CARS:
+        problem = Problem("traffic", f"would have {needs} cars ready to be about at once", allowed=f"≤ {MOST_CARS}", remedy="ask for fewer")
+        raise ScenarioError("The flows, matrices and routes bring too many cars.", [problem])
     for i, source in enumerate(sources):
         for turn in range(needed(source)):
             who = who_of(source.stream, turn)
