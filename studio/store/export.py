@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 
 from studio.errors import Problem, UnknownError
@@ -71,7 +72,7 @@ def seen(parquet: bytes, as_degrees: bool) -> Iterator[tuple[float, list[Seen]]]
     names, cast = known["vehicles"], known["cast"]
     columns = ["time", *(f"{name}.{channel}" for name in names for channel in NEEDED)]
     box = Box(cast.origin[0], cast.origin[1], cast.origin[0], cast.origin[1]) if as_degrees else None
-    for batch in pq.ParquetFile(io.BytesIO(parquet)).iter_batches(BATCH, columns=columns):
+    for batch in pq.ParquetFile(pa.BufferReader(parquet), pre_buffer=False).iter_batches(BATCH, columns=columns):
         values = {name: batch.column(name).to_pylist() for name in columns}
         for i, time in enumerate(values["time"]):
             rows = ((name, [values[f"{name}.{channel}"][i] for channel in NEEDED]) for name in names)

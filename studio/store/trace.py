@@ -22,7 +22,7 @@ from studio.execution.shelf import SMALL
 from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
-FORM: Any = {"compression": "zstd", "use_dictionary": False, "use_byte_stream_split": True}
+FORM: Any = {"compression": "zstd", "use_dictionary": False, "use_byte_stream_split": True, "data_page_size": 1 << 15}
 ABOUT = b"record"  # what the columns are about, as JSON
 
 
