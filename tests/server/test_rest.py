@@ -211,7 +211,7 @@ OUTSIDE = ["/etc/passwd", "../../nowhere.osm", "maps/../../x.osm", "C:\\x.osm", 
 
 
 @pytest.mark.parametrize("path", OUTSIDE)
-@pytest.mark.parametrize("field", ["map.file", "vehicles.leader.model", "traffic.model"])
+@pytest.mark.parametrize("field", ["map.file", "vehicles.leader.model", "traffic.model", "traffic.routes"])
 def test_rest_looks_at_no_other_folders(client, path, field):
     """Nor does it tell what is there: the same answer whether it exists or not."""
     name = path if field == "map.file" else f"{path}.yaml"

@@ -1,6 +1,7 @@
 """Route files of SUMO: what is in them comes onto the map, what is not used is told, what is hostile or wrong is refused."""
 
 import gzip
+import os
 import subprocess
 from dataclasses import replace
 
@@ -193,6 +194,9 @@ def test_a_file_that_is_not_there_is_refused(prepared, tmp_path):
         prepared("", name="town.rou.xml", routes="other.rou.xml")
     with pytest.raises(StudioError, match=r"traffic\.routes: not a route file"):
         prepared("", routes="town.yaml")
+    os.mkfifo(tmp_path / "pipe.rou.xml")
+    with pytest.raises(StudioError, match=r"traffic\.routes: is no file"):
+        prepared("", routes="pipe.rou.xml")
 
 
 def test_what_sumo_writes_itself_is_read(tmp_path):

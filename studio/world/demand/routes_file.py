@@ -109,6 +109,8 @@ def unpacked(path: Path) -> bytes:
     """The content of the file, no more than `LARGEST`; raises MapError."""
     if not path.name.lower().endswith(ENDINGS):
         raise MapError(f"not a route file; allowed: {', '.join(ENDINGS)}")
+    if path.exists() and not path.is_file():
+        raise MapError("is no file")  # a pipe would be waited for
     try:
         with (gzip.open if path.name.lower().endswith(".gz") else open)(path, "rb") as file:
             data = file.read(LARGEST + 1)
