@@ -194,8 +194,9 @@ def told(size: float) -> str:
 
 
 def scenario_hash(loaded: Loaded, prepared: Setting) -> str:
-    """Content hash of what is run: the document without its seed, the map, and the vehicles with their tyres."""
-    return file.digest(loaded.document, f"{prepared.network.digest} {vehicles_digest(prepared)}")
+    """Content hash of what is run: the document without its seed, the map, the vehicles with their tyres, and the route file if any."""
+    parts = (prepared.network.digest, vehicles_digest(prepared), prepared.routes_digest)
+    return file.digest(loaded.document, " ".join(filter(None, parts)))
 
 
 def vehicles_digest(prepared: Setting) -> str:

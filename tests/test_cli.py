@@ -124,6 +124,8 @@ def test_check_and_schema(folder, sample):
     cwd, *_ = folder
     code, out, _ = studio("check", sample, cwd=cwd)
     assert code == 0 and "25 vehicles" in out and "© OpenStreetMap contributors" in out
+    code, out, _ = studio("check", sample, "--traffic", "--set", "traffic.count=3", cwd=cwd)
+    assert code == 0 and all(each in out for each in ("traffic_03", "ford_escort", "speed_factor", "time_headway"))
     schema = json.loads(studio("schema", cwd=cwd)[1])
     assert schema["$defs"]["Clock"]["properties"]["duration"]["unit"] == "s"
 

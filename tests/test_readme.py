@@ -31,6 +31,7 @@ def test_commands(text, root, tmp_path_factory):
         "runs",
         "compare",
         "explain",
+        "export",
         "queue",
         "vehicles",
         "vehicles",

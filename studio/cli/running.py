@@ -3,14 +3,14 @@
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
 from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, ScenarioFile, Sets, changes, load_kinds
 from studio.cli.output import print_json, print_table, signed, text
 from studio.cli.progress import compile_first, progress
-from studio.errors import Problem, UnknownError
+from studio.errors import Problem, StoreError, UnknownError
 
 commands = typer.Typer()
 
@@ -164,7 +164,33 @@ def compare(
 
 
 @commands.command()
-def check(scenario: ScenarioFile, set_: Sets = None, kinds: Kinds = None) -> None:
+def export(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    out: Annotated[Path, typer.Option("--out", help="The file to write; one that is there is replaced.")],
+    format_: Annotated[Literal["fcd", "csv"], typer.Option("--format", help="SUMO's floating car data (XML), or a table.")] = "fcd",
+    as_degrees: Annotated[bool, typer.Option("--degrees", help="Longitude and latitude instead of metres of the map.")] = False,
+    db: Db = DEFAULT_DB,
+) -> None:
+    """Writes the trajectories of a run for other programs: those of the recorded vehicles, with recording.traffic of all."""
+    from studio.store.export import export as exported
+
+    found = exported(existing(db), run, format_, as_degrees=as_degrees)
+    try:
+        with out.open("w", encoding="utf-8", newline="") as file:
+            file.writelines(found)
+    except OSError as error:
+        problem = Problem("--out", "cannot be written", str(out), remedy="name a file in a folder that exists, with room")
+        raise StoreError(f"{out}: {error.strerror or error}", [problem]) from None
+    print(f"{out}: the trajectories of run {run}, {out.stat().st_size / 1e6:.1f} MB")
+
+
+@commands.command()
+def check(
+    scenario: ScenarioFile,
+    set_: Sets = None,
+    kinds: Kinds = None,
+    traffic: Annotated[bool, typer.Option("--traffic", help="List the cars of the traffic, and what their drivers are like.")] = False,
+) -> None:
     """Checks a scenario file: fields, names, map, routes and starts."""
     with progress("checking"):
         from studio import job
@@ -176,6 +202,8 @@ def check(scenario: ScenarioFile, set_: Sets = None, kinds: Kinds = None) -> Non
     tell_migrated(loaded)
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
     print("".join(f"note: {event.text}\n" for event in foreseen(prepared)), end="")
+    if traffic:
+        print_traffic(prepared)
 
 
 @commands.command()
@@ -245,6 +273,19 @@ def print_events(events) -> None:
     """What happened, for people."""
     if events:
         print_table(["time [s]", "vehicle", "event"], [[text(each.time), each.vehicle, each.text] for each in events])
+
+
+def print_traffic(prepared) -> None:
+    """The cars of the traffic with their drivers, for people."""
+    cars = [car for car in prepared.cars if car.returns or car.is_outside]
+    told = [(car, {name: text(each) for name, each in car.driver.model_dump().items() if name != "preset"}) for car in cars]
+    settings = list(dict.fromkeys(name for _, driver in told for name in driver))
+    streams = [prepared.sources[car.source].stream.rpartition("/")[0] if car.source is not None else "" for car in cars]
+    rows = [
+        [car.name, car.model.name, stream, *(driver.get(name, "") for name in settings)]
+        for (car, driver), stream in zip(told, streams, strict=True)
+    ]
+    print_table(["vehicle", "model", "flow", *settings], rows)
 
 
 def print_run(row) -> None:

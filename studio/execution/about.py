@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from studio.execution.brought import Brought, Fault
+from studio.execution.cast import NOBODY, of_plain
 from studio.execution.record import Body, Chain, Mount, Record
 
 
@@ -18,6 +19,7 @@ def about(record: Record) -> dict[str, Any]:
         "mounts": record.mounts,
         "brought": record.brought,
         "faults": record.faults,
+        "cast": record.cast,
     }
 
 
@@ -32,6 +34,7 @@ def of_about(known: dict[str, Any]) -> dict[str, Any]:
         "mounts": {name: Mount(*each) for name, each in known["mounts"].items()},
         "brought": {name: brought_of(*each) for name, each in known.get("brought", {}).items()},
         "faults": tuple(Fault(*each) for each in known.get("faults", ())),
+        "cast": of_plain(known.get("cast", NOBODY)),
     }
 
 

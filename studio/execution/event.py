@@ -26,11 +26,14 @@ from studio.world.table.event import (
     COMMAND_TAKEN,
     COMPANY_CAME,
     COMPANY_LEFT,
+    CUT_OFF,
     EVENTS,
     HOPELESS,
+    LED_AROUND,
     MESSAGE_LOST,
     NOTICE_SHOWN,
     OUT_OF_REACH,
+    ROUTE_FILE,
     SCRIPT_BEGUN,
     SCRIPT_CUT,
     SCRIPT_ENDED,
@@ -128,10 +131,21 @@ def speeds(scenario: Scenario) -> Iterator[tuple[str, str, float]]:
             yield entry.do.vehicle, f"script.{name}", module.fastest(entry.do)
 
 
+def rerouted(setting: Setting) -> Iterator[Happening]:
+    """What is told before a run: flows and trips whose way a closed road cuts."""
+    for each in setting.detours:
+        if np.isfinite(each.longer):
+            yield happening(LED_AROUND, 0.0, demand=each.field, road=each.road, longer=each.longer)
+        else:
+            yield happening(CUT_OFF, 0.0, demand=each.field, road=each.road)
+
+
 def foreseen(setting: Setting) -> Iterator[Happening]:
     """All that is told before a run."""
     yield from hopeless(setting)
     yield from out_of_reach(setting)
+    yield from rerouted(setting)
+    yield from (happening(ROUTE_FILE, 0.0, what=each) for each in setting.imported)
 
 
 class Teller:

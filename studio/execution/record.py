@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.errors import UnknownError, nearest
 from studio.execution.brought import Brought, Fault, acting_since, turns_of
+from studio.execution.cast import NOBODY, Cast
 from studio.execution.counted import Counted
 from studio.execution.happening import Happening
 from studio.execution.hearing import Hearing
@@ -103,7 +104,8 @@ class Record:
     `ages` [s] float64[link, n] are those of the newest message on each of the `links`, which are named sender→receiver. `bodies` are those
     of all vehicles of the run, recorded or not; `called` are the names that the numbers of the channels `ahead` and `minded` stand for,
     `commanders` those that the numbers of the channels `commands_` stand for; `mounts` are those of sensors, by unit and sensor.
-    `brought` is what the script may bring to the road, by name; `faults` are those of sensors that it may make. `counted` is what was
+    `brought` is what the script may bring to the road, by name; `faults` are those of sensors that it may make. `cast` tells
+    model, driver and way of all vehicles. `counted` is what was
     counted of all vehicles, recorded or not; it is there while a run is measured, and None in a record that was read.
     """
 
@@ -122,6 +124,7 @@ class Record:
     mounts: dict[str, Mount] = field(default_factory=dict)
     brought: dict[str, Brought] = field(default_factory=dict)
     faults: tuple[Fault, ...] = ()
+    cast: Cast = NOBODY
     counted: tuple[Counted, ...] | None = None
 
     @cached_property

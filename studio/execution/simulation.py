@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.errors import Problem, ScenarioError
 from studio.execution.brought import brought, faults
+from studio.execution.cast import cast
 from studio.execution.counted import counted
 from studio.execution.event import Teller, chains, foreseen, watched
 from studio.execution.happening import Happening, happening
@@ -251,6 +252,7 @@ class Simulation:
             mounts=mounts(case.setting.scenario),
             brought=brought(case.setting),
             faults=faults(case.setting),
+            cast=cast(case.setting),
             counted=counted([*self.counts, case.unfinished], self.world, number, case.time if case.is_over else inf),
         )
 

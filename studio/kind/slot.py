@@ -2,6 +2,7 @@
 
     driver: Annotated[Any, Slot("driver", usual="attentive")]     # {kind: attentive, time_headway: 1.2}
     messages: Annotated[Any, Every("message")]                     # {awareness: {period: 0.1}}
+    spread: Annotated[Any, OneOf((Normal, Uniform))]               # {kind: uniform, least: 1, most: 2}; no kinds of one's own
 
 The schema of a document is made when it is first needed, and again when a kind has come in.
 """
@@ -58,6 +59,17 @@ class Slot(Nested):
         except UnknownError as error:
             raise PydanticCustomError("unknown_kind", "{what}", {"what": error.message}) from None
         return preset.filled(found.module, named)
+
+
+@dataclass(frozen=True)
+class OneOf:
+    """A place for one of some parts, which their `kind` tells apart and which nobody adds to."""
+
+    parts: tuple[type[Part], ...]
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        choices = {part.model_fields["kind"].default: handler.generate_schema(part) for part in self.parts}
+        return core_schema.tagged_union_schema(choices, discriminator="kind")
 
 
 AnyCondition = Annotated[Any, Slot("condition")]  # within another: a class that has one is declared with defer_build=True

@@ -7,7 +7,6 @@ are the names that `--set`, the page and the run database use.
 import re
 from collections.abc import Sequence
 from functools import cache
-from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, Field, model_validator
@@ -16,13 +15,13 @@ from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.kind import registry
 from studio.kind.settings import Name, Part, RouteName, UnitName, number
 from studio.kind.slot import Every, Slot
+from studio.scenario.traffic import MODELS, AnyDriver, CarType, Traffic
 
 LONGEST = 3600.0  # [s] a run
 MOST_SENSORS = 16  # of one unit
 Reason = Literal["collision", "red_light", "right_of_way"]
 REASONS: tuple[Reason, ...] = get_args(Reason)  # why a driver may overrule an application
 VERSION = 3  # of the format; scenario/text/migration.py reads older files
-MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 
 
 class Map(Part):
@@ -154,9 +153,6 @@ def front_radar_only() -> dict[str, Any]:
     return {"front": {"kind": "front_radar"}}
 
 
-AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
-
-
 class Vehicle(Part, defer_build=True):
     """One named car."""
 
@@ -246,57 +242,6 @@ class Application(Part):
             return []
         given = self.listens_to[place]
         return [given] if isinstance(given, str) else given
-
-
-class Flow(Part):
-    """Cars that come in where a route begins and leave where it ends: so many an hour, for a while."""
-
-    route: RouteName = Field(..., title="Route")
-    rate: float = number(..., unit="1/h", title="Cars an hour", gt=0, le=20_000)
-    headways: Literal["random", "even"] = Field(
-        "random", title="Headways", description="random: independent of each other, as in free traffic (Poisson); even: one like the other"
-    )
-    begin: float = number(0.0, unit="s", title="From", ge=0, le=100_000)
-    end: float | None = Field(
-        None, gt=0, le=100_000, title="To", json_schema_extra={"unit": "s"}, description="left out: to the end of the run"
-    )
-    lane: int | None = Field(
-        None,
-        ge=0,
-        le=9,
-        title="Lane",
-        description="of the first road, 0 at the kerb; left out: all from which the route can be driven, in turn",
-    )
-    model: str | None = Field(None, max_length=300, title="Model", examples=MODELS, description="left out: as in the traffic")
-
-    @model_validator(mode="after")
-    def ends_after_its_beginning(self):
-        if self.end is not None and self.end <= self.begin:
-            raise ValueError(f"it must end ({self.end:g} s) after its beginning ({self.begin:g} s)")
-        return self
-
-
-class Traffic(Part, defer_build=True):
-    """Cars that fill the map: so many on the ways from any arm to any other, and flows that come in and leave."""
-
-    count: int = Field(
-        0, ge=0, le=3000, title="Number of cars", json_schema_extra={"unit": "1"},
-        description="who has arrived comes in again where his way begins; for whom there is no room at the start waits outside",
-    )  # fmt: skip
-    flows: dict[Name, Flow] = Field({}, title="Flows")
-    model: str = Field(
-        "ford_escort",
-        max_length=300,
-        title="Model",
-        examples=MODELS,
-        description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario; not used where there is a mix",
-    )
-    mix: dict[str, Annotated[float, Field(gt=0, le=1e6)]] = Field(
-        {}, title="Mix", description="several models with their shares instead of one", max_length=30
-    )
-    speed: float = number(10.0, unit="m/s", title="Initial speed", description="of cars that are about from the start", ge=0, le=40)
-    spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
-    driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
 
 
 class Entry(Part, defer_build=True):
@@ -417,7 +362,7 @@ class Scenario(Part, defer_build=True):
         return self.radios.get(message, self.radio)
 
 
-WITH_SLOTS = (Vehicle, Station, Traffic, Entry, Scenario)
+WITH_SLOTS = (Vehicle, Station, CarType, Traffic, Entry, Scenario)
 
 
 def make_anew() -> None:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
-from starlette.responses import Response
+from starlette.responses import Response, StreamingResponse
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
@@ -24,12 +24,16 @@ from studio.source import code_version
 from studio.store import trace
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
+from studio.store.export import MEDIA, Format, export
 from studio.store.queue import queue
 from studio.store.runs import Runs
 from studio.world import channel
 
 YAML: dict[int | str, dict[str, Any]] = {
     200: {"description": "YAML (RFC 9512)", "content": {"application/yaml": {"schema": {"type": "string"}}}}
+}
+TRAJECTORIES: dict[int | str, dict[str, Any]] = {
+    200: {"description": "piece by piece", "content": {each: {"schema": {"type": "string"}} for each in MEDIA.values()}}
 }
 SOCKET: dict[int | str, dict[str, Any]] = {
     "1XX": {"model": News, "description": "101: a WebSocket from here on; each message is one of the news"}
@@ -199,6 +203,17 @@ def run_trace(
     columns = trace.decimate(kept.trace(run, names), points)
     values = {name: answer.TraceColumn(unit=units[name], values=plain(columns[name])) for name in names}
     return answer.Trace(time=columns["time"].tolist(), channels=values)
+
+
+@router.get("/runs/{run}/trajectories", response_class=StreamingResponse, responses=TRAJECTORIES)
+def run_trajectories(
+    run: int,
+    kept: KeptRuns,
+    form: Annotated[Format, Query(alias="format", description="fcd: SUMO's floating car data (XML); csv: a table")] = "fcd",
+    degrees: Annotated[bool, Query(description="longitude and latitude instead of metres of the map")] = False,
+) -> StreamingResponse:
+    """The trajectories of the recorded vehicles for other programs."""
+    return StreamingResponse(export(kept, run, form, as_degrees=degrees), media_type=MEDIA[form])
 
 
 @router.get("/runs/{run}/explanation")

@@ -22,7 +22,7 @@ from studio.execution.shelf import SMALL
 from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
-FORM: Any = {"compression": "zstd", "use_dictionary": False, "use_byte_stream_split": True}
+FORM: Any = {"compression": "zstd", "use_dictionary": False, "use_byte_stream_split": True, "data_page_size": 1 << 15}
 ABOUT = b"record"  # what the columns are about, as JSON
 
 
@@ -58,10 +58,7 @@ def table_of(record: Record, quantities: Sequence[str]) -> pa.Table:
 
 def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Messages) -> Record:
     """The record that was written; channels that were not kept are not numbers. Raises UnknownError for one of an older studio."""
-    table = pq.read_table(io.BytesIO(parquet))
-    if ABOUT not in (table.schema.metadata or {}):
-        raise UnknownError("The record of this run does not say who its vehicles are: an older studio wrote it. Run it again.")
-    known = of_about(json.loads(table.schema.metadata[ABOUT]))
+    table, known = pq.read_table(io.BytesIO(parquet)), about_of(parquet)
     vehicles = known["vehicles"]
     values = np.full((len(CHANNELS), len(vehicles), table.num_rows), np.nan)
     for channel, row, name in ((c, v, f"{vehicle}.{each.name}") for c, each in enumerate(CHANNELS) for v, vehicle in enumerate(vehicles)):
@@ -69,6 +66,14 @@ def record_of(parquet: bytes, happenings: Sequence[Happening], messages: Message
             values[channel, row] = table[name].to_numpy()
     time, own = table["time"].to_numpy(), probes_of(table)
     return Record(time=time, values=values, happenings=tuple(happenings), probes=own, messages=messages, **known)
+
+
+def about_of(parquet: bytes) -> dict[str, Any]:
+    """What of the record is no series over time, by its fields. Raises UnknownError for one of an older studio."""
+    metadata = pq.read_schema(io.BytesIO(parquet)).metadata or {}
+    if ABOUT not in metadata:
+        raise UnknownError("The record of this run does not say who its vehicles are: an older studio wrote it. Run it again.")
+    return of_about(json.loads(metadata[ABOUT]))
 
 
 def probes_of(table: pa.Table) -> dict[str, Traced]:

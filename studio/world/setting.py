@@ -26,10 +26,13 @@ from studio.world import crew
 from studio.world.car import Car, footprint
 from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
+from studio.world.demand.imported import imported
+from studio.world.demand.population import CAR_LENGTH, END_CLEARANCE, traffic
+from studio.world.demand.source import Detour, Source, sources_of, streams
+from studio.world.demand.style import type_problems
 from studio.world.effect import Walk
 from studio.world.exclusive import exclusive
 from studio.world.footprint import Footprint, Overlap, overlaps
-from studio.world.population import CAR_LENGTH, END_CLEARANCE, Source, sources_of, traffic
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
 from studio.world.thing import Thing, names, things
@@ -49,7 +52,10 @@ class Setting:
     sites: tuple[Site, ...]
     works: Works
     spots: dict[str, tuple[float, float]]  # [m] where the stations stand
-    sources: tuple[Source, ...] = ()  # where the cars of flows come in
+    sources: tuple[Source, ...] = ()  # where the cars of flows and matrices come in
+    detours: tuple[Detour, ...] = ()  # what closed roads do to them
+    imported: tuple[str, ...] = ()  # what is told of the route file
+    routes_digest: str = ""  # of the route file
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -66,21 +72,23 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
     refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
-    models = models_of(scenario, folder, where)
+    asked = imported(scenario, network, folder, where)
+    models = models_of(asked.scenario, folder, where)
     paths = paths_of(scenario, network, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     found = sites(scenario, network)
     check_starts(cars, found, where)
     works = Works(found)
     check_works(cars, works, where)
-    sources = sources_of(scenario, network, where)
-    filled = tuple(cars + traffic(scenario, network, models, cars, works, sources))
-    return Setting(scenario, network, filled, found, works, spots(scenario, network, where), tuple(sources))
+    sources, detours = sources_of([*streams(scenario), *asked.streams], network, works, where)
+    filled = tuple(cars + traffic(asked.scenario, network, models, cars, works, sources))
+    stations = spots(scenario, network, where)
+    return Setting(scenario, network, filled, found, works, stations, sources, detours, asked.told, asked.digest)
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
     """The vehicles that are named, of the catalogue or from files beside the scenario; fit for its step and tick."""
-    is_used = scenario.traffic.count or scenario.traffic.flows
+    is_used = scenario.traffic.is_there
     named = {path: name for path, name in models_named(scenario).items() if is_used or path.startswith("vehicles.")}
     found: dict[str, VehicleModel] = {}
     for path, name in named.items():
@@ -153,12 +161,13 @@ def name_problems(scenario: Scenario, where: str) -> list[Problem]:
     found = [unknown(where, each.path, each.name, *names[each.what]) for each in references(scenario) if each.what in names]
     models = set(catalogue.vehicle_names())
     for path, model in models_named(scenario).items():
-        if is_file(model):
-            continue
-        found.append(unknown(where, path, model, models, "vehicle of the catalogue"))
+        if not is_file(model):
+            is_type = path.startswith("traffic.") and not path.startswith("traffic.types.")
+            more = (models | set(scenario.traffic.types), ", nor a type of the traffic") if is_type else (models, "")
+            found.append(unknown(where, path, model, more[0], f"vehicle of the catalogue{more[1]}"))
     for i, name in enumerate(scenario.recording.channels):
         found.append(unknown(where, f"recording.channels.{i}", name, set(channels()), "channel"))
-    more = (reserved, circles, exclusive, untimely, crew.problems)
+    more = (reserved, circles, exclusive, untimely, type_problems, crew.problems)
     return [each for each in found if each] + [each for look in more for each in look(scenario, where)]
 
 
@@ -176,14 +185,14 @@ def models_named(scenario: Scenario) -> dict[str, str]:
     """The models that a scenario names, by path."""
     traffic = scenario.traffic
     named = {f"vehicles.{name}.model": vehicle.model for name, vehicle in scenario.vehicles.items()}
-    named["traffic.model"] = traffic.model
-    named |= {f"traffic.mix.{name}": name for name in traffic.mix}
-    return named | {f"traffic.flows.{name}.model": flow.model for name, flow in traffic.flows.items() if flow.model}
+    named |= {f"traffic.types.{name}.model": each.model for name, each in traffic.types.items()}
+    return named | {f"traffic.{path}": name for path, name in traffic.named_models().items() if name not in traffic.types}
 
 
 def named_files(scenario: Scenario) -> dict[str, str]:
-    """The files that a scenario names, by path: its map, and vehicles that are no names of the catalogue."""
-    return {"map.file": scenario.map.file} | {path: model for path, model in models_named(scenario).items() if is_file(model)}
+    """The files that a scenario names, by path: its map, its routes, and vehicles that are no names of the catalogue."""
+    routes = {"traffic.routes": scenario.traffic.routes} if scenario.traffic.routes else {}
+    return {"map.file": scenario.map.file} | routes | {path: model for path, model in models_named(scenario).items() if is_file(model)}
 
 
 def is_file(model: str) -> bool:
@@ -223,10 +232,11 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         if begin is not None and not begin.is_of_an_event and begin.at >= scenario.clock.duration:
             latest = f"< {scenario.clock.duration:g} s"
             found.append(Problem(f"{where}: measures.{name}.begin.at", "is after the end of the run", f"{begin.at:g} s", latest))
-    for name, flow in scenario.traffic.flows.items():
-        if flow.begin >= scenario.clock.duration:
-            latest = f"< {scenario.clock.duration:g} s"
-            found.append(Problem(f"{where}: traffic.flows.{name}.begin", "is after the end of the run", f"{flow.begin:g} s", latest))
+    for part, known in (("flows", scenario.traffic.flows), ("matrices", scenario.traffic.matrices)):
+        for name, each in known.items():
+            if each.begin >= scenario.clock.duration:
+                latest = f"< {scenario.clock.duration:g} s"
+                found.append(Problem(f"{where}: traffic.{part}.{name}.begin", "is after the end of the run", f"{each.begin:g} s", latest))
     for name, group in scenario.applications.items():
         parts = tick / (group.cycle or tick)
         if parts < 1 - 1e-9 or abs(parts - round(parts)) > 1e-6 * parts:

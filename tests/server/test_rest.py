@@ -211,7 +211,7 @@ OUTSIDE = ["/etc/passwd", "../../nowhere.osm", "maps/../../x.osm", "C:\\x.osm", 
 
 
 @pytest.mark.parametrize("path", OUTSIDE)
-@pytest.mark.parametrize("field", ["map.file", "vehicles.leader.model", "traffic.model"])
+@pytest.mark.parametrize("field", ["map.file", "vehicles.leader.model", "traffic.model", "traffic.routes"])
 def test_rest_looks_at_no_other_folders(client, path, field):
     """Nor does it tell what is there: the same answer whether it exists or not."""
     name = path if field == "map.file" else f"{path}.yaml"
@@ -256,6 +256,16 @@ def test_the_description_names_every_route(client):
     assert {"/api/scenarios", "/api/runs", "/api/runs/{run}/trace", "/api/compare", "/api/live/{run}/pace"} <= set(paths)
 
 
+def test_trajectories_come_for_other_programs(client, pair):
+    path = f"/api/runs/{pair[0]['run']}/trajectories"
+    fcd, table = client.get(path), client.get(path, params={"format": "csv", "degrees": True})
+    assert fcd.headers["content-type"].startswith("application/xml") and fcd.text.endswith("</fcd-export>\n")
+    assert table.headers["content-type"].startswith("text/csv")
+    assert table.text.startswith("time,vehicle,type,x,y,angle,speed,acceleration,lane,pos,slope\n0.000,leader,bmw_320i,13.3")
+    assert client.get(path, params={"format": "gpx"}).status_code == 422
+    assert client.get("/api/runs/999/trajectories").status_code == 404
+
+
 def test_the_description_names_what_the_socket_tells(client):
     api = client.get("/openapi.json").json()
     switching = api["paths"]["/api/live/{run}/socket"]["get"]["responses"]["1XX"]
@@ -293,7 +303,15 @@ def test_the_glossary_explains_every_channel_and_metric(client, pair):
 
 def test_a_database_is_closed_when_its_request_is_over(client, pair, server):
     """Whatever has been asked, and whether it was refused: no descriptor waits for somebody to clear up."""
-    for address in ("runs", "runs/1", "runs/999", "runs/1/trace?channels=leader.speed", "runs/1/explanation", "compare?a=1&b=2"):
+    for address in (
+        "runs",
+        "runs/1",
+        "runs/999",
+        "runs/1/trace?channels=leader.speed",
+        "runs/1/explanation",
+        "runs/1/trajectories",
+        "compare?a=1&b=2",
+    ):
         client.get(f"/api/{address}")
     process = psutil.Process(server[2].pid)
     until(lambda: not [each for each in process.open_files() if "runs.db" in each.path], "the database to be closed")

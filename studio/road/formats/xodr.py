@@ -11,13 +11,13 @@ import math
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from xml.etree.ElementTree import Element, TreeBuilder
-from xml.parsers import expat
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from studio.errors import MapError
 from studio.road.formats.limit import FASTEST, MILE, NO_LIMIT
+from studio.road.formats.plain_xml import parse
 from studio.road.formats.reference_line import NOTHING, Bend, Cubic, Profile, ReferenceLine
 
 DRIVABLE = {
@@ -144,40 +144,12 @@ class Document:
 # -- XML -------------------------------------------------------------------------------------------
 
 
-def parse(data: bytes) -> Element:
-    """The root element of XML without document type and entities; namespaces are left out.
-
-    Raises:
-        MapError: the text is empty, cut off, no XML, or tries more than plain elements.
-    """
-    if not data.strip():
-        raise MapError("the map file is empty")
-    builder, reader = TreeBuilder(), expat.ParserCreate()
-    reader.StartElementHandler = lambda name, attributes: builder.start(name.rpartition(":")[2], attributes)
-    reader.EndElementHandler = lambda name: builder.end(name.rpartition(":")[2])
-    reader.CharacterDataHandler = builder.data
-    reader.StartDoctypeDeclHandler = refuse_doctype
-    try:
-        reader.Parse(data, True)
-        return builder.close()
-    except (LookupError, ValueError) as error:
-        raise MapError(f"this is not XML in an encoding that can be read ({error})") from None
-    except expat.ExpatError as error:
-        what = expat.errors.messages[error.code]
-        raise MapError(f"line {error.lineno}: this is not XML, or it is cut off ({what}); fetch it again") from None
-
-
-def refuse_doctype(*_) -> None:
-    """Entities are declared in a document type."""
-    raise MapError("XML with a document type or entities is refused; export the map again without them")
-
-
 def read_header(data: bytes) -> Header:
     """The header alone, quickly: what comes after it is not looked at; empty where there is none."""
     end = data.find(b"</header>")
     head = data[: end + 9] if end >= 0 else data[: data.find(b"/>", data.find(b"<header")) + 2]
     try:
-        return header_of(parse(head + b"</OpenDRIVE>"))
+        return header_of(parse(head + b"</OpenDRIVE>", "map file"))
     except (MapError, ValueError):
         return Header("", "", "", "")
 
@@ -188,7 +160,7 @@ def document(data: bytes) -> Document:
     Raises:
         MapError: this is no OpenDRIVE, it has no roads, or an element of it is not as it should be.
     """
-    root = parse(data)
+    root = parse(data, "map file")
     if root.tag != "OpenDRIVE":
         raise MapError(f"this is not OpenDRIVE: its root element is <{root.tag}>, not <OpenDRIVE>")
     head = root.find("header")

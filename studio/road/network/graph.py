@@ -10,8 +10,8 @@ signal settings, Road Research Technical Paper 39, 1958, first term of Eq. 4 for
 
 import heapq
 from collections import defaultdict
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -91,6 +91,12 @@ def search(graph: Graph, roads: tuple[str, ...], starts: tuple[int, ...], *, tur
     first_lanes = np.array(starts, dtype=np.int64)
     edges, start, reached = cheapest(graph.first, graph.to, graph.price, graph.back, graph.road, first_lanes, wanted, turn_back)
     return (() if start < 0 else (int(start), *(lane for edge in edges for lane in graph.ways[edge]))), reached
+
+
+def without(graph: Graph, avoid: Collection[str]) -> Graph:
+    """The graph in which nothing leads onto some roads."""
+    shut = [graph.number[road] for road in avoid if road in graph.number]
+    return replace(graph, price=np.where(np.isin(graph.road[graph.to], shut), np.inf, graph.price)) if shut else graph
 
 
 @compiled

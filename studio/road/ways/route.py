@@ -1,13 +1,13 @@
 """Ways through the network: from road to road over its lanes, in the least time."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from studio.errors import Problem, RouteError, nearest
 from studio.road.network import Network
-from studio.road.network.graph import graph_of, search
+from studio.road.network.graph import graph_of, search, without
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,9 @@ def all_routes(network: Network) -> tuple[LanePath, ...]:
     return tuple(found)
 
 
-def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = None, turn_back: bool = False) -> LanePath:
+def connect(
+    network: Network, roads: Sequence[str], *, start_lane: int | None = None, turn_back: bool = False, avoid: Collection[str] = ()
+) -> LanePath:
     """The quickest lanes through `roads` in this order; between two of them any road may be used.
 
     Args:
@@ -77,6 +79,7 @@ def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = 
         roads: road ids, at least one.
         start_lane: lane of the first road to start in, 0 at the kerb; left out, the quickest.
         turn_back: whether one may turn back at the end of a dead end; such a turn is narrower than a car can drive.
+        avoid: roads that must not be entered.
 
     Raises:
         RouteError: a road is not on the map, or there is no way from one to the next.
@@ -86,7 +89,7 @@ def connect(network: Network, roads: Sequence[str], *, start_lane: int | None = 
     starts = lanes if start_lane is None else (lanes[start_lane],)
     if start_lane is None and any(network.lanes[lane].open for lane in lanes):
         starts = tuple(lane for lane in lanes if network.lanes[lane].open)
-    way, reached = search(graph_of(network), tuple(roads), starts, turn_back=turn_back)
+    way, reached = search(without(graph_of(network), avoid), tuple(roads), starts, turn_back=turn_back)
     if not way:
         raise no_way(network, tuple(roads), reached)
     return LanePath(way)

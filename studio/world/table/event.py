@@ -39,6 +39,9 @@ OUT_OF_REACH = event(
     "speed_out_of_reach", "{0} cannot drive {speed:.1f} m/s ({what}): its top speed in the flat is {top_speed:.1f} m/s", "what",
     speed="m/s", top_speed="m/s",
 )  # fmt: skip
+LED_AROUND = event("led_around", "{demand} is led around {road}, which is closed: {longer:.0f} m more", "demand", "road", longer="m")
+ROUTE_FILE = event("route_file", "traffic.routes {what}", "what")
+CUT_OFF = event("cut_off", "{demand} cannot get around {road}, which is closed: its cars stop before it", "demand", "road")
 HIT = event("collision", "collision of {0} and {1} at {impact_speed:.1f} m/s", impact_speed="m/s")
 ROLLED_OVER = event("rolled_over", "rolled over; what it does after this is not claimed")
 ARRIVED = event("arrived", "arrived at the end of its route")

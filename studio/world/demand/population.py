@@ -1,31 +1,29 @@
 """Population: the cars that fill a map. Some are about from the start and come in again when they have arrived, others flow through.
 
-traffic(scenario, network, models, named, works, sources)   cars at random on the ways between the arms, then those of the flows
-sources_of(scenario, network, where)                        where the cars of flows come in, and when
+traffic(scenario, network, models, named, works, sources)   cars at random on the ways between the arms, then those of the sources
 
-A flow has a source for every lane that it may start in; cars are due there in the order of time, and come in as soon as there is room.
-A source has as many cars as would be about at three times the time that its way takes, and no more than will ever be due.
+The cars of a source come in as soon as there is room when one is due. It has as many as would be about at three times the time that its way
+takes, and no more than will ever be due.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import log
-from typing import NamedTuple
-from zlib import crc32
 
 import numpy as np
 
-from studio.errors import Problem, RouteError, ScenarioError
-from studio.kind.driver import Driver
-from studio.model.random import TRAFFIC_HEADWAY, TRAFFIC_MODEL, TRAFFIC_PLACE, TRAFFIC_ROUTE, TRAFFIC_STYLE, uniform
+from studio.errors import Problem, ScenarioError
+from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, uniform
 from studio.road.network import Network
 from studio.road.network.index import once
-from studio.road.ways.path import PATH_SPACING, PATH_SPEED, Path, annotated, path
-from studio.road.ways.route import all_routes, connect
+from studio.road.ways.path import PATH_SPACING, PATH_SPEED, Path, path
+from studio.road.ways.route import all_routes
 from studio.road.ways.strand import driven, strands_of
 from studio.scenario.catalogue import VehicleModel
-from studio.scenario.schema import Flow, Gps, Intervention, Scenario
+from studio.scenario.schema import Gps, Intervention, Scenario
+from studio.scenario.traffic import MOST_CARS, Manned
 from studio.world.car import Car, footprint, position
+from studio.world.demand.source import Source
+from studio.world.demand.style import Who, driver_of, kind_of, who_of
 from studio.world.footprint import depth
 from studio.world.way import MOST_WORKS, Works
 
@@ -34,22 +32,12 @@ FAR = 60.0  # [m] east plus north, beyond which no two bodies meet
 BRAKING = 15.0  # [m] before a junction no traffic starts
 TRIES = 200  # to place one traffic car
 END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
-STYLE_SPREAD = 0.1  # traffic drivers want 90 % to 110 % of the usual speed
 PAINTS = ("#9aa3ad", "#d9d9d4", "#3b4048", "#6f7f8f", "#b8b2a6", "#54606e")  # of traffic, in turn
 SLOW = 3.0  # times as long as in free traffic a car may need, until cars of its flow run out
-HOUR = 3600.0  # [s]
 
 through_ways = once(all_routes)  # from every arm to every other
 _paths: dict[tuple[str, int], Path] = {}
-
-
-class Source(NamedTuple):
-    """Where cars of a flow come in: the path that they take, and the times [s] at which they are due."""
-
-    flow: str
-    path: Path
-    due: np.ndarray
-    model: str | None  # None: as in the traffic
+Models = dict[str, VehicleModel]
 
 
 def through_path(network: Network, number: int) -> Path:
@@ -59,9 +47,7 @@ def through_path(network: Network, number: int) -> Path:
     return _paths[network.digest, number]
 
 
-def traffic(
-    scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works, sources: list[Source]
-) -> list[Car]:
+def traffic(scenario: Scenario, network: Network, models: Models, named: list[Car], works: Works, sources: Sequence[Source]) -> list[Car]:
     """All of it, numbered through: those that go round, then the flows'."""
     round_about = list(population(scenario, network, models, named, works))
     return round_about + list(flowing(scenario, models, sources, len(round_about)))
@@ -70,19 +56,35 @@ def traffic(
 # -- who goes round --------------------------------------------------------------------------------
 
 
-def population(scenario: Scenario, network: Network, models: dict[str, VehicleModel], named: list[Car], works: Works) -> Iterator[Car]:
+def population(scenario: Scenario, network: Network, models: Models, named: list[Car], works: Works) -> Iterator[Car]:
     """Cars at random on the ways, none near another; those that find no place wait where a way begins. Raises ScenarioError."""
     taken = [position(car.path, car.station) for car in named]
     bodies = [footprint(car.name, car.model, car.path, car.station) for car in named]
-    for i in range(scenario.traffic.count):
-        model = models[model_of(i, scenario, None)]
+    for i in range(number_of(scenario, network)):
+        of = kind_of(Who(i), scenario, None)
+        model = models[of.model]
         found = free_place(i, scenario, network, taken, bodies, model, works)
         way, station = found or (outside(i, scenario, network, works), 0.0)
         if found:
             taken.append(position(way, station))
             bodies.append(footprint(name_of(i), model, way, station))
         speed = min(scenario.traffic.speed, float(way.points[PATH_SPEED, int(station)]))
-        yield replace(car(i, scenario, model, way, station, speed), returns=True, is_outside=found is None)
+        yield replace(car(i, Who(i), scenario, of, models, way, station, speed), returns=True, is_outside=found is None)
+
+
+def number_of(scenario: Scenario, network: Network) -> int:
+    """How many go round: as many as the scenario says, or as a density makes of all lanes for cars. Raises ScenarioError."""
+    if scenario.traffic.density is None:
+        return scenario.traffic.count
+    kilometres = sum(lane.length for lane in network.lanes if lane.open and not lane.internal) / 1000.0
+    count = round(scenario.traffic.density * kilometres)
+    if not 1 <= count <= MOST_CARS:
+        what = f"makes {count} cars of {kilometres:.2f} km of lanes"
+        problem = Problem(
+            "traffic.density", what, f"{scenario.traffic.density:g} /km", f"1 to {MOST_CARS} cars", "change it, or the map's radius"
+        )
+        raise ScenarioError("The traffic has no number of cars that can be.", [problem])
+    return count
 
 
 def outside(i: int, scenario: Scenario, network: Network, works: Works) -> Path:
@@ -136,56 +138,17 @@ def in_junction(network: Network, way: Path, station: float) -> bool:
 # -- who flows through -----------------------------------------------------------------------------
 
 
-def sources_of(scenario: Scenario, network: Network, where: str) -> list[Source]:
-    """The sources of all flows, in the order of names; raises RouteError for a flow that cannot be driven."""
-    return [each for name in sorted(scenario.traffic.flows) for each in sources_of_flow(name, scenario, network, where)]
-
-
-def sources_of_flow(name: str, scenario: Scenario, network: Network, where: str) -> Iterator[Source]:
-    """One for each lane, which share its cars in turn."""
-    flow = scenario.traffic.flows[name]
-    paths = list(paths_of(name, flow, scenario, network, where))
-    due = departures(name, flow, scenario)
-    for lane, way in enumerate(paths):
-        yield Source(name, way, due[lane :: len(paths)], flow.model)
-
-
-def paths_of(name: str, flow: Flow, scenario: Scenario, network: Network, where: str) -> Iterator[Path]:
-    """Its paths, from the lane that it names or from every lane of its first road from which its route can be driven."""
-    route = scenario.routes[flow.route]
-    lanes = range(len(network.lanes_of(route.roads[0]))) if flow.lane is None and route.roads[0] in network.roads else [flow.lane]
-    reasons = []
-    for lane in lanes:
-        try:
-            yield annotated(path(network, connect(network, route.roads, start_lane=lane)), route.speeds, 0.0)
-        except RouteError as error:
-            reasons.append(error)
-    if len(reasons) == len(lanes):
-        field = f"{where}: traffic.flows.{name}." + ("route" if flow.lane is None else "lane")
-        problem = Problem(field, reasons[0].message, flow.route, remedy="; ".join(map(str, reasons[0].problems)))
-        raise RouteError(f"{where} cannot be driven.", [problem])
-
-
-def departures(name: str, flow: Flow, scenario: Scenario) -> np.ndarray:
-    """Times [s] at which its cars are due; those at random hang on the flow's name, and not on the other flows."""
-    end, every = min(flow.end or np.inf, scenario.clock.duration), HOUR / flow.rate
-    if flow.headways == "even":
-        return np.arange(flow.begin + 0.5 * every, end, every)
-    seed, who = scenario.seed_of("traffic"), crc32(name.encode())
-    times, time = [], flow.begin
-    while time < end:
-        time -= every * log(1.0 - uniform(seed, who, TRAFFIC_HEADWAY, len(times)))
-        times.append(time)
-    return np.array(times[:-1])
-
-
-def flowing(scenario: Scenario, models: dict[str, VehicleModel], sources: list[Source], first: int) -> Iterator[Car]:
-    """The cars of all sources, which wait outside."""
-    number = first
+def flowing(scenario: Scenario, models: Models, sources: Sequence[Source], first: int) -> Iterator[Car]:
+    """The cars of all sources, which wait outside; raises ScenarioError when they would be too many at once."""
+    number, needs = first, sum(map(needed, sources))
+    if needs > MOST_CARS:
+        problem = Problem("traffic", f"would have {needs} cars ready to be about at once", allowed=f"≤ {MOST_CARS}", remedy="ask for fewer")
+        raise ScenarioError("The flows, matrices and routes bring too many cars.", [problem])
     for i, source in enumerate(sources):
-        for _ in range(needed(source)):
-            model = models[model_of(number, scenario, source.model)]
-            yield replace(car(number, scenario, model, source.path, 0.0, 0.0), source=i, is_outside=True)
+        for turn in range(needed(source)):
+            who = who_of(source.stream, turn)
+            of = kind_of(who, scenario, source.model)
+            yield replace(car(number, who, scenario, of, models, source.path, 0.0, 0.0), source=i, is_outside=True)
             number += 1
 
 
@@ -204,23 +167,7 @@ def name_of(i: int) -> str:
     return f"traffic_{i + 1:02d}"
 
 
-def model_of(i: int, scenario: Scenario, own: str | None) -> str:
-    """The model of traffic car i: that of its flow, or of the mix by chance, or the one that all have."""
-    mix = scenario.traffic.mix
-    if own or not mix:
-        return own or scenario.traffic.model
-    share = np.cumsum([mix[name] for name in sorted(mix)])
-    return sorted(mix)[int(np.searchsorted(share, uniform(scenario.seed_of("traffic"), i, TRAFFIC_MODEL, 0) * share[-1], side="right"))]
-
-
-def car(i: int, scenario: Scenario, model: VehicleModel, way: Path, station: float, speed: float) -> Car:
+def car(i: int, who: Who, scenario: Scenario, of: Manned, models: Models, way: Path, station: float, speed: float) -> Car:
     """Traffic car i."""
-    driver = style(i, scenario)
-    return Car(name_of(i), model, way, station, speed, driver, Intervention(), PAINTS[i % len(PAINTS)], Gps(drift=0.0, noise=0.0))
-
-
-def style(i: int, scenario: Scenario) -> Driver:
-    """The driver of traffic car i: a little faster or slower than usual."""
-    usual = scenario.traffic.driver
-    by = 1.0 + STYLE_SPREAD * (2.0 * uniform(scenario.seed_of("traffic"), i, TRAFFIC_STYLE, 0) - 1.0)
-    return usual.model_copy(update={"speed_factor": usual.speed_factor * by})
+    driver, paint = driver_of(who, scenario, of), PAINTS[i % len(PAINTS)]
+    return Car(name_of(i), models[of.model], way, station, speed, driver, Intervention(), paint, Gps(drift=0.0, noise=0.0))
