@@ -1,5 +1,6 @@
 """Lanes that are closed or shifted while a world runs: the lines around them, who takes which, and what stands there."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -330,3 +331,22 @@ def test_the_sample_passes_its_roadworks(root):
     assert (station[:, -1] > 977 + 140).all()
     leader = (station[0] > 440) & (station[0] < 600)
     assert speed[0][leader].max() < 8.333 + 0.1
+
+
+def test_who_is_beside_on_the_lane_that_one_changes_to_is_not_struck(root):
+    """Too fast to stop where the middle lane of a motorway is closed: somebody drives half a length behind on the lane that one goes over to."""
+    works = {"do": {"kind": "close_lane", "road": "motorway", "lane": 1, "start": 3000, "end": 3300, "taper": 150}}
+    places = {"own": (1, 2600.0), "beside": (2, 2597.5), "ahead": (2, 2630.0)}
+    vehicles = {
+        name: {"route": "eastbound", "position": {"road": "motorway", "lane": lane, "offset": offset}, "speed": 30}
+        for name, (lane, offset) in places.items()
+    }
+    loaded = job.load(root / "scenarios" / "motorway_platoon.yaml", {"clock.duration": 25})
+    document = loaded.scenario.model_dump(mode="json", exclude_unset=True)
+    document |= {"vehicles": vehicles, "applications": {}, "script": {"works": works}, "goals": {}, "measures": {}, "traffic": {"count": 0}}
+    running = simulation(job.prepare(replace(loaded, scenario=type(loaded.scenario).model_validate(document))))
+    while not running.is_over:
+        running.advance(50)
+    assert not [each for each in running.cases[0].happenings if each.kind == "collision"]
+    own, other = (running.record().trace(f"{name}.station")[-1] for name in ("own", "beside"))
+    assert 3300 < own < other

@@ -369,9 +369,10 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
 def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first, place, at, drivers, mind):
     """Whether v has to wait where it would change to a lane, since somebody there is beside it, or comes from behind too fast.
 
-    Whoever is ahead there is followed as one who goes first.
+    Whoever is ahead there is followed as one who goes first; so is who is beside it, when it is too fast to stop.
     """
     nose, tail, who = own + parameter[FRONT, v], own + parameter[FRONT, v] - parameter[LENGTH, v], NOBODY
+    beside, lead = NOBODY, 0.0
     i, end = from_station(key, own - BEHIND, first, place, at)
     while i < end and place[KEY, i] == key:
         other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
@@ -385,6 +386,12 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
             break
         if min(mind[STOOD, v], mind[STOOD, other]) > PATIENCE and state[V_X, other] < STANDING:
             continue  # who stands there and is behind lets one in who has stood as well
-        if tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
+        if tail - its_nose < BESIDE:
+            who, beside, lead = number[other], other, its_nose - parameter[LENGTH, other] - nose
+        elif behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
             who = number[other]
-    return who != NOBODY and is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind)
+    if who == NOBODY or is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, mind):
+        return who != NOBODY
+    if beside != NOBODY:
+        let_in(v, number[beside], lead, state[V_X, beside], state, drivers, mind)
+    return False
