@@ -36,8 +36,9 @@ class Hearing:
     full: list[Callable[[], Arrays]] = field(default_factory=list)
     written: int = 0  # changes in `full`
     until: list[int] = field(default_factory=list)  # per sample, how many changes there had been
+    here: np.ndarray = field(init=False)  # which units were there when they were looked at last
     there: list[tuple[int, np.ndarray]] = field(default_factory=list)  # from which sample on which units are there
-    ready: list[Callable] = field(default_factory=list)  # what looks at one post after the other
+    ready: list[Callable] = field(default_factory=list)  # what looks at one post after the other, and last at who is there
 
     def __post_init__(self) -> None:
         room = max(ROOM, 2 * self.newest.size)
@@ -46,12 +47,20 @@ class Hearing:
     def take(self, world: World) -> None:
         """The next sample."""
         if self.newest.size:
+            self.ready = self.ready or self.looking(world)
             self.make_room()
-            self.ready = self.ready or list(self.noting(world.units.posts))
-            for note in self.ready:
+            for note in self.ready[:-1]:
                 note()
             self.until.append(self.written + int(self.count[0]))
-            self.look(channel.present(world))
+            if self.ready[-1]():
+                self.there.append((len(self.until) - 1, self.here.copy()))
+
+    def looking(self, world: World) -> list[Callable]:
+        """All that looks at a sample; arrays stay where they are."""
+        present = channel.present(world)
+        self.here = np.zeros(present.size, dtype=bool)
+        self.there.append((0, self.here.copy()))
+        return [*self.noting(world.units.posts), bound(channel.look, present, self.here)]
 
     def noting(self, posts: Sequence[Post]) -> Iterator[Callable]:
         """What notes down who has heard something newer, post by post."""
@@ -61,11 +70,6 @@ class Hearing:
             heard = (post.link_first, post.taken, post.looks, post.came, post.came_count, post.inbox)
             yield bound(channel.note, first, *heard, own, self.seen[i : i + 1], newest, self.link, self.sent, self.count)
             first, sender = first + post.link_receiver.size, sender + post.sender.size
-
-    def look(self, present: np.ndarray) -> None:
-        """Which units are there at this sample: those of whom `present` is above 0."""
-        if not self.there or channel.has_changed(present, self.there[-1][1]):
-            self.there.append((len(self.until) - 1, present > 0.0))
 
     def make_room(self) -> None:
         """So that a change of every link finds room."""

@@ -32,7 +32,7 @@ def lay_down(of: Simulation, folder: Folder) -> None:
         "units": of.world.units.names[0],
     }
     folder.write("about", [known])
-    folder.append("probes", parts.stretch, parts.within)
+    folder.append("probes", parts.piece, parts.within, parts.slot)
     folder.append("links", *(post.link_receiver for post in posts))
 
 
@@ -71,11 +71,11 @@ def sampled(folder: Folder, known: dict[str, Any], count: int) -> tuple[np.ndarr
 
 def probes(folder: Folder, known: dict[str, Any], count: int) -> dict[str, Traced]:
     """What probes had read."""
-    ((stretch, within),) = folder.appended("probes")
+    ((piece, within, slot),) = folder.appended("probes")
     places, numbers = known["trail"]
     rolls = folder.roll("places", tuple(places), np.int32), folder.roll("numbers", tuple(numbers))
     beginnings = folder.roll("beginnings", (1,), np.int64)
-    parts = trail.Parts(stretch, within, *rolls, beginnings, [int(beginnings[i][0]) for i in range(beginnings.count)])
+    parts = trail.Parts(piece, within, slot, *rolls, beginnings, [int(beginnings[i][0]) for i in range(beginnings.count)])
     found = parts.series(np.arange(count), slice(None), folder)
     return {name: Traced(found[i], unit, label) for i, (name, unit, label) in enumerate(known["probes"])}
 

@@ -31,7 +31,7 @@ from studio.world.line import starts
 from studio.world.passes import census, notice
 from studio.world.passes.census import Census
 from studio.world.passes.notice import Watch
-from studio.world.probe import Reader, probes
+from studio.world.probe import probes, reader
 from studio.world.setting import Setting
 from studio.world.table.event import FAILED, RUN_ENDED
 from studio.world.tick import between, environment, gather, look, meet, part, sense, think
@@ -355,7 +355,7 @@ def recorder(settings: tuple[Setting, ...], world: World, shelf: Shelf) -> Recor
         most=round(clock.duration / recording.period) + 2,
         vehicle_share=shares(counts),
         hearing=hearing(world.units.posts, shelf),
-        trail=Trail(Reader([probe for each in found for probe in each]), shelf),
+        trail=Trail(reader([probe for each in found for probe in each], world), shelf),
         probe_share=shares([len(each) for each in found]),
         shelf=shelf,
     )

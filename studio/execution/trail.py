@@ -3,9 +3,9 @@
 trail.take()                    the next sample
 trail.parts.at(samples, probes) →   float64[sample, probe], what some probes had read at some samples
 
-Numbers that a probe's owner writes together are a stretch (studio/world/probe.py). A stretch that differs from what was written of it
-last is written behind everything else; every sample says of every stretch where it stands. A sensor that has given nothing since then,
-as the time of what it has measured and its number of targets tell, is not looked at.
+What is written together is a piece: of a sensor when it has measured, how many targets there were, and these; of anything else numbers that
+follow each other. A piece that has changed is written behind everything else; every sample says of every piece where it stands. Whether a
+sensor has given something since it was looked at last, the time of what it has measured and its number of targets tell.
 """
 
 from collections.abc import Callable, Iterator
@@ -18,15 +18,20 @@ import numpy as np
 from studio.bound import bound
 from studio.compiled import inlined, lean
 from studio.execution.shelf import Roll, Shelf
-from studio.world.probe import COUNT, COUNTER, FIRST, SLOT, STEP, WHERE, Reader, Share
+from studio.world.board.sensing import Mounted
+from studio.world.probe import Probe, Reader, follows, measured_at, place, runs, stretch
 
 NUMBERS = 1 << 20  # that a part holds at least
 SAMPLES = 1024  # that a part holds at most
-NOTHING = 0  # where a stretch stands that has nothing to tell
+NOTHING = 0  # where a piece stands of which nothing has been written
+# Of a piece: numbers of the buffer that follow each other, how many at most; of a sensor where it stands when it has measured, and how many
+# numbers a target has. Of a sensor the first number is that of its targets.
+FIRST, STEP, MOST, GATE, WIDTH = range(5)
+ALWAYS = -1  # in place of a gate, for what is no sensor's
 
 
 class Part(NamedTuple):
-    """Some samples that follow each other: from which on, where each stretch stands, int32[sample, stretch], and the numbers."""
+    """Some samples that follow each other: from which on, where each piece stands, int32[sample, piece], and the numbers."""
 
     first: int
     place: np.ndarray
@@ -37,8 +42,9 @@ class Part(NamedTuple):
 class Parts:
     """All parts, on a shelf; where the probes stand in them."""
 
-    stretch: np.ndarray  # of every probe
-    within: np.ndarray  # the place of every probe within its stretch
+    piece: np.ndarray  # of every probe
+    within: np.ndarray  # the place of every probe within its piece
+    slot: np.ndarray  # the target that every probe is about, -1 for none
     places: Roll
     numbers: Roll
     beginnings: Roll  # the first sample of every part
@@ -53,16 +59,22 @@ class Parts:
 
     def at(self, samples: np.ndarray, probes: slice) -> np.ndarray:
         """What some probes had read at some samples, float64[sample, probe]; not a number where there was no target."""
-        found = np.empty((samples.size, self.stretch[probes].size))
+        found = np.empty((samples.size, self.piece[probes].size))
         number = np.searchsorted(self.first, samples, side="right") - 1
         for i in np.unique(number) if found.size else []:
             place, here = self.places[i][samples[number == i] - self.first[i]], number == i
-            found[here] = self.numbers[i][place[:, self.stretch[probes]] + self.within[probes]]
+            found[here] = self.within_part(place[:, self.piece[probes]], self.numbers[i], probes)
         return found
+
+    def within_part(self, at: np.ndarray, numbers: np.ndarray, probes: slice) -> np.ndarray:
+        """The same of one part; the pieces of the probes stand `at` some places."""
+        slot = self.slot[probes]
+        is_there = (slot < 0) | (numbers[at + 1] > slot)
+        return np.where(is_there, numbers[at + self.within[probes]], nan)
 
     def series(self, samples: np.ndarray, probes: slice, shelf: Shelf) -> np.ndarray:
         """The same probe by probe, float64[probe, sample]."""
-        found = shelf.room("probes", (self.stretch[probes].size, samples.size))
+        found = shelf.room("probes", (self.piece[probes].size, samples.size))
         for first in range(0, samples.size, SAMPLES):
             some = samples[first : first + SAMPLES]
             found[:, first : first + SAMPLES] = self.at(some, probes).T
@@ -76,114 +88,124 @@ class Trail:
     reader: Reader
     shelf: Shelf
     parts: Parts = field(init=False)
-    newest: np.ndarray = field(init=False)  # where every stretch stands now
-    longest: int = field(init=False)
+    pieces: np.ndarray = field(init=False)  # int64[row, piece]
+    seen: np.ndarray = field(init=False)  # float64[2, piece]: when a sensor had measured, and how many targets it had, at the last look
+    newest: np.ndarray = field(init=False)  # where every piece stands now
+    longest: int = field(init=False)  # numbers of a piece at most
     now: Part | None = None
     used: int = 0
     count: int = 0  # samples so far
-    gates: list["Gate"] = field(init=False)  # of every array that is read
-    ready: list[Callable] = field(default_factory=list)
+    keep: Callable[[int], int] = field(init=False)  # writes what has changed into the open part
 
     def __post_init__(self) -> None:
-        shares = [each.stretches for each in self.reader.shares] or [np.zeros((6, 0), np.int64)]
-        count, where = (np.concatenate([each[row] for each in shares]) for row in (COUNT, WHERE))
-        stretch, within = np.zeros((2, int(count.sum())), np.int64)
-        for number, (first, length) in enumerate(zip(where.tolist(), count.tolist(), strict=True)):
-            stretch[first : first + length], within[first : first + length] = number, np.arange(length)
-        self.newest = np.full(count.size, NOTHING, np.int32)
-        self.longest = int(count.max(initial=1))
-        self.parts = parts_on(self.shelf, stretch, within, count.size, self.longest)
-        self.gates = [gate_of(each) for each in self.reader.shares]
+        probes = self.reader.probes
+        found = [probes[first : first + count] for first, count in runs(probes, is_together)]
+        start = self.reader.numbers.ctypes.data
+        self.pieces = np.array([piece_of(each, start) for each in found], dtype=np.int64).reshape(-1, 5).T.copy()
+        self.seen, self.newest = np.full((2, len(found)), nan), np.full(len(found), NOTHING, np.int32)
+        self.longest = int(self.pieces[MOST].max(initial=1)) + 1
+        self.parts = parts_of(found, self.shelf, self.room)
+
+    @property
+    def room(self) -> int:
+        """Numbers of a sample at most."""
+        return int(self.pieces[MOST].sum()) + self.newest.size
 
     def take(self) -> None:
         """The next sample."""
         if self.now is None or self.is_full(self.now):
             self.now = self.begin()
-        for keep_share in self.ready:
-            self.used = keep_share(self.used)
+        self.used = self.keep(self.used)
         self.now.place[self.count - self.now.first] = self.newest
         self.count += 1
 
-    def shares(self, kept: np.ndarray) -> Iterator[Callable]:
-        """What keeps the stretches of each array; arrays stay where they are while a part is written."""
-        own = np.split(self.newest, np.cumsum([each.stretches.shape[1] for each in self.reader.shares])[:-1])
-        for each, gate, newest in zip(self.reader.shares, self.gates, own, strict=False):
-            yield bound(keep, each.numbers, each.stretches, *gate, newest, kept, then=(self.used,))
-
     def is_full(self, part: Part) -> bool:
         """Whether a part may not take one more sample."""
-        return self.count - part.first == len(part.place) or self.used + self.parts.stretch.size > part.numbers.size
+        return self.count - part.first == len(part.place) or self.used + self.room > part.numbers.size
 
     def begin(self) -> Part:
         """A part, into which everything is written anew."""
         part = self.parts.begin(self.count)
         part.numbers[: self.longest] = nan
-        self.newest[:], self.used = NOTHING, self.longest
-        self.ready = list(self.shares(part.numbers))
-        for gate in self.gates:
-            gate.seen[:] = nan
+        self.newest[:], self.seen[:], self.used = NOTHING, nan, self.longest
+        self.keep = bound(keep, self.reader.numbers, self.pieces, self.seen, self.newest, part.numbers, then=(self.used,))
         return part
 
 
-def parts_on(shelf: Shelf, stretch: np.ndarray, within: np.ndarray, stretches: int, longest: int) -> Parts:
-    """The parts on a shelf, those that have begun and those that will."""
-    size = max(NUMBERS, longest + 2 * stretch.size) if stretch.size else longest
-    places, numbers = shelf.roll("places", (SAMPLES, stretches), np.int32), shelf.roll("numbers", (size,))
-    return Parts(stretch, within, places, numbers, shelf.roll("beginnings", (1,), np.int64))
+# -- pieces ----------------------------------------------------------------------------------------------
 
 
-class Gate(NamedTuple):
-    """Groups of the stretches of an array that are looked at together: those of one sensor, when it has given something."""
+def is_together(one: Probe, other: Probe) -> bool:
+    """Whether a probe is in the piece of the one before it."""
+    if isinstance(one.owner, Mounted):
+        return one.owner is other.owner and one.column == other.column
+    return follows(one, other)
 
-    measured: np.ndarray  # [s] per sensor, of when is what it has given last; nothing for an array that is always looked at
-    groups: np.ndarray  # int64[row, group]: first stretch, the one behind the last, where the number of targets stands, which sensor
-    seen: np.ndarray  # float64[2, group]: when it had measured, and how many targets it had, when it was looked at last
+
+def piece_of(probes: list[Probe], start: int) -> tuple[int, ...]:
+    """The piece that some probes are of; `start` is the address of the buffer."""
+    first = probes[0]
+    if not isinstance(first.owner, Mounted):
+        return *stretch(first, len(probes), 0, start)[:3], ALWAYS, 0
+    out, rows = first.owner.out, first.owner.out.shape[1]
+    return place(out, start) + first.column * rows, 1, rows, measured_at(first, start), (rows - 1) // first.owner.capacity
 
 
-def gate_of(share: Share) -> Gate:
-    """That of an array."""
-    counter = share.stretches[COUNTER]
-    if not share.measured.size:
-        return Gate(share.measured, np.array([[0], [counter.size], [0], [0]]), np.full((2, 1), nan))
-    first = np.flatnonzero(np.diff(counter, prepend=-1))
-    groups = np.array([first, np.append(first[1:], counter.size), counter[first], counter[first] // share.owner.out.shape[1]])
-    return Gate(share.measured, groups, np.full((2, first.size), nan))
+def parts_of(pieces: list[list[Probe]], shelf: Shelf, most: int) -> Parts:
+    """The parts on a shelf, those that have begun and those that will; `most` numbers come with a sample."""
+    piece = np.repeat(np.arange(len(pieces)), [len(each) for each in pieces])
+    within = np.array([i for each in pieces for i in places_within(each)], dtype=np.int64)
+    slot = np.array([each.slot for some in pieces for each in some], dtype=np.int64)
+    size = max(NUMBERS, 4 * most) if pieces else 2
+    places, numbers = shelf.roll("places", (SAMPLES, len(pieces)), np.int32), shelf.roll("numbers", (size,))
+    return Parts(piece, within, slot, places, numbers, shelf.roll("beginnings", (1,), np.int64))
+
+
+def places_within(probes: list[Probe]) -> Iterator[int]:
+    """Where every one of these stands in its piece."""
+    for i, each in enumerate(probes):
+        yield i if not isinstance(each.owner, Mounted) else 1 + each.row if each.field == "out" else 0
+
+
+# -- keeping ---------------------------------------------------------------------------------------------
 
 
 @lean
-def keep(numbers, stretches, measured, groups, seen, newest, kept, used):
-    """Writes stretches of an array that have changed behind the first `used` of `kept`; how many are used then."""
-    for g in range(groups.shape[1]):
-        if measured.size > 0:
-            when, count = measured[groups[3, g]], numbers[groups[2, g]]
-            if when == seen[0, g] and count == seen[1, g]:
-                continue
-            seen[0, g], seen[1, g] = when, count
-        used = keep_group(groups[0, g], groups[1, g], numbers, stretches, newest, kept, used)
+def keep(numbers, pieces, seen, newest, kept, used):
+    """Writes pieces that have changed behind the first `used` of `kept`; how many are used then."""
+    for i in range(pieces.shape[1]):
+        first, gate = pieces[FIRST, i], pieces[GATE, i]
+        if gate == ALWAYS:
+            used = keep_numbers(i, numbers, first, pieces[STEP, i], pieces[MOST, i], newest, kept, used)
+        elif numbers[gate] != seen[0, i] or numbers[first] != seen[1, i]:
+            seen[0, i], seen[1, i] = numbers[gate], numbers[first]
+            used = keep_targets(i, numbers[gate], numbers, first, 1 + int(numbers[first]) * pieces[WIDTH, i], newest, kept, used)
     return used
 
 
 @inlined
-def keep_group(begin, end, numbers, stretches, newest, kept, used):
-    """The same of some of the stretches."""
-    for i in range(begin, end):
-        slot = stretches[SLOT, i]
-        if slot >= 0 and numbers[stretches[COUNTER, i]] <= slot:
-            newest[i] = NOTHING
-            continue
-        first, step, count = stretches[FIRST, i], stretches[STEP, i], stretches[COUNT, i]
-        if newest[i] != NOTHING and is_same(numbers, first, step, count, kept, newest[i]):
-            continue
-        for j in range(count):
-            kept[used + j] = numbers[first + j * step]
-        newest[i] = used
-        used += count
-    return used
+def keep_targets(i, measured, numbers, first, count, newest, kept, used):
+    """The same of what a sensor has given: when it has measured [s], and so many numbers."""
+    newest[i], kept[used] = used, measured
+    for j in range(count):
+        kept[used + 1 + j] = numbers[first + j]
+    return used + 1 + count
 
 
-@lean
+@inlined
+def keep_numbers(i, numbers, first, step, count, newest, kept, used):
+    """The same of a piece that is no sensor's."""
+    if newest[i] != NOTHING and is_same(numbers, first, step, count, kept, newest[i]):
+        return used
+    newest[i] = used
+    for j in range(count):
+        kept[used + j] = numbers[first + j * step]
+    return used + count
+
+
+@inlined
 def is_same(numbers, first, step, count, kept, at):
-    """Whether a stretch is what was written of it at a place."""
+    """Whether numbers are what was written of them at a place."""
     for j in range(count):
         now, before = numbers[first + j * step], kept[at + j]
         if now != before and (now == now or before == before):

@@ -100,12 +100,12 @@ def build(settings: Sequence[Setting]) -> World:
         names=tuple(each.names for each in settings),
         colours=tuple(car.colour for car in cars),
     )
-    world.script.reader = reader_of(world)
     world.script.deeds = deeds_of(settings, world)
     world.script.mail = mail_of(world.units.posts)
     settle(world)
     world.origin = origin_of(settings, world)
     gather(world)
+    world.script.reader = reader_of(world)
     return world
 
 

@@ -104,12 +104,13 @@ def present(world: World) -> np.ndarray:
 
 
 @lean
-def has_changed(present, there):
-    """Whether other units are there, of whom `present` is above 0, than `there` says."""
+def look(present, there):
+    """Puts down in `there` which units are there, of whom `present` is above 0; whether they are others than before."""
+    others = False
     for u in range(there.size):
-        if (present[u] > 0.0) != there[u]:
-            return True
-    return False
+        others = others or (present[u] > 0.0) != there[u]
+        there[u] = present[u] > 0.0
+    return others
 
 
 @lean

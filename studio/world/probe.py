@@ -6,7 +6,7 @@ What an application logs stands under the name of its group, `follower_1.platoon
 is `follower_1.platoon.notice`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import nan
 from typing import Any, NamedTuple
@@ -99,72 +99,67 @@ def parts(of: Sequence[Quantity]) -> Iterator[tuple[str, str, int]]:
             place += 1
 
 
-FIRST, STEP, COUNT, COUNTER, SLOT, WHERE = range(6)  # of a stretch: numbers of an array that follow each other, and where they go
-
-
-class Share(NamedTuple):
-    """What is read from one array in one call: stretches of it, int64[row, stretch], in the array laid out in one line."""
-
-    owner: Any
-    field: str
-    stretches: np.ndarray
-
-    @property
-    def numbers(self) -> np.ndarray:
-        """The array, laid out in one line."""
-        array = getattr(self.owner, self.field)
-        assert array.flags.c_contiguous, "what is laid out is the array itself and no copy"
-        return array.reshape(-1)
-
-    @property
-    def measured(self) -> np.ndarray:
-        """Of when what each sensor has given is [s], where it is what sensors give."""
-        return self.owner.health[MEASURED] if self.field == "out" else np.zeros(0)
+FIRST, STEP, COUNT, COUNTER, SLOT, WHERE = range(6)  # of a stretch: numbers that follow each other in the buffer, and where they go
 
 
 @dataclass
 class Reader:
-    """Reads all probes at once."""
+    """Reads all probes at once, from the buffer of everything that moves, laid out in one line."""
 
     probes: list[Probe]
-    shares: list[Share] = field(init=False)
+    numbers: np.ndarray
+    stretches: np.ndarray = field(init=False)  # int64[row, stretch]
 
     def __post_init__(self) -> None:
-        found: dict[tuple, list[tuple[int, ...]]] = {}
-        owners = {}
-        for start, count in runs(self.probes):
-            each = self.probes[start]
-            owners[id(each.owner)] = each.owner
-            found.setdefault((id(each.owner), each.field), []).append(stretch(each, count, start))
-        self.shares = [Share(owners[owner], name, np.array(some, dtype=np.int64).T.copy()) for (owner, name), some in found.items()]
+        start = self.numbers.ctypes.data
+        found = [stretch(self.probes[first], count, first, start) for first, count in runs(self.probes, follows)]
+        self.stretches = np.array(found, dtype=np.int64).reshape(-1, 6).T.copy()
 
     def read(self, values: np.ndarray) -> None:
         """All values now, float64[probe]; not a number where there is no target."""
-        for each in self.shares:
-            pick(each.numbers, each.stretches, values)
+        pick(self.numbers, self.stretches, values)
 
 
-def runs(probes: list[Probe]) -> Iterator[tuple[int, int]]:
-    """Where probes of one column begin that stand in rows which follow each other, and how many."""
+def reader(probes: list[Probe], world: World) -> Reader:
+    """What reads some probes of a world, once everything that moves is in one buffer."""
+    return Reader(probes, world.arena.view(np.float64))
+
+
+def runs(probes: list[Probe], is_together: Callable[[Probe, Probe], bool]) -> Iterator[tuple[int, int]]:
+    """Where probes begin of which each is together with the one before it, and how many."""
     start = 0
     for i in range(1, len(probes) + 1):
-        if i == len(probes) or not follows(probes[i - 1], probes[i]):
+        if i == len(probes) or not is_together(probes[i - 1], probes[i]):
             yield start, i - start
             start = i
 
 
 def follows(one: Probe, other: Probe) -> bool:
-    """Whether a probe stands in the row behind another's."""
+    """Whether a probe of the same column stands in the row behind another's."""
     same = one.owner is other.owner and (one.field, one.column, one.slot) == (other.field, other.column, other.slot)
     return same and other.row == one.row + 1
 
 
-def stretch(probe: Probe, count: int, where: int) -> tuple[int, ...]:
-    """So many numbers from a probe's on, which go to a place: what a sensor gives stands together, all else row by row."""
+def stretch(probe: Probe, count: int, where: int, start: int) -> tuple[int, ...]:
+    """So many numbers from a probe's on, which go to a place: what a sensor gives stands together, all else row by row.
+
+    `start` is the address of the buffer.
+    """
     array = getattr(probe.owner, probe.field)
     along, across = (array.shape[1], 1) if probe.field == "out" else (1, array.shape[-1])
-    at = probe.column * along
+    at = place(array, start) + probe.column * along
     return at + max(probe.row, 0) * across, across, count, at, probe.slot, where
+
+
+def measured_at(sensor: Probe, start: int) -> int:
+    """Where it stands in the buffer when a sensor has measured what it gives."""
+    return place(sensor.owner.health[MEASURED], start) + sensor.column
+
+
+def place(array: np.ndarray, start: int) -> int:
+    """Where an array of real numbers begins in the buffer."""
+    assert array.dtype == np.float64 and array.flags.c_contiguous, "what is laid out in one line is real numbers, one behind the other"
+    return (array.ctypes.data - start) // array.itemsize
 
 
 @lean
@@ -186,7 +181,7 @@ def reader_of(world: World) -> Reader | None:
     if not watched:
         return None
     known = [{each.name: each for each in some} for some in probes(world)]
-    return Reader([known[w][name] if name in known[w] else of_vehicle(w, name, world) for w, name in watched])
+    return reader([known[w][name] if name in known[w] else of_vehicle(w, name, world) for w, name in watched], world)
 
 
 def of_vehicle(number: int, name: str, world: World) -> Probe:

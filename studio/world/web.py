@@ -8,10 +8,13 @@ from studio.road.network import RIGHTS, Network
 from studio.road.ways.conflict import ACROSS, NONE
 from studio.road.ways.gap import critical_gap
 from studio.road.ways.meeting import Meetings, meetings_of
+from studio.road.ways.ring import onto_rings
 from studio.road.ways.strand import Drive, Strands, driven, strands_of
 from studio.world.line import Lines, starts
 from studio.world.setting import Setting
 from studio.world.table.web import LANE, Web
+
+ROOM_ON_RING = 4  # for as many there has to be room before one comes in: a ring that is full stands still for ever
 
 
 def web_of(settings: Sequence[Setting], lines: Lines) -> tuple[Web, np.ndarray]:
@@ -27,7 +30,7 @@ def web_of(settings: Sequence[Setting], lines: Lines) -> tuple[Web, np.ndarray]:
         strand=np.array([each.strand for each in drives], dtype=np.int64),
         right=np.concatenate([rights(each) for each in networks]),
         critical=np.concatenate([gaps(each) for each in networks]),
-        crosses=np.concatenate([crossed(*each) for each in zip(strands, met, strict=True)]),
+        room=np.concatenate([rooms(*each) for each in zip(networks, strands, met, strict=True)]),
         first=np.append(np.concatenate(first), sum(each.partner.size for each in met)).astype(np.int64),
         partner=np.concatenate([each.partner + at for each, at in zip(met, base, strict=True)]),
         span=np.concatenate([each.span for each in met], axis=1),
@@ -59,10 +62,11 @@ def gaps(network: Network) -> np.ndarray:
     return np.array([0.0] * len(network.lanes) + [critical_gap(each, network.drive_side) for each in network.connections])
 
 
-def crossed(strands: Strands, met: Meetings) -> np.ndarray:
-    """Which ways are crossed by others, so that nobody may stop there."""
+def rooms(network: Network, strands: Strands, met: Meetings) -> np.ndarray:
+    """For how many there has to be room behind a way: for one where others cross it, so that nobody stops there; for some onto a ring."""
     found = np.zeros(strands.count.size, dtype=np.int64)
     own = np.repeat(np.arange(found.size), np.diff(met.first))
     found[own[(met.shape == ACROSS) & (met.turn != NONE)]] = 1
     found[: strands.lanes] = 0
+    found[strands.lanes :][onto_rings(network)] = ROOM_ON_RING
     return found

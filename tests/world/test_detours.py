@@ -1,5 +1,6 @@
 """Lanes that are closed or shifted while a world runs: the lines around them, who takes which, and what stands there."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -322,7 +323,7 @@ def test_no_traffic_starts_within_a_closing(sample):
 
 def test_the_sample_passes_its_roadworks(root):
     """Goals met, nobody collides; the whole platoon has gone around both closings, and is at 30 km/h in the first one."""
-    run = job.run(job.load(root / "scenarios" / "grosser_stern_roadworks.yaml"))
+    run = job.run(job.load(root / "scenarios" / "grosser_stern_roadworks.yaml", {"clock.duration": 125}))
     assert run.status == "done" and run.unmet == [] and run.metrics["collisions"].value == 0
     texts = [each.text for each in run.record.happenings]
     assert [text.partition(":")[0] for text in texts if "begins" in text] == ["limit begins", "roadworks begins", "way_out begins"]
@@ -330,3 +331,22 @@ def test_the_sample_passes_its_roadworks(root):
     assert (station[:, -1] > 977 + 140).all()
     leader = (station[0] > 440) & (station[0] < 600)
     assert speed[0][leader].max() < 8.333 + 0.1
+
+
+def test_who_is_beside_on_the_lane_that_one_changes_to_is_not_struck(root):
+    """Too fast to stop where a middle lane is closed: half a length behind, somebody is on the lane that one goes over to."""
+    works = {"do": {"kind": "close_lane", "road": "motorway", "lane": 1, "start": 3000, "end": 3300, "taper": 150}}
+    places = {"own": (1, 2600.0), "beside": (2, 2597.5), "ahead": (2, 2630.0)}
+    vehicles = {
+        name: {"route": "eastbound", "position": {"road": "motorway", "lane": lane, "offset": offset}, "speed": 30}
+        for name, (lane, offset) in places.items()
+    }
+    loaded = job.load(root / "scenarios" / "motorway_platoon.yaml", {"clock.duration": 32})
+    document = loaded.scenario.model_dump(mode="json", exclude_unset=True)
+    document |= {"vehicles": vehicles, "applications": {}, "script": {"works": works}, "goals": {}, "measures": {}, "traffic": {"count": 0}}
+    running = simulation(job.prepare(replace(loaded, scenario=type(loaded.scenario).model_validate(document))))
+    while not running.is_over:
+        running.advance(50)
+    assert not [each for each in running.cases[0].happenings if each.kind == "collision"]
+    own, other = (running.record().trace(f"{name}.station")[-1] for name in ("own", "beside"))
+    assert 3300 < own < other

@@ -196,16 +196,19 @@ def wait(settings, sent, draw):
 def transmit(settings, way, draw):
     """What becomes of a message, and how long it takes.
 
-    What is too weak with the brightest shadow and fading is too weak; nobody has to look which there are.
+    What is too weak with the brightest shadow and fading is too weak; nobody has to look which there are. Nor which shadow there is where
+    the brightest is not enough, with this fading or without any.
     """
     taken = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
     clear = settings.transmit_power - path_loss(settings, way) - settings.noise
-    darkest, lightest = shadow_bounds(settings, way)
-    if taken == 0.0 and clear + lightest + brightest(settings, way) < packet.HOPELESS[int(settings.rate)]:
+    (darkest, lightest), hopeless = shadow_bounds(settings, way), packet.HOPELESS[int(settings.rate)]
+    if clear + lightest + brightest(settings, way) < hopeless:
         return Transmission(TOO_WEAK, 0.0)
     draws = chances(draw, 0)
-    least = clear - taken + darkest + fade_bounds(settings, way, draws[FADES])[0] - settings.blockage
-    lost = RECEIVED
+    faintest, strongest = fade_bounds(settings, way, draws[FADES])
+    if clear + lightest + max(strongest, 0.0) < hopeless:
+        return Transmission(TOO_WEAK, 0.0)
+    least, lost = clear - taken + darkest + faintest - settings.blockage, RECEIVED
     if least < packet.CERTAIN[int(settings.rate)]:
         lost = fate(settings, way, draw, clear + shadow(settings, way), taken, draws)
     if lost == RECEIVED and settings.contention > 0.0 and is_spoilt(settings, way, draws[SPOILT]):

@@ -9,12 +9,14 @@ Times on the air are counted in whole nanoseconds, so that the sum does not depe
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import floor
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
+from studio.bound import bound
 from studio.compiled import inlined, lean
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
@@ -63,7 +65,7 @@ class Air:
     cell: Moving
     assess: Callable | None  # congestion control, where the radio has one
 
-    @property
+    @cached_property
     def is_loaded(self) -> bool:
         """Whether messages keep its channel busy."""
         return hasattr(self.radio.module, "airtime")
@@ -75,8 +77,13 @@ class Air:
 
     def turn(self, time: float, world_of: np.ndarray) -> None:
         """A tick begins at a time [s]: a window may be over."""
-        if self.is_loaded and turned(time, self.since, self.busy, self.load) and self.assess:
+        if self.is_loaded and self.turned(time) and self.assess:
             self.assess(self.settings, world_of, self.load, self.control, self.gap)
+
+    @cached_property
+    def turned(self) -> Callable[[float], bool]:
+        """`turned` with all arrays given: they stay where they are."""
+        return bound(turned, self.since, self.busy, self.load, then=(0.0,))
 
 
 def air(radio: Kind, worlds: Sequence[int], settings: Sequence[Any], units: int) -> Air:
@@ -129,7 +136,7 @@ def control(radio: Kind) -> Callable:
 
 
 @lean
-def turned(time, since, busy, load):
+def turned(since, busy, load, time):
     """Whether a window is over at a time [s]; then what has been counted becomes the load, and the next one begins."""
     if floor((time + EARLY) / WINDOW) <= floor((since[0] + EARLY) / WINDOW):
         return False

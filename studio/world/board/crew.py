@@ -90,7 +90,7 @@ def hosted(application: Kind, found: list[Crew], units: Units, opened: list[Open
         parameters=np.concatenate([parameters(application, crew) for crew in found], axis=1),
         memory=np.tile(np.array(first_values(module.Memory))[:, None], unit.size),
         said=np.zeros((logged, unit.size)),
-        shown=np.zeros(unit.size, dtype=np.int64),
+        shown=np.zeros(unit.size),
         fault=np.zeros(unit.size, dtype=np.int64),
         wrong=np.zeros(unit.size),
         wiring=[wired(each, found, units, opened) for each in (*port.seen(module), *port.done(module)) if each.what in text.WIRES],

@@ -207,30 +207,30 @@ class Post:
 
     def exchanged(self, k: int, time: float, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `exchange`; `around` are the arrays of the world, which stay where they are. Returns what went wrong."""
-        own = (
-            ()
-            if "exchange" in self.ready
-            else (self.period, self.settings, self.kept, self.inbox, self.taken, self.looks, self.came, self.came_count, air.gap)
-        )
-        return self.called("exchange", own, air, around, (k, time))
+        return self.called("exchange", air, around, (k, time))
 
     def dispatched(self, air: Air, around: tuple) -> Iterable[Fault]:
         """Calls `dispatch` when applications have sent something, likewise."""
         if not self.is_of_applications or not self.fresh.any():
             return ()
-        return self.called("dispatch", (), air, around, ())
+        return self.called("dispatch", air, around, ())
 
-    def called(self, name: str, own: tuple, air: Air, around: tuple, now: tuple) -> Iterable[Fault]:
+    def called(self, name: str, air: Air, around: tuple, now: tuple) -> Iterable[Fault]:
         """A message or radio that raises ends the runs of all worlds that have it; told with the traceback."""
         self.log.make_room()
         try:
             if name not in self.ready:
+                own = self.of_exchange(air) if name == "exchange" else ()
                 self.ready[name] = bound(getattr(self, name), *own, *self.given(air, around), then=now)
             self.ready[name](*now)
         except (Exception, SystemExit):
             text = f"The message {self.kind.name!r} on the radio {self.radio.name!r} cannot be sent:\n{traceback.format_exc()}"
             return (Fault(self.worlds, ApplicationError(text)),)
         return ()
+
+    def of_exchange(self, air: Air) -> tuple:
+        """What `exchange` is given besides: beacons, and what has come in."""
+        return self.period, self.settings, self.kept, self.inbox, self.taken, self.looks, self.came, self.came_count, air.gap
 
     def given(self, air: Air, around: tuple) -> tuple:
         """What the radio decides about, and what it looks at for that, as GIVEN names it."""
@@ -514,7 +514,7 @@ def whose_turn(fresh, last, sender, world_of, entity, seed, stream):
 
 def taking_turns(posts: Sequence["Post"], instant: int) -> Sequence["Post"]:
     """Posts in the order in which they send at an instant: by lot too where messages wait for a network, so that no kind goes first."""
-    if not any(hasattr(post.radio.module, "admit") for post in posts[1:]):
+    if len(posts) < 2 or not any(hasattr(post.radio.module, "admit") for post in posts[1:]):
         return posts
     return sorted(posts, key=lambda post: uniform(0, instant & WORD, post.stream, instant >> WORD.bit_length(), LOT))
 

@@ -202,8 +202,11 @@ class Mounted:
             faults = self.ready["run"](k, time)
         except (Exception, SystemExit):
             return dict.fromkeys(range(self.unit.size), f"cannot be asked:\n{traceback.format_exc()}")
-        wrong = np.flatnonzero(self.fault).tolist() if faults else []
-        return {i: WRONG[int(self.fault[i])].format(capacity=self.capacity) for i in wrong}
+        return self.wrong() if faults else {}
+
+    def wrong(self) -> dict[int, str]:
+        """What is wrong with the answers of this look."""
+        return {i: WRONG[int(self.fault[i])].format(capacity=self.capacity) for i in np.flatnonzero(self.fault).tolist()}
 
     @property
     def reading(self) -> list[Quantity]:

@@ -79,6 +79,7 @@ class Census:
     off: np.ndarray  # per vehicle, 1 while it is off its lanes
     ringed: np.ndarray  # [s] per vehicle, how long it has been in a ring
     mark: np.ndarray  # int64[vehicle], scratch
+    watched: np.ndarray  # int64[vehicle], how many others it is watched with
     pairs: np.ndarray  # float64[row, MOST, vehicle]
     table: np.ndarray
     count: np.ndarray  # int64[1]
@@ -107,6 +108,7 @@ def census(world: World) -> Census:
         off=np.zeros(n, dtype=np.int64),
         ringed=np.zeros(n),
         mark=np.zeros(n, dtype=np.int64),
+        watched=np.zeros(n, dtype=np.int64),
         pairs=pairs,
         table=np.zeros((len(CENSUS), 2 * ROWS_OF_ONE * n)),
         count=np.zeros(1, dtype=np.int64),
@@ -127,15 +129,25 @@ def taking(world: World, at: Census) -> tuple:
     """With its arrays, which stay where they are."""
     v, r, q, w = world.vehicles, world.roads, world.queues, world.worlds
     who = (v.state, v.parameter, v.mind, v.removed, w.of, w.number, w.first)
-    road = (r.chart, r.path_first, r.path_count, r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown)
-    own = (world.demand.came, at.front, at.path, at.speed, at.stood, at.off, at.ringed, at.mark, at.pairs, at.table, at.count)
+    road = (
+        r.chart,
+        0.5 * float(r.chart[LANE_WIDTH].min(initial=inf)),
+        r.path_first,
+        r.path_count,
+        r.stop_first,
+        r.stop_count,
+        r.stop_station,
+        r.stop_link,
+        r.shown,
+    )
+    own = (world.demand.came, at.front, at.path, at.speed, at.stood, at.off, at.ringed, at.mark, at.watched, at.pairs, at.table, at.count)
     return everybody, *who, *road, r.drive_first, r.drive_count, r.web, q.first, q.place, q.at, *own
 
 
 @lean
-def everybody(state, parameter, mind, removed, world_of, number, first_of, chart, path_first, path_count, stop_first,
+def everybody(state, parameter, mind, removed, world_of, number, first_of, chart, within, path_first, path_count, stop_first,
               stop_count, stop_station, stop_link, shown, drive_first, drive_count, web, first, place, at, came, front,
-              path, speed, stood, off, ringed, mark, pairs, table, count, now, tick):  # fmt: skip
+              path, speed, stood, off, ringed, mark, watched, pairs, table, count, now, tick):  # fmt: skip
     """Each for himself, then the pairs, then the rings."""
     for v in range(state.shape[1]):
         bumper = mind[STATION, v] + parameter[FRONT, v]
@@ -149,12 +161,17 @@ def everybody(state, parameter, mind, removed, world_of, number, first_of, chart
         if is_there and has_passed_red(before, bumper, stop_first[v], stop_count[v], stop_station, stop_link, shown):
             note(now, AT_RED, v, -1, state[V_X, v], world_of, number, table, count)
         if is_there and before == before:
-            enter(v, before, bumper, now, state, parameter, mind, world_of, drive_first[v], drive_count[v], web, first, place, at, pairs)
+            enter(
+                v, before, bumper, now, state, parameter, mind, world_of, drive_first[v], drive_count[v], web, first, place, at, watched,
+                pairs,
+            )  # fmt: skip
         wait(v, now, is_there, mind, world_of, number, stood, table, count)
-        keep_to_lanes(v, now, is_there, mind, chart, path_first[v], path_count[v], world_of, number, off, table, count)
+        if off[v] != 0 or abs(mind[OFFSET, v]) > within:  # nobody is off who is nearer to his line than the edge of any lane
+            keep_to_lanes(v, now, is_there, mind, chart, path_first[v], path_count[v], world_of, number, off, table, count)
         front[v], path[v] = bumper if is_there else nan, path_first[v]
     for v in range(state.shape[1]):
-        watch(v, now, tick, state, parameter, mind, world_of, number, speed, pairs, table, count)
+        if watched[v] > 0:
+            watch(v, now, tick, state, parameter, mind, world_of, number, speed, watched, pairs, table, count)
     for v in range(state.shape[1]):
         speed[v] = state[V_X, v]
     if int(now / EVERY) != int((now - tick) / EVERY):
@@ -194,7 +211,8 @@ def keep_to_lanes(v, now, is_there, mind, chart, first, points, world_of, number
 
 
 @lean
-def enter(v, before, bumper, now, state, parameter, mind, world_of, drive_first, drive_count, web, first, place, at, pairs):
+def enter(v, before, bumper, now, state, parameter, mind, world_of, drive_first, drive_count, web, first, place, at, watched,
+          pairs):  # fmt: skip
     """The places where v gives way that its front has entered in this tick, and who was on his way there."""
     for d in range(first_drive(bumper - parameter[LENGTH, v], drive_first, drive_count, web), drive_first + drive_count):
         if web.drive[ENTER, d] > bumper:
@@ -206,11 +224,11 @@ def enter(v, before, bumper, now, state, parameter, mind, world_of, drive_first,
         for m in range(web.first[strand], web.first[strand + 1]):
             if web.turn[m] == GIVE and nose - (bumper - before) < web.span[OWN_ENTER, m] <= nose:
                 key = world_of[v] * web.right.size + web.partner[m]
-                meet(v, m, key, nose, bumper, now, state, parameter, mind, web, first, place, at, pairs)
+                meet(v, m, key, nose, bumper, now, state, parameter, mind, web, first, place, at, watched, pairs)
 
 
 @inlined
-def meet(v, m, key, nose, bumper, now, state, parameter, mind, web, first, place, at, pairs):
+def meet(v, m, key, nose, bumper, now, state, parameter, mind, web, first, place, at, watched, pairs):
     """Everybody who was on his way to a place that v has entered, or on it."""
     i, end = from_station(key, -inf, first, place, at)
     while i < end and place[KEY, i] == key:
@@ -220,11 +238,11 @@ def meet(v, m, key, nose, bumper, now, state, parameter, mind, web, first, place
             web.shape[m] == ACROSS and left <= 0.0 and left + parameter[LENGTH, other] > web.span[ITS_ENTER, m] - web.span[ITS_LEAVE, m]
         )
         if other != v and (is_there or 0.0 < left < min(red, NEAR + EARLY * max(state[V_X, other], 0.0))):
-            open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, pairs)
+            open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, watched, pairs)
 
 
 @inlined
-def open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, pairs):
+def open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, watched, pairs):
     """From now on the two are watched; of two places where they meet the first counts."""
     free = MOST - 1
     for i in range(MOST):
@@ -232,6 +250,7 @@ def open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, pairs)
             return
         if pairs[P_OTHER, i, v] < 0.0:
             free = min(free, i)
+    watched[v] += pairs[P_OTHER, free, v] < 0.0
     pairs[P_OTHER, free, v], pairs[P_BEGAN, free, v], pairs[P_LEFT, free, v], pairs[P_BRAKED, free, v] = other, now, nan, 0.0
     pairs[P_LEAVES, free, v] = bumper + web.span[OWN_LEAVE, m] - nose + parameter[LENGTH, v]
     pairs[P_COMES, free, v] = mind[STATION, other] + parameter[FRONT, other] + left
@@ -239,7 +258,7 @@ def open_pair(v, other, m, nose, bumper, left, now, parameter, mind, web, pairs)
 
 
 @inlined
-def watch(v, now, tick, state, parameter, mind, world_of, number, speed, pairs, table, count):
+def watch(v, now, tick, state, parameter, mind, world_of, number, speed, watched, pairs, table, count):
     """How the pairs of one who has entered go on."""
     for i in range(MOST):
         if pairs[P_OTHER, i, v] < 0.0:
@@ -251,11 +270,11 @@ def watch(v, now, tick, state, parameter, mind, world_of, number, speed, pairs, 
             pairs[P_LEFT, i, v] = now
         comes = mind[STATION, other] + parameter[FRONT, other] >= pairs[P_COMES, i, v]
         if comes or now > pairs[P_LEFT, i, v] + AFTERWARDS or state[ACTIVE, other] == 0.0 or state[ACTIVE, v] == 0.0:
-            close_pair(v, i, other, comes, now, world_of, number, pairs, table, count)
+            close_pair(v, i, other, comes, now, world_of, number, watched, pairs, table, count)
 
 
 @inlined
-def close_pair(v, i, other, comes, now, world_of, number, pairs, table, count):
+def close_pair(v, i, other, comes, now, world_of, number, watched, pairs, table, count):
     """What it was in the end."""
     began, braked = pairs[P_BEGAN, i, v], pairs[P_BRAKED, i, v]
     is_close = comes and pairs[P_ACROSS, i, v] > 0.0 and not now > pairs[P_LEFT, i, v] + JUST
@@ -263,6 +282,7 @@ def close_pair(v, i, other, comes, now, world_of, number, pairs, table, count):
     if braked > COURTESY or is_close:
         note(began, VIOLATION, v, other, braked, world_of, number, table, count)
     pairs[P_OTHER, i, v] = -1.0
+    watched[v] -= 1
 
 
 # -- who waits for whom ----------------------------------------------------------------------------

@@ -8,7 +8,7 @@ Before the line of a way, where its strand begins, he decides whether he may go;
     several ways         between which there is no room for the own body are decided about together, before the line of the first
     within a junction    behind a way, where another begins at once, one does not wait before its line for somebody who stands beyond, but
                          moves up to where he is: one's own rear may be in another's way
-    crossed ways         are not entered while there is no room behind them
+    crossed ways         are not entered while there is no room behind them; nor is a ring where there is room for a few only
     slow traffic         lets in whoever has waited for long, and after half a minute one takes shorter gaps
     nobody goes          of those who have stood a while, who has stood longest goes before one who stands as well; if he cannot, since
                          another stands in his way, that one goes
@@ -46,14 +46,15 @@ from studio.world.table.mind import (
     WAITED_FOR,
     WAY_STATION,
 )  # fmt: skip
-from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE, SIGNAL, STOP
+from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE, SIGNAL, START, STOP
 
 NOBODY = -1
 PATIENCE = 2.0  # [s] that one stands before who has stood longer goes first
 STANDING = 0.5  # [m/s] a car slower than this stands
 HALT, AT_LINE = 0.1, 4.0  # [m/s], [m] slower than this, and so near to a line, one has halted there
 FAIR, CRAWL, GENTLE, NEAREST = 10.0, 3.0, 2.0, 1.0  # [s], [m/s], [m/s²], [m] in slow traffic who has waited so long is let in
-SLOW = 2.0  # [m/s] who drives slower than this behind a junction may leave no room
+SLOW, FLOWING = 2.0, 6.0  # [m/s] who drives slower than this behind a junction may leave no room; the second on a ring
+WEARY = 60.0  # [s] who has waited for a ring so long comes in where there is room for two
 LONG = 15.0  # [m] from the centre of gravity no front is farther
 BEHIND = 60.0  # [m] behind oneself others are minded before a lane change
 BESIDE, SAFE = 1.0, 3.0  # [m], [m/s²] nearer than this is beside; harder than this nobody is made to brake by a lane change
@@ -75,8 +76,8 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
     must, who = False, NOBODY
     if is_way:
         must = has_to_halt(v, strand, line, to_line, state, web, mind)
-        if not must and web.crosses[strand] == 1:
-            who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers)
+        if not must and web.room[strand] > 0:
+            who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers, mind)
             must = who != NOBODY
     top = top_speed(v, d, drivers, points, path_first, path_count, web, mind)
     for m in range(web.first[strand], web.first[strand + 1]):
@@ -127,17 +128,22 @@ def has_to_halt(v, strand, line, to_line, state, web, mind):
 
 
 @inlined
-def leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers):
+def leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers, mind):
     """Who leaves no room behind a way, for those who are on it and for oneself, by his number; who drives there makes room."""
-    if d + 1 == last:
-        return NOBODY
-    queue = world * web.right.size + web.strand[d + 1]
-    i, end = from_station(queue, -inf, first, place, at)
-    while i < end and place[KEY, i] == queue:
-        other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
-        if other != v and nose >= 0.0:
-            needed = parameter[LENGTH, v] + drivers[STANDSTILL, v] + taken(v, d, own, world, parameter, web, first, place, at, drivers)
-            return NOBODY if state[V_X, other] >= SLOW or nose - parameter[LENGTH, other] >= needed else number[other]
+    is_patient, room = mind[STOOD, v] < WEARY, web.room[web.strand[d]]
+    needed = (room if is_patient else min(room, 2)) * (parameter[LENGTH, v] + drivers[STANDSTILL, v])
+    needed += taken(v, d, own, world, parameter, web, first, place, at, drivers)
+    beyond, fast = 0.0, FLOWING if room > 1 and is_patient else SLOW
+    for e in range(d + 1, last):
+        queue = world * web.right.size + web.strand[e]
+        i, end = from_station(queue, -inf, first, place, at)
+        while i < end and place[KEY, i] == queue:
+            other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
+            if other != v and nose >= 0.0:
+                return NOBODY if state[V_X, other] >= fast or beyond + nose - parameter[LENGTH, other] >= needed else number[other]
+        beyond += web.drive[END, e] - web.drive[START, e]
+        if beyond >= needed:
+            return NOBODY
     return NOBODY
 
 
@@ -383,9 +389,10 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
 def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first, place, at, drivers, mind):
     """Whether v has to wait where it would change to a lane, since somebody there is beside it, or comes from behind too fast.
 
-    Whoever is ahead there is followed as one who goes first.
+    Whoever is ahead there is followed as one who goes first; so is who is beside it, when it is too fast to stop.
     """
     nose, tail, who = own + parameter[FRONT, v], own + parameter[FRONT, v] - parameter[LENGTH, v], NOBODY
+    beside, lead = NOBODY, 0.0
     i, end = from_station(key, own - BEHIND, first, place, at)
     while i < end and place[KEY, i] == key:
         other, there, is_there, i = place[WHO, i], at[i], place[THERE, i], i + 1
@@ -399,6 +406,12 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
             break
         if min(mind[STOOD, v], mind[STOOD, other]) > PATIENCE and state[V_X, other] < STANDING:
             continue  # who stands there and is behind lets one in who has stood as well
-        if tail - its_nose < BESIDE or behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
+        if tail - its_nose < BESIDE:
+            who, beside, lead = number[other], other, its_nose - parameter[LENGTH, other] - nose
+        elif behind(other, tail - its_nose, state[V_X, v], state, drivers, mind) < -SAFE:
             who = number[other]
-    return who != NOBODY and is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, drivers, mind)
+    if who == NOBODY or is_held(v, who, enter, enter - mind[STATION, v] - parameter[FRONT, v], decided, state, drivers, mind):
+        return who != NOBODY
+    if beside != NOBODY:
+        let_in(v, number[beside], lead, state[V_X, beside], state, drivers, mind)
+    return False

@@ -16,10 +16,10 @@ from studio.road.network.shadow import (
     BOX_X,
     BOX_Y,
     COLUMN_LOW,
-    FULL,
     HALF_X,
     HALF_Y,
     OPEN,
+    PARTLY,
     ROW_LOW,
     WALL_COUNT,
     WALL_FIRST,
@@ -261,7 +261,8 @@ def see(i, half, sight, blocks):
 def cover_buildings(view, me, i, sight, blocks):
     """Covers what buildings hide of the body in column i; how many intervals there are now.
 
-    Lines to both edges and to its nearest point are followed through cells first: mostly all are open, or all end in a building.
+    Lines to both edges and to its nearest point are followed through cells first: mostly all are open, or all end in a building. Where
+    they differ, or one only passes by a building, walls are looked at.
     """
     place = view.place_of[me.world]
     distance = far(sight[MIDDLE_X, i], sight[MIDDLE_Y, i])
@@ -269,14 +270,14 @@ def cover_buildings(view, me, i, sight, blocks):
     x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
     x2, y2 = of_world(me, sight[SEEN_X, i], sight[SEEN_Y, i])
     frame, mass = view.shadow.grid.frame, view.shadow.mass
-    a = walk(frame, mass, place, me.eye_x, me.eye_y, x0, y0, False)
-    b = walk(frame, mass, place, me.eye_x, me.eye_y, x1, y1, False)
-    c = walk(frame, mass, place, me.eye_x, me.eye_y, x2, y2, False)
-    if max(a, b, c) == OPEN:
-        return blocks
-    if min(a, b, c) == FULL:
-        return cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
-    return cover_walls(view.shadow, place, me, i, x0, y0, x1, y1, sight, blocks)
+    found = walk(frame, mass, place, me.eye_x, me.eye_y, x0, y0, False)
+    if (
+        found == PARTLY
+        or walk(frame, mass, place, me.eye_x, me.eye_y, x1, y1, False) != found
+        or walk(frame, mass, place, me.eye_x, me.eye_y, x2, y2, False) != found
+    ):
+        return cover_walls(view.shadow, place, me, i, x0, y0, x1, y1, sight, blocks)
+    return blocks if found == OPEN else cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
 
 
 @inlined

@@ -19,7 +19,7 @@ class Web(NamedTuple):
     strand: np.ndarray  # int64[drive]
     right: np.ndarray  # int64[strand]: number of its right of way among RIGHTS, or LANE
     critical: np.ndarray  # float64[strand] [s]
-    crosses: np.ndarray  # int64[strand]: 1 of a way that others cross
+    room: np.ndarray  # int64[strand]: for how many there has to be room behind a way before one enters it
     first: np.ndarray  # int64[strand + 1]: its first meeting
     partner: np.ndarray  # int64[meeting]: strands
     span: np.ndarray  # float64[4, meeting]
