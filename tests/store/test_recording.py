@@ -12,6 +12,7 @@ import pytest
 from studio import job
 from studio.errors import ScenarioError
 from studio.execution import shelf
+from studio.execution.salvage import recorded
 from studio.execution.simulation import simulation
 from studio.store import recording
 from studio.store.runs import open_runs, read_runs
@@ -146,6 +147,27 @@ def test_a_recording_that_cannot_be_read_is_set_aside(sample, tmp_path):
     row = open_runs(db).find(1)
     assert row.status == "killed" and f"damaged-{folder.name}" in row.error
     assert (folder.parent / f"damaged-{folder.name}").is_dir() and open_runs(db).find(1) == row
+
+
+OTHERS = [b"{}", b"[]", b'{"status": [], "error": 1}', b'{"status": "done", "error": ""}', b"noise", b"\xff", b"[" * 10**5]
+
+
+@pytest.mark.parametrize("why", OTHERS)
+def test_a_reason_that_is_damaged_is_none(tmp_path, why):
+    (tmp_path / "why.jsonl").write_bytes(why + b"\n")
+    assert recording.ending(tmp_path) == {}
+    recording.put_down(tmp_path / "new", "failed", "no folder")  # nobody can be told
+    assert recording.ending(tmp_path / "new") == {}
+
+
+@pytest.mark.parametrize("last", [np.nan, np.inf, 1e300])
+def test_no_more_samples_are_read_than_there_are_times(tmp_path, last):
+    """Whatever stands where it is told how far the recording is."""
+    kept = shelf.Folder(tmp_path)
+    kept.roll("times", (10,)).begin()
+    kept.roll("progress", (2,)).begin()[:] = 1e15, last
+    assert recorded(kept, [{"room": 10}]) == 10
+    assert recording.until(tmp_path) == (last if np.isfinite(last) else 0.0)
 
 
 def test_what_was_not_written_whole_is_not_there(tmp_path):
