@@ -214,7 +214,7 @@ def without_cache(station: Station, chance: random.Random) -> None:
         "--port",
         "0",
         *station.options,
-        says="cache",
+        says="made again",
         env=station.environment | {"STUDIO_CACHE": str(station.folder / "no-folder")},
     )
 
@@ -308,7 +308,7 @@ def locked_for_long(station: Station, chance: random.Random) -> None:
     with held(station.db):
         station.client.post(f"/api/live/{run}/resume")
         until(lambda: station.client.get(f"/api/live/{run}").json()["status"] in OVER, "the end of the run")
-        row = station.client.get(f"/api/runs/{run}").json()
+        row = station.row(run)
         assert (row["status"], "waits" in (row["error"] or "")) == ("done", True), row
     quick_run(station)
     assert {each["run"]: each["status"] for each in station.rows()}[run] == "done"
@@ -350,9 +350,10 @@ def recordings(station: Station, run: int) -> list[Path]:
 
 
 def recording_gone(station: Station, chance: random.Random) -> None:
-    """What a run records is taken away while it goes on: it ends, and says why."""
+    """What a run records is taken away as it begins, or while it goes on: it ends, and says why."""
     run = station.live(set=LONG, pace=8)
-    time.sleep(chance.random())
+    if chance.random() < 0.7:
+        until(lambda: station.client.get(f"/api/live/{run}").json()["time"] > 1.0, "the run to go on")
     for each in recordings(station, run):
         shutil.rmtree(each)
     answers(station)
@@ -385,12 +386,12 @@ def killed_and_kept(station: Station, chance: random.Random) -> None:
             each.kill()
     assert station.over(run) in ("killed", "failed")
     trace = station.client.get(f"/api/runs/{run}/trace?channels=leader.speed").json()
-    assert max(trace["time"]) > 1.5 and "is kept" in station.client.get(f"/api/runs/{run}").json()["error"]
+    assert max(trace["time"]) > 1.5 and "is kept" in station.row(run)["error"]
 
 
 def told_plainly(station: Station, run: int) -> None:
     """Why a run has ended is told in words."""
-    error = station.client.get(f"/api/runs/{run}").json()["error"] or ""
+    error = station.row(run)["error"] or ""
     assert "Traceback" not in error, error[-1500:]
     for address in (f"/api/runs/{run}/trace?channels=leader.speed", f"/api/runs/{run}/events", "/api/runs", "/api/queue"):
         assert station.client.get(address).status_code in (200, 404, 503)
@@ -508,7 +509,7 @@ def full_in_the_middle(station: Station, chance: random.Random) -> None:
     answers(station)
     ballast.unlink()
     assert quick_run(station) == station.first
-    row = station.client.get(f"/api/runs/{run}").json()
+    row = station.row(run)
     assert row["status"] == "failed" and "room" in row["error"] and "Traceback" not in row["error"], row
     assert station.client.get(f"/api/runs/{run}/trace?channels=leader.speed").status_code == 200
 

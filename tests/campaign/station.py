@@ -128,7 +128,13 @@ class Station:
 
     def status(self, run: int) -> str:
         """What the history says of a run."""
-        return self.client.get(f"/api/runs/{run}").json()["status"]
+        return self.row(run)["status"]
+
+    def row(self, run: int) -> dict[str, Any]:
+        """All that it says."""
+        answer = self.client.get(f"/api/runs/{run}")
+        assert answer.status_code == 200, answer.text[:1000]
+        return answer.json()
 
     def over(self, run: int) -> str:
         """Waits for the end of a run; how it ended."""

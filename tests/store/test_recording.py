@@ -1,5 +1,6 @@
 """What a run records is on the disk while it goes on: a run that is killed, that fails or for which there is no room keeps what it had."""
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import psutil
 import pytest
 
 from studio import job
-from studio.errors import ScenarioError
+from studio.errors import ScenarioError, StoreError
 from studio.execution import shelf
 from studio.execution.salvage import recorded
 from studio.execution.simulation import simulation
@@ -105,6 +106,20 @@ print(job.run(loaded, runs=open_runs("runs.db")).status)
     assert 10.0 < row.sim_time_s < 60.0 and abs(kept["time"][-1] - row.sim_time_s) < 0.021
     whole = job.run(job.load(sample, {"clock.duration": float(np.ceil(row.sim_time_s))}))
     assert kept["leader.speed"].tobytes() == whole.trace("leader.speed")[: kept["time"].size].tobytes()
+
+
+def test_a_run_whose_recording_is_taken_away_says_so(sample, tmp_path, monkeypatch):
+    """Neither its row nor who began it is told of anything else than that."""
+    monkeypatch.setattr("studio.execution.record.CHUNK", 100_000)  # so that not all of it is mapped
+    runs = open_runs(tmp_path / "runs.db")
+
+    def take_away(share):
+        shutil.rmtree(tmp_path / "runs.db.recording", ignore_errors=True)
+
+    with pytest.raises(StoreError, match="cannot be read any more"):
+        job.run(job.load(sample, {"clock.duration": 20}), runs=runs, progress=take_away)
+    row = runs.find(1)
+    assert row.status == "failed" and "What was recorded of this run cannot be read any more." in row.error
 
 
 def test_a_run_that_has_recorded_as_much_as_may_be_ends(sample, tmp_path):
