@@ -373,6 +373,7 @@ def recording_damaged(station: Station, chance: random.Random) -> None:
     chosen.write_bytes(chance.randbytes(chance.choice((0, 10, chosen.stat().st_size))))
     for each in to_stop:
         each.kill()
+    until(lambda: not recordings(station, run), "the recording to be taken in, or to be set aside")
     assert station.over(run) in OVER
     told_plainly(station, run)
 
