@@ -725,7 +725,7 @@ FAULTS = (
     ),
     Fault("server started on noise", begun_on_noise, True),
     Fault("full disk", full, False, small_disk),
-    Fault("disk that fills up in a run", full_in_the_middle, False, lambda folder: small_disk(folder, "size=60m")),
+    Fault("disk that fills up in a run", full_in_the_middle, False, lambda folder: small_disk(folder, "size=240m")),
     Fault("no room for names on the disk", no_names, False, lambda folder: small_disk(folder, "size=40m,nr_inodes=30")),
     Fault("files that cannot grow", files_that_cannot_grow, False, None, {"before": short_files}),
     Fault("more connections than descriptors", crowd, False, None, {"before": few_descriptors}),
