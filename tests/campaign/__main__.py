@@ -34,6 +34,7 @@ def arguments() -> argparse.Namespace:
 def main() -> int:
     """Runs the parts one after another; 1 when something was wrong."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # ends its servers too
+    signal.signal(signal.SIGHUP, lambda *_: None)  # what nohup ignores, its servers would ignore too
     asked = arguments()
     parts = asked.parts.split(",")
     whole = sum(SHARES[each] for each in parts)

@@ -782,25 +782,29 @@ def rows(root: Path, *, seed: int, count: int, seconds: float = 1e9, only: str =
     """All kinds of faults: those that need nothing special on one studio, which is another when a fault was too much for it."""
     chosen = [each for each in FAULTS if only in each.name]
     shared: Station | None = None
-    for number, fault in enumerate(chosen):
-        folder = root / str(number)
-        try:
-            if fault.place or fault.settings:
-                row = campaign(fault, made(folder), seed=seed, count=count)
-            else:
-                shared = shared or Station(made(folder)).start()
-                row = on(shared, fault, seed=seed, count=count, seconds=seconds)
-        except PermissionError as error:
-            row = Row("faults", fault.name, seed)
-            row.came[f"not tried: {error}"] += 1
-        except Exception as error:
-            row = Row("faults", fault.name, seed)
-            row.blame(f"{type(error).__name__}: {str(error)[-1500:]}")
-        if row.wrongs and shared:
-            shared = closed(shared)
-        yield row
-    if shared:
-        yield last(shared, seed)
+    try:
+        for number, fault in enumerate(chosen):
+            folder = root / str(number)
+            try:
+                if fault.place or fault.settings:
+                    row = campaign(fault, made(folder), seed=seed, count=count)
+                else:
+                    shared = shared or Station(made(folder)).start()
+                    row = on(shared, fault, seed=seed, count=count, seconds=seconds)
+            except PermissionError as error:
+                row = Row("faults", fault.name, seed)
+                row.came[f"not tried: {error}"] += 1
+            except Exception as error:
+                row = Row("faults", fault.name, seed)
+                row.blame(f"{type(error).__name__}: {str(error)[-1500:]}")
+            if row.wrongs and shared:
+                shared = closed(shared)
+            yield row
+        if shared:
+            yield last(shared, seed)
+    finally:
+        if shared:
+            closed(shared)
 
 
 def made(folder: Path) -> Path:
@@ -820,5 +824,4 @@ def last(station: Station, seed: int) -> Row:
     with row.trying("nobody left"):
         ended(station, signal.SIGTERM)
         station.leaves_nobody()
-    closed(station)
     return row
