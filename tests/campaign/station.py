@@ -6,8 +6,10 @@ import shutil
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
 import uuid
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
@@ -74,6 +76,9 @@ class Station:
         said = self.process.stdout.readline()
         found = re.search(r"http://\S+", said)
         assert found, f"no address: {said} {self.log()}"
+        threading.Thread(
+            target=deque, args=(self.process.stdout, 0), daemon=True
+        ).start()  # what applications print is read, as in a terminal
         self.client.base_url = httpx.URL(found.group())
         self.client.get("/api/scenarios").raise_for_status()
         return self

@@ -1,5 +1,6 @@
 """Live runs: orders, news, what a crash leaves behind."""
 
+import gc
 import json
 import os
 import signal
@@ -12,7 +13,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from studio.process import Child, spawn
-from studio.server import live, worker
+from studio.server import live, serve, worker
 from studio.server.news import News
 from studio.store.runs import read_runs
 from tests.broken import HANGING
@@ -303,3 +304,14 @@ def command(process):
         return " ".join(process.cmdline())
     except psutil.Error:
         return ""
+
+
+def test_what_requests_leave_is_cleared_up_soon(tmp_path, sample):
+    """Each leaves things that refer to each other: a server that waits for very many of them seems to grow for hours."""
+    before = gc.get_threshold()
+    try:
+        serve.inner(tmp_path / "runs.db", sample.parent, None, 1)
+        assert gc.get_threshold()[0] == serve.COLLECTED_AFTER < 5000 and gc.get_freeze_count()
+    finally:
+        gc.unfreeze()
+        gc.set_threshold(*before)
