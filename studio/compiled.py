@@ -19,6 +19,9 @@ changed tyre can never run with the old physics, and a changed metric compiles n
 
 Several processes may compile at once: whoever comes first compiles a function, the others wait for it and take it from the
 cache. So they share the work, and nothing is compiled twice.
+
+The cache is a help and no more: code that is damaged there, as after a loss of power, is compiled anew, and code for which the disk has no
+room is compiled for this process alone.
 """
 
 import hashlib
@@ -61,13 +64,15 @@ class Locator(UserProvidedCacheLocator):
 
     def ensure_cache_path(self):
         folder = Path(self._cache_path)
-        folder.mkdir(parents=True, exist_ok=True)
-        touch(folder)
+        with suppress(OSError):
+            folder.mkdir(parents=True, exist_ok=True)
+            touch(folder)
 
 
 CACHE = cache_root() / "compiled"
-CACHE.mkdir(parents=True, exist_ok=True)
-forget_old(CACHE)
+with suppress(OSError):
+    CACHE.mkdir(parents=True, exist_ok=True)
+    forget_old(CACHE)
 config.CACHE_DIR = str(CACHE)
 config.CACHE_LOCATOR_CLASSES = f"{__name__}.{Locator.__name__}"
 
@@ -99,6 +104,7 @@ def compiled(function: Any = None, **options: Any) -> Any:
     file = dispatcher._cache._cache_file
     file._load_index = partial(readable, file._load_index)
     file._load_data = partial(loadable, file._load_data)
+    file.save = partial(savable, file.save)
     file._data_name_pattern = file._data_name_pattern.replace("{number:d}", f"{{number:d}}-{uuid.uuid4().hex[:12]}")
     dispatcher.compile = partial(compile_alone, dispatcher.compile, f"{file._index_path}.lock")
     return dispatcher
@@ -109,22 +115,28 @@ inlined = compiled(forceinline=True, _nrt=False)
 
 
 def readable(load: Callable[[], dict]) -> dict:
-    """What there is of a function; nothing when some of it is for the types of a module that is not loaded now: a user's own."""
+    """What there is of a function; nothing when it is damaged, or some of it is for the types of a module that is not loaded now."""
     try:
         return load()
-    except (ImportError, AttributeError):
+    except Exception:  # what is damaged can be anything
         return {}
 
 
 def loadable(load: Callable[[str], Any], name: str) -> Any:
-    """Kept machine code; as if there were none where it names a module that is not loaded now.
+    """Kept machine code; as if there were none where it is damaged, or names a module that is not loaded now: a user's own.
 
     numba tells unions of types apart by their names alone, so what a user's own file has called `Does` may stand in the code of another.
     """
     try:
         return load(name)
-    except (ImportError, AttributeError) as error:
+    except Exception as error:
         raise OSError(f"{name} cannot be used: {error}") from error
+
+
+def savable(save: Callable[[Any, Any], None], key: Any, data: Any) -> None:
+    """Keeps machine code where there is room for it."""
+    with suppress(OSError):
+        save(key, data)
 
 
 def compile_alone(compile, lock: str, signature):

@@ -12,7 +12,7 @@ import hashlib
 import shutil
 import time
 from collections.abc import Callable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
@@ -22,7 +22,7 @@ import numpy as np
 
 from studio.assess.assessment import assessed
 from studio.assess.metric import Measured
-from studio.errors import Problem, ScenarioError, StoreError, UnknownError, nearest, short
+from studio.errors import Problem, ScenarioError, StoreError, StudioError, UnknownError, nearest, short
 from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.salvage import lay_down
@@ -239,7 +239,9 @@ def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
     """What a finished simulation brought for one of its worlds."""
     wall = time.perf_counter() - finished.started
     case, scenario = finished.cases[number], loaded.scenario
-    found = assessed(finished.record(number), scenario)
+    with readable():
+        record = finished.record(number)
+    found = assessed(record, scenario)
     return Run(
         record=found.record,
         metrics=found.metrics,
@@ -251,6 +253,18 @@ def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
         sim_time_s=round(case.time, 9),
         wall_time_s=round(wall, 3),
     )
+
+
+@contextmanager
+def readable() -> Iterator[None]:
+    """What was recorded and has gone since is told as it is. Raises StoreError."""
+    try:
+        yield
+    except OSError as error:
+        where = str(error.filename or "recording")
+        raise StoreError(
+            "What was recorded of this run cannot be read any more.", [Problem(where, error.strerror or str(error), remedy="run it again")]
+        ) from None
 
 
 def save(run: int, result: Run, runs: Runs) -> Row:
@@ -297,5 +311,6 @@ def run(
         return replace(result, row=save(number, result, runs))
     except BaseException as error:
         with suppress(StoreError):  # what went wrong first is told
-            runs.break_off(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", repr(error))
+            why = str(error) if isinstance(error, StudioError) else repr(error)
+            runs.break_off(number, "stopped" if isinstance(error, KeyboardInterrupt) else "failed", why)
         raise

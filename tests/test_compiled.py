@@ -97,6 +97,28 @@ def test_two_processes_that_compile_at_once_do_not_mix_their_code(program):
     assert later(1.5) == 9.0 and later(2) == 12
 
 
+@pytest.mark.parametrize("damage", [lambda whole: b"", lambda whole: whole[: len(whole) // 2], lambda whole: b"noise" * 1000])
+@pytest.mark.parametrize("ending", ["nbi", "nbc"])
+def test_damaged_machine_code_is_made_anew(program, ending, damage):
+    """As it may be found after a loss of power."""
+    program("helper_of_mine", HELPER.format(3))
+    assert program("own_of_mine", USER).twice(1.0) == 6.0
+    files = list(folder_of(Path(sys.modules["own_of_mine"].__file__)).glob(f"*.{ending}"))
+    for each in files:
+        each.write_bytes(damage(each.read_bytes()))
+    assert files and program("own_of_mine", USER).twice(1.0) == 6.0
+    again = program("own_of_mine", USER).twice
+    assert again(1.0) == 6.0 and sum(again.stats.cache_hits.values()) == 1
+
+
+def test_without_room_code_is_compiled_and_not_kept(program, tmp_path):
+    program("helper_of_mine", HELPER.format(3))
+    program("own_of_mine", USER)
+    script = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)); from own_of_mine import twice; print(twice(1.0))"
+    assert said(script, os.environ | {"PYTHONPATH": f"{tmp_path}", "STUDIO_CACHE": f"{tmp_path / 'cache'}"}) == "6.0"
+    assert not list((tmp_path / "cache").rglob("*.nb?"))
+
+
 def test_a_function_lies_where_its_digest_says():
     from studio.model.tyre import forces
 

@@ -39,7 +39,7 @@ def lay_down(of: Simulation, folder: Folder) -> None:
 def salvaged(folder: Folder) -> Record | None:
     """The record so far; nothing when the run had not begun."""
     lines = folder.lines("about")
-    count = int(folder.progress()[0])
+    count = recorded(folder, lines)
     if not lines or not count or not (folder.path / "links.jsonl").exists():
         return None
     known = lines[0]
@@ -52,6 +52,12 @@ def salvaged(folder: Folder) -> Record | None:
         messages=messages(folder, known),
         **of_about(known),
     )
+
+
+def recorded(folder: Folder, lines: list[Any]) -> int:
+    """How many samples there are: so many as are told, but no more than there are times of."""
+    room = lines[0]["room"] if lines else 1
+    return min(int(folder.progress()[0]), room * folder.roll("times", (room,)).count)
 
 
 def sampled(folder: Folder, known: dict[str, Any], count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -1,5 +1,6 @@
 """Starting the server: port, database, folder of scenarios, token, browser."""
 
+import gc
 import ipaddress
 import os
 import socket
@@ -20,6 +21,7 @@ from studio.server.origin import SameOrigin
 from studio.store.runs import open_runs
 
 FRAME_LIMIT = 64 * 1024 * 1024  # [B] of one WebSocket message: a city is sent in one piece
+COLLECTED_AFTER = 2000  # new objects: a request leaves some fifty that refer to each other, with 30 kB behind them
 PONG_PATIENCE = 120.0  # [s] a busy browser answers late, and is not gone for that
 
 
@@ -62,7 +64,10 @@ def inner(db: Path, folder: Path, kinds: list[Path] | None, at_once: int):
     from studio.server.desk import Desk
 
     own = tuple(each.resolve() for each in kinds or ())
-    return create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=own, at_once=at_once))
+    app = create_app(Desk(db=db.resolve(), scenarios=folder.resolve(), kinds=own, at_once=at_once))
+    gc.freeze()  # what is there now stays, and is not looked through any more
+    gc.set_threshold(COLLECTED_AFTER)
+    return app
 
 
 def listen(host: str, port: int) -> socket.socket:

@@ -251,9 +251,9 @@ def start(pipe: Connection, order: Order) -> None:
         Live(current, pipe, Pace(order.pace), order.paused).run()
         row = job.save(number, job.outcome(loaded, current), runs)
         pipe.send(("end", row.status, row.error))
-    except (EOFError, OSError):
+    except (EOFError, ConnectionError):
         ended(runs, number, "killed", SERVER_ENDED)
-    except StoreError as error:
+    except (StudioError, OSError) as error:  # there is no room, or what was recorded has gone
         pipe.send(("end", ended(runs, number, "failed", str(error)), str(error)))
     except BaseException:  # a user's code may raise anything, an interrupt too
         pipe.send(("end", ended(runs, number, "failed", traceback.format_exc()), traceback.format_exc()))

@@ -8,10 +8,13 @@ another container, and nobody can see the processes of another machine: of those
 import json
 import os
 import socket
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import psutil
 
+PARTS = 4  # of a mark
 STATE, STARTED = 0, 19  # fields of /proc/PID/stat behind the name, proc(5)
 
 
@@ -22,9 +25,9 @@ def mark(process: int) -> str:
 
 def is_gone(process: int, known: str | None) -> bool:
     """Whether a process, known by its mark, has gone for sure; an older studio made no mark."""
-    if known is None:
+    if (marked := parts(known)) is None:
         return not psutil.pid_exists(process)
-    host, start, container, when = json.loads(known)
+    host, start, container, when = marked
     now, here = this_system()
     if (now, here) != (start, container):
         return host == socket.gethostname() and now != start  # the machine was started again
@@ -36,7 +39,16 @@ def is_gone(process: int, known: str | None) -> bool:
 
 def is_here(known: str | None) -> bool:
     """Whether a process, known by its mark, is one of this machine since its last start, and of this container."""
-    return known is not None and tuple(json.loads(known)[1:3]) == this_system()
+    marked = parts(known)
+    return marked is not None and (marked[1], marked[2]) == this_system()
+
+
+def parts(known: str | None) -> list[Any] | None:
+    """What a mark says; nothing when there is none, or when it is damaged."""
+    with suppress(ValueError, RecursionError):
+        found = json.loads(known or "null")
+        return found if isinstance(found, list) and len(found) == PARTS else None
+    return None
 
 
 def this_system() -> tuple[str, str]:

@@ -6,12 +6,14 @@ database may cancel any run: one that waits is taken out of the order, one that 
 
 import time
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import psutil
 
-from studio.errors import Problem, ServerError
+from studio.errors import Problem, ServerError, StoreError
 from studio.store import owner, recording
 from studio.store.runs import Row, Runs
 
@@ -48,9 +50,17 @@ def queue(runs: Runs) -> list[Place]:
             of = tuple(row[each] for each in OWNER)
             waiting[of] += seen.status == "waiting"
             position = waiting[of] if seen.status == "waiting" else 0
-            time, duration = recording.until(recording.folder_of(runs.path, row)), runs.document(seen)["clock"]["duration"]
-            found.append(Place(seen.run, seen.scenario, seen.status, position, seen.created, seen.parameters, time, duration))
+            time = recording.until(recording.folder_of(runs.path, row))
+            found.append(Place(seen.run, seen.scenario, seen.status, position, seen.created, seen.parameters, time, duration(runs, seen)))
     return found
+
+
+def duration(runs: Runs, row: Row) -> float:
+    """How long a run is to be [s]; 0 where its scenario is damaged: that holds up nobody else."""
+    with suppress(StoreError, LookupError, TypeError, ValueError):
+        found = float(runs.document(row)["clock"]["duration"])
+        return found if isfinite(found) else 0.0
+    return 0.0
 
 
 def cancel(runs: Runs, run: int, force: bool = False, patience: float = PATIENCE) -> Row:

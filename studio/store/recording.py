@@ -12,6 +12,7 @@ import re
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 MOST = 4e9  # [B] that a run may record
 WHY = "why"
+ENDINGS = ("failed", "killed", "stopped")  # of a run that brought no result
 
 
 def folder_of(database: Path, row: dict[str, Any]) -> Path:
@@ -78,14 +80,19 @@ def tell_to_end(folder: Path) -> None:
 
 
 def ending(folder: Path) -> dict[str, Any]:
-    """What was put down, if that was done."""
-    return next(iter(Folder(folder).lines(WHY)), {})
+    """What was put down, if that was done and is whole."""
+    with suppress(OSError, ValueError, LookupError, TypeError, RecursionError):
+        found = Folder(folder).lines(WHY)[0]
+        if found["status"] in ENDINGS and isinstance(found["error"], str):
+            return {"status": found["status"], "error": found["error"]}
+    return {}
 
 
 def until(folder: Path) -> float:
     """Up to when there are samples [s]."""
     with suppress(OSError, ValueError):
-        return Folder(folder).progress()[1]
+        last = Folder(folder).progress()[1]
+        return last if isfinite(last) else 0.0
     return 0.0
 
 

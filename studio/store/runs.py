@@ -403,7 +403,7 @@ class Runs:
         folder = recording.folder_of(self.path, row)
         seen = row | {"status": "killed", "error": why} | recording.ending(folder)
         last = recording.until(folder)
-        return seen | {"error": f"{seen['error']} {UNTIL.format(last)}", "sim_time_s": last} if last else seen
+        return seen | {"error": f"{seen['error']} {UNTIL.format(last)}", "sim_time_s": round(last, 9)} if last else seen
 
     def document(self, row: Row) -> dict[str, Any]:
         """The full scenario of a run, with its seed."""

@@ -34,19 +34,20 @@ def arguments() -> argparse.Namespace:
 def main() -> int:
     """Runs the parts one after another; 1 when something was wrong."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # ends its servers too
+    signal.signal(signal.SIGHUP, lambda *_: None)  # what nohup ignores, its servers would ignore too
     asked = arguments()
     parts = asked.parts.split(",")
     whole = sum(SHARES[each] for each in parts)
-    rows: list[Row] = []
+    rows: dict[tuple[str, str], Row] = {}  # the last word on each kind
     began = time.monotonic()
     for part in parts:
         seconds = 60.0 * asked.minutes * SHARES[part] / whole
         for row in PARTS[part](asked, seconds):
-            rows.append(row)
+            rows[row.part, row.kind] = row
             print("  ".join(row.cells()), flush=True)
             about = f"Seed {asked.seed}, {(time.monotonic() - began) / 60:.0f} minutes."
-            asked.out.write_text(markdown(rows, about), encoding="utf-8")
-    return int(any(row.wrongs or row.late for row in rows))
+            asked.out.write_text(markdown(rows.values(), about), encoding="utf-8")
+    return int(any(row.wrongs or row.late for row in rows.values()))
 
 
 def of_rest(asked: argparse.Namespace, seconds: float) -> Iterator[Row]:
@@ -73,9 +74,10 @@ def of_faults(asked: argparse.Namespace, seconds: float) -> Iterator[Row]:
 
 
 def of_soak(asked: argparse.Namespace, seconds: float) -> Iterator[Row]:
-    """Live runs on one server."""
+    """Live runs on one server, spread over the time; it is told on the way how it goes."""
     with tempfile.TemporaryDirectory(prefix="studio-campaign-") as folder, Station(Path(folder)) as station:
-        yield from soak.campaign(station, seed=asked.seed, count=asked.runs, seconds=seconds)
+        for rows in soak.campaign(station, seed=asked.seed, count=asked.runs, seconds=seconds):
+            yield from rows
 
 
 PARTS = {"rest": of_rest, "files": of_files, "faults": of_faults, "soak": of_soak}

@@ -7,11 +7,11 @@ gives the bits that the first one gave.
 import os
 import random
 import resource
+import shutil
 import signal
 import socket
 import sqlite3
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -174,8 +174,7 @@ def ended(station: Station, number: int) -> None:
 def while_starting(station: Station, chance: random.Random) -> None:
     """kill -9 while a server starts."""
     ended(station, signal.SIGTERM)
-    command = [sys.executable, "-m", "studio.cli", "--port", "0", "--no-browser", "--db", str(station.db)]
-    process = subprocess.Popen(command, cwd=station.folder, env=station.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = station.begin("--port", "0", *station.options, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(2 * chance.random())
     process.kill()
     process.wait()
@@ -187,16 +186,85 @@ def command_line(number: int) -> Callable[[Station, random.Random], None]:
     """A signal to a run of the command line, on the database of the server."""
 
     def do(station: Station, chance: random.Random) -> None:
-        command = [sys.executable, "-m", "studio.cli", "run", f"scenarios/{SCENARIO}.yaml", "--db", str(station.db)]
-        process = subprocess.Popen(
-            command, cwd=station.folder, env=station.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
-        )
+        process = station.begin("run", f"scenarios/{SCENARIO}.yaml", "--db", str(station.db), stdout=subprocess.DEVNULL)
         time.sleep(3 * chance.random())
         process.send_signal(number)
         said = process.communicate()[1]
         assert number == signal.SIGKILL or "Traceback" not in said, said[-500:]
 
     return do
+
+
+def without_a_reader(station: Station, chance: random.Random) -> None:
+    """A command whose reader has gone, as in `studio list | head -1`: it ends, and says nothing of its own insides."""
+    for words in (("list",), ("run", f"scenarios/{SCENARIO}.yaml", "--set", "clock.duration=0.2")):
+        process = station.begin(*words, "--db", str(station.db))
+        assert process.stdout and process.stderr
+        process.stdout.close()
+        said = process.stderr.read()
+        process.wait(PATIENCE)
+        assert "Traceback" not in said and "BrokenPipe" not in said, said[-1500:]
+
+
+def without_cache(station: Station, chance: random.Random) -> None:
+    """A server where no cache can be made says so in one sentence."""
+    (station.folder / "no-folder").write_text("x")
+    refused(
+        station,
+        "--port",
+        "0",
+        *station.options,
+        says="made again",
+        env=station.environment | {"STUDIO_CACHE": str(station.folder / "no-folder")},
+    )
+
+
+def on_a_taken_port(station: Station, chance: random.Random) -> None:
+    """A second server on the port of the first says so in one sentence."""
+    refused(station, "--port", str(station.client.base_url.port), *station.options, says="port")
+
+
+def suspended(station: Station, chance: random.Random) -> None:
+    """The server stands still for some seconds, as with a machine that sleeps: its runs go on, and end as usual."""
+    run = station.live(set={"clock.duration": 20}, pace=8)
+    assert station.process
+    station.process.send_signal(signal.SIGSTOP)
+    time.sleep(2.0 + 2.0 * chance.random())
+    station.process.send_signal(signal.SIGCONT)
+    answers(station)
+    assert station.over(run) == "done"
+
+
+def with_a_queue(number: int) -> Callable[[Station, random.Random], None]:
+    """A signal to the server while runs wait for their turn: they are said to have left the queue, and none waits for ever."""
+
+    def do(station: Station, chance: random.Random) -> None:
+        kept = finished(station)
+        first, *waiting = [station.live(set=LONG, pace=5) for _ in range(4)]
+        assert station.status(waiting[0]) == "waiting" or station.status(first) in OVER
+        time.sleep(0.5 * chance.random())
+        ended(station, number)
+        station.leaves_nobody()
+        station.start()
+        found = {each["run"]: each["status"] for each in station.client.get("/api/runs").json()}
+        assert {found[each] for each in waiting} == {"cancelled"} and found[first] in OVER, found
+        assert kept.items() <= finished(station).items(), "what was finished is lost or another"
+        assert station.client.get("/api/queue").json() == []
+
+    return do
+
+
+def second_server(station: Station, chance: random.Random) -> None:
+    """kill -9 of a second server on the same database: the runs of the first go on, and those of both are told rightly."""
+    folder = station.folder / f"second-{chance.randrange(10**6)}"
+    folder.mkdir()
+    run = station.live(set={"clock.duration": 60}, pace=8)
+    with Station(folder, db=station.db) as other:
+        done, killed = other.live(set=QUICK), other.live(set=LONG, pace=5)
+        assert other.over(done) == "done"
+        other.kill()
+        other.leaves_nobody()
+    assert (station.over(run), station.over(killed), station.status(done)) == ("done", "killed", "done")
 
 
 def while_importing(station: Station, chance: random.Random) -> None:
@@ -240,10 +308,94 @@ def locked_for_long(station: Station, chance: random.Random) -> None:
     with held(station.db):
         station.client.post(f"/api/live/{run}/resume")
         until(lambda: station.client.get(f"/api/live/{run}").json()["status"] in OVER, "the end of the run")
-        row = station.client.get(f"/api/runs/{run}").json()
+        row = station.row(run)
         assert (row["status"], "waits" in (row["error"] or "")) == ("done", True), row
     quick_run(station)
     assert {each["run"]: each["status"] for each in station.rows()}[run] == "done"
+
+
+def many_writers(station: Station, chance: random.Random) -> None:
+    """Eight programs write at once, while the server does: each has its number, and all of them are done."""
+    count, run = len(finished(station)), station.live(set={"clock.duration": 20}, pace=8)
+    command = ("run", f"scenarios/{SCENARIO}.yaml", "--set", "clock.duration=0.2", "--db", str(station.db))
+    processes = [station.begin(*command, "--seed", str(each), stdout=subprocess.DEVNULL) for each in range(8)]
+    said = [each.communicate(timeout=PATIENCE)[1] for each in processes]
+    assert not [each for each in said if "Traceback" in each] and {each.returncode for each in processes} == {0}, said
+    assert station.over(run) == "done" and len(finished(station)) == count + 9
+
+
+def backed_up(station: Station, chance: random.Random) -> None:
+    """A backup while runs go on and end: it is whole, and has all that was finished before."""
+    kept, copy = finished(station), station.folder / f"backup-{chance.randrange(10**6)}.db"
+    runs = [station.live(set=QUICK), station.live(set={"clock.duration": 20}, pace=8)]
+    assert station.command("backup", str(copy), "--db", str(station.db))[0] == "0"
+    with closing(sqlite3.connect(copy)) as connection:
+        found = dict(connection.execute("select run, state_hash from runs where status in ('done', 'failed', 'stopped')"))
+        assert connection.execute("pragma integrity_check").fetchall() == [("ok",)]
+    assert {run: state for run, (status, state) in kept.items() if status == "done"}.items() <= found.items()
+    assert [station.over(each) for each in runs] == ["done", "done"]
+
+
+def doctored(station: Station, chance: random.Random) -> None:
+    """The doctor mends what he can while runs go on: they are none of his business."""
+    run = station.live(set=LONG, pace=8)
+    station.command("doctor", "--yes", "--port", "9", "--db", str(station.db))
+    assert station.status(run) == "running" or station.over(run) == "done"
+    assert station.over(run) == "done"
+
+
+def recordings(station: Station, run: int) -> list[Path]:
+    """The folder in which a run is recorded, while it is."""
+    return list(station.db.parent.glob(f"{station.db.name}.recording/run-{run}-*"))
+
+
+def recording_gone(station: Station, chance: random.Random) -> None:
+    """What a run records is taken away as it begins, or while it goes on: it ends, and says why."""
+    run = station.live(set=LONG, pace=8)
+    if chance.random() < 0.7:
+        until(lambda: station.client.get(f"/api/live/{run}").json()["time"] > 1.0, "the run to go on")
+    for each in recordings(station, run):
+        shutil.rmtree(each)
+    answers(station)
+    assert station.over(run) in OVER
+    told_plainly(station, run)
+
+
+def recording_damaged(station: Station, chance: random.Random) -> None:
+    """A worker is killed, and one of the files in which it has recorded is noise: it is set aside, or read as far as it goes."""
+    run = station.live(set=LONG, pace=5)
+    time.sleep(1.0 + chance.random())
+    to_stop = workers(station)
+    for each in to_stop:
+        each.suspend()
+    (folder,) = recordings(station, run)
+    chosen = chance.choice(sorted(folder.iterdir()))
+    chosen.write_bytes(chance.randbytes(chance.choice((0, 10, chosen.stat().st_size))))
+    for each in to_stop:
+        each.kill()
+    until(lambda: not recordings(station, run), "the recording to be taken in, or to be set aside")
+    assert station.over(run) in OVER
+    told_plainly(station, run)
+
+
+def killed_and_kept(station: Station, chance: random.Random) -> None:
+    """kill -9 of a worker in the middle of a run: what it had recorded is there, as it was."""
+    run = station.live(set=LONG, pace=5, seed=1)
+    until(lambda: station.client.get(f"/api/live/{run}").json()["time"] > 2.0, "two seconds of the run")
+    for each in workers(station):
+        with suppress(psutil.Error):
+            each.kill()
+    assert station.over(run) in ("killed", "failed")
+    trace = station.client.get(f"/api/runs/{run}/trace?channels=leader.speed").json()
+    assert max(trace["time"]) > 1.5 and "is kept" in station.row(run)["error"]
+
+
+def told_plainly(station: Station, run: int) -> None:
+    """Why a run has ended is told in words."""
+    error = station.row(run)["error"] or ""
+    assert "Traceback" not in error, error[-1500:]
+    for address in (f"/api/runs/{run}/trace?channels=leader.speed", f"/api/runs/{run}/events", "/api/runs", "/api/queue"):
+        assert station.client.get(address).status_code in (200, 404, 503)
 
 
 def damaged(how: Callable[[Path, random.Random], None]) -> Callable[[Station, random.Random], None]:
@@ -306,9 +458,13 @@ def begun_on_noise(station: Station, chance: random.Random) -> None:
     """A server that is started on what is no database says so in one sentence."""
     bad = station.folder / "noise.db"
     bad.write_bytes(chance.randbytes(chance.choice((1, 100, 100_000))))
-    command = [sys.executable, "-m", "studio.cli", "--port", "0", "--no-browser", "--db", str(bad)]
-    done = subprocess.run(command, cwd=station.folder, env=station.environment, capture_output=True, text=True, timeout=60)
-    assert done.returncode and "Traceback" not in done.stderr and "noise.db" in done.stderr, done.stderr[-500:]
+    refused(station, "--port", "0", "--no-browser", "--db", str(bad), says="noise.db")
+
+
+def refused(station: Station, *words: str, says: str, **how: Any) -> None:
+    """A command that is refused, and says why."""
+    said = station.command(*words, **how)
+    assert said[0] != "0" and says in said, said[-500:]
 
 
 # -- the disk ------------------------------------------------------------------------------------------
@@ -341,6 +497,22 @@ def full(station: Station, chance: random.Random) -> None:
     if told.status_code == 201:
         until(lambda: station.client.get(f"/api/live/{told.json()['run']}").json()["status"] in OVER, "the end of the run")
     ballast.unlink()
+
+
+def full_in_the_middle(station: Station, chance: random.Random) -> None:
+    """The disk is full in the middle of a run: it ends and says so; with room again, what it had recorded is there."""
+    run = station.live(set={"clock.duration": 600}, pace="fast")
+    time.sleep(chance.random())
+    ballast = station.db.with_name("ballast")
+    fill(ballast, station.db.parent)
+    until(lambda: station.client.get(f"/api/live/{run}").json()["status"] in OVER, "the end of the run")
+    assert station.client.get("/api/runs").status_code == 200
+    answers(station)
+    ballast.unlink()
+    assert quick_run(station) == station.first
+    row = station.row(run)
+    assert row["status"] == "failed" and "room" in row["error"] and "Traceback" not in row["error"], row
+    assert station.client.get(f"/api/runs/{run}/trace?channels=leader.speed").status_code == 200
 
 
 def fill(ballast: Path, disk: Path) -> None:
@@ -517,10 +689,28 @@ FAULTS = (
         for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGSTOP, signal.SIGSEGV, signal.SIGHUP)
     ),
     Fault("guard: SIGKILL", to_guard),
-    *(Fault(f"server: {each.name}", to_server(each), each == signal.SIGKILL) for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)),
+    Fault("worker: SIGKILL, and what it had recorded", killed_and_kept, True),
+    *(
+        Fault(f"server: {each.name}", to_server(each), each == signal.SIGKILL)
+        for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+    ),
+    Fault("server: SIGSTOP for a while", suspended),
+    *(
+        Fault(f"server with a queue: {each.name}", with_a_queue(each), False, None, {"more": ("--at-once", "1")})
+        for each in (signal.SIGKILL, signal.SIGTERM)
+    ),
+    Fault("second server: SIGKILL", second_server),
+    Fault("server on a port that is taken", on_a_taken_port),
+    Fault("server without a cache", without_cache),
     Fault("server: SIGKILL while it starts", while_starting),
     Fault("server: SIGKILL while it imports a map", while_importing),
     *(Fault(f"command line: {each.name}", command_line(each)) for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)),
+    Fault("command line without a reader", without_a_reader),
+    Fault("eight programs write at once", many_writers),
+    Fault("backup while runs go on", backed_up),
+    Fault("doctor while runs go on", doctored),
+    Fault("recording gone", recording_gone),
+    Fault("recording damaged", recording_damaged),
     Fault("database held by another", locked, True),
     Fault("database held for longer than anybody waits", locked_for_long),
     *(
@@ -535,6 +725,7 @@ FAULTS = (
     ),
     Fault("server started on noise", begun_on_noise, True),
     Fault("full disk", full, False, small_disk),
+    Fault("disk that fills up in a run", full_in_the_middle, False, lambda folder: small_disk(folder, "size=240m")),
     Fault("no room for names on the disk", no_names, False, lambda folder: small_disk(folder, "size=40m,nr_inodes=30")),
     Fault("files that cannot grow", files_that_cannot_grow, False, None, {"before": short_files}),
     Fault("more connections than descriptors", crowd, False, None, {"before": few_descriptors}),
@@ -591,25 +782,29 @@ def rows(root: Path, *, seed: int, count: int, seconds: float = 1e9, only: str =
     """All kinds of faults: those that need nothing special on one studio, which is another when a fault was too much for it."""
     chosen = [each for each in FAULTS if only in each.name]
     shared: Station | None = None
-    for number, fault in enumerate(chosen):
-        folder = root / str(number)
-        try:
-            if fault.place or fault.settings:
-                row = campaign(fault, made(folder), seed=seed, count=count)
-            else:
-                shared = shared or Station(made(folder)).start()
-                row = on(shared, fault, seed=seed, count=count, seconds=seconds)
-        except PermissionError as error:
-            row = Row("faults", fault.name, seed)
-            row.came[f"not tried: {error}"] += 1
-        except Exception as error:
-            row = Row("faults", fault.name, seed)
-            row.blame(f"{type(error).__name__}: {str(error)[-1500:]}")
-        if row.wrongs and shared:
-            shared = closed(shared)
-        yield row
-    if shared:
-        yield last(shared, seed)
+    try:
+        for number, fault in enumerate(chosen):
+            folder = root / str(number)
+            try:
+                if fault.place or fault.settings:
+                    row = campaign(fault, made(folder), seed=seed, count=count)
+                else:
+                    shared = shared or Station(made(folder)).start()
+                    row = on(shared, fault, seed=seed, count=count, seconds=seconds)
+            except PermissionError as error:
+                row = Row("faults", fault.name, seed)
+                row.came[f"not tried: {error}"] += 1
+            except Exception as error:
+                row = Row("faults", fault.name, seed)
+                row.blame(f"{type(error).__name__}: {str(error)[-1500:]}")
+            if row.wrongs and shared:
+                shared = closed(shared)
+            yield row
+        if shared:
+            yield last(shared, seed)
+    finally:
+        if shared:
+            closed(shared)
 
 
 def made(folder: Path) -> Path:
@@ -629,5 +824,4 @@ def last(station: Station, seed: int) -> Row:
     with row.trying("nobody left"):
         ended(station, signal.SIGTERM)
         station.leaves_nobody()
-    closed(station)
     return row

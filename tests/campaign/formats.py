@@ -1,6 +1,7 @@
 """The kinds of files: good ones, what they are packed in, what is done to them, and how the studio reads them."""
 
 import json
+import os
 import shutil
 import sqlite3
 import sys
@@ -25,9 +26,10 @@ from studio.scenario.text.document import applied
 from studio.scenario.text.patch import Operation, operations
 from studio.server.documents import Documents
 from studio.server.maps import Maps
-from studio.store import waiting
+from studio.store import owner, recording, waiting
 from studio.store.comparison import compare
 from studio.store.explanation import explanation
+from studio.store.queue import queue
 from studio.store.runs import open_runs, read_runs
 from tests.broken import BROKEN, FLAWLESS
 from tests.campaign import container, mutation, place
@@ -218,19 +220,21 @@ def database(folder: Path) -> Path:
     return db
 
 
-def look(db: Path) -> None:
+def look(db: Path, run: int = 1) -> None:
     """Everything that is told of the runs of a database; what is refused about one run does not keep the others back."""
     runs = read_runs(db)
     refused = None
     try:
         for ask in (
             runs.select,
-            *(partial(ask, 1) for ask in (runs.find, runs.events, runs.channels, runs.messages, runs.record)),
-            lambda: runs.document(runs.find(1)),
-            lambda: runs.sources(runs.find(1)),
-            lambda: runs.trace(1, ["leader.speed"]),
-            lambda: compare(runs, 1, 2),
-            lambda: explanation(runs, 1, ""),
+            partial(queue, runs),
+            *(partial(ask, run) for ask in (runs.find, runs.events, runs.channels, runs.record)),
+            lambda: runs.messages(run) if run == 1 else None,
+            lambda: runs.document(runs.find(run)),
+            lambda: runs.sources(runs.find(run)),
+            lambda: runs.trace(run, ["leader.speed"]),
+            lambda: compare(runs, run, 2),
+            lambda: explanation(runs, run, ""),
         ):
             try:
                 ask()
@@ -265,6 +269,20 @@ def cell(table_name: str, column: str, path: Path) -> object:
         connection.execute(f"update {table_name} set {column} = ?", [value])
         connection.commit()
     return look(db)
+
+
+def going_on(column: str, path: Path) -> object:
+    """A database in which a column of a run is another, that is said to go on."""
+    with closing(sqlite3.connect(database(path.parent))) as connection:
+        connection.execute("update runs set status = 'running' where run = 1")
+        connection.commit()
+    try:
+        return cell("runs", column, path)
+    finally:
+        open_runs(path.parent / "cell.db").close()
+        with closing(sqlite3.connect(database(path.parent))) as connection:
+            connection.execute("update runs set status = 'done'")
+            connection.commit()
 
 
 def cells(table_name: str, column: str, *, plain: Bytes = container.identity) -> Callable[[Path], list[bytes]]:
@@ -307,6 +325,78 @@ def in_waiting(path: Path) -> object:
         open_runs(db).close()
 
 
+# -- recordings of runs whose processes have gone --------------------------------------------------------
+
+LEFT_RUN = 3
+
+
+@cache
+def left(folder: Path) -> Path:
+    """A database with a run in the middle of which its process has gone, and what it had recorded."""
+    db = folder / "left.db"
+    shutil.copyfile(database(folder), db)
+    runs = open_runs(db)
+    loaded = job.load(SCENARIOS / "grosser_stern_platoon.yaml", {"clock.duration": 60})
+    prepared = job.prepare(loaded)
+    assert job.begin(loaded, prepared, runs, None) == LEFT_RUN
+    gone = json.dumps([*json.loads(owner.mark(os.getpid()))[:-1], 0.0])
+    with runs.writing():
+        runs.database.conn.execute("update runs set process_mark = ? where run = ?", [gone, LEFT_RUN])
+    current = job.recorded(prepared, runs, LEFT_RUN)
+    current.advance(200)
+    current.put_down()
+    for post in current.world.units.posts:
+        post.log.put_away()
+    recording.put_down(runs.folder(LEFT_RUN), "failed", "The disk was full.")
+    runs.close()
+    return db
+
+
+def of_recording(name: str) -> Callable[[Path], list[bytes]]:
+    """A file of that recording."""
+
+    def found(folder: Path) -> list[bytes]:
+        ((_, recorded),) = recording.found(left(folder))
+        return [(recorded / name).read_bytes() or b'{"time": 1.0, "text": "x", "kind": "y", "units": [], "numbers": {}, "words": {}}\n']
+
+    return found
+
+
+def in_recording(name: str, path: Path) -> object:
+    """A recording in which one file is another: looked at where it lies, taken in, and looked at again."""
+    db, good = path.parent / "again.db", left(path.parent)
+    for rest in path.parent.glob("again.db*"):
+        shutil.rmtree(rest) if rest.is_dir() else rest.unlink()
+    shutil.copyfile(good, db)
+    shutil.copytree(good.with_name(f"{good.name}.recording"), db.with_name(f"{db.name}.recording"))
+    ((_, recorded),) = recording.found(db)
+    (recorded / name).write_bytes(path.read_bytes())
+    try:
+        look(db, LEFT_RUN)
+    finally:
+        open_runs(db).close()
+        look(db, 1)
+    return look(db, LEFT_RUN)
+
+
+def first_numbers(content: bytes) -> bytes:
+    """What stands at the beginning of a block, which is followed by zeros."""
+    return content[:16]
+
+
+def in_block(content: bytes) -> bytes:
+    """The same, in a block again."""
+    return content[:4096].ljust(4096, b"\0")
+
+
+RECORDED = {
+    "recording: what it means": ("about.jsonl", mutation.TREE),
+    "recording: why it ended": ("why.jsonl", mutation.TREE),
+    "recording: events": ("events.jsonl", mutation.TEXT),
+    "recording: where messages lie": ("log_0.jsonl", mutation.TEXT),
+    "recording: messages": ("log_0.arrays", mutation.BYTES),
+    "recording: samples": ("values.roll", mutation.BYTES),
+}
 PATCH = json.dumps(
     [
         {"op": "test", "path": "/version", "value": 3},
@@ -325,7 +415,6 @@ TABLES = {
     "numbers of events": ("events", "numbers"),
     "words of events": ("events", "words"),
     "subjects of metrics": ("metrics", "about"),
-    "the mark of a process": ("runs", "process_mark"),
 }
 OPENDRIVE = files("examples/motorway.xodr", "tests/reference/opendrive/StraightRoad*.xodr", "tests/reference/opendrive/highway_merge.xodr")
 
@@ -387,6 +476,17 @@ FORMATS = {
             cells("messages", "entries", plain=container.plain_parquet),
             mutation.BYTES,
             partial(cell, "messages", "entries"),
+        ),
+        Format("the mark of a process", ".json", cells("runs", "process_mark"), mutation.TREE, partial(going_on, "process_mark")),
+        *(Format(name, ".part", of_recording(file), how, partial(in_recording, file)) for name, (file, how) in RECORDED.items()),
+        Format(
+            "recording: how far it is",
+            ".roll",
+            of_recording("progress.roll"),
+            mutation.BYTES,
+            partial(in_recording, "progress.roll"),
+            first_numbers,
+            in_block,
         ),
         *(Format(name, ".json", cells(*column), mutation.TREE, partial(cell, *column)) for name, column in TABLES.items()),
     )

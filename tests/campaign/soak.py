@@ -6,6 +6,7 @@ depend on each other, so the uncertainty is that of the means of blocks, which d
 
 import random
 import time
+from collections.abc import Iterator
 from math import sqrt
 from typing import NamedTuple
 
@@ -19,6 +20,7 @@ BLOCKS = 10  # means that the line goes through
 WARMING = 0.2  # share of the runs before anything is measured: caches fill
 SURE = 3.0  # standard deviations of a slope that is growth
 MOST_OVER = 16  # runs that a server remembers, and a little more: those grow at first
+OFTEN = 50  # runs after which it is told how it goes
 LEAST = Held(memory=5.0, descriptors=1.0, threads=1.0, processes=1.0)  # over all runs: less is none
 
 
@@ -53,16 +55,25 @@ def once(station: Station, chance: random.Random) -> None:
     station.client.get(f"/api/runs/{run}").raise_for_status()
 
 
-def campaign(station: Station, *, seed: int, count: int, seconds: float = 1e9) -> list[Row]:
-    """So many runs, or as many as there is time for; a row for the runs, and one for each thing that is held."""
-    runs, held, until = Row("soak", "live runs", seed), [], time.monotonic() + seconds
+def campaign(station: Station, *, seed: int, count: int, seconds: float | None = None) -> Iterator[list[Row]]:
+    """So many runs, spread evenly over the time there is, or one after another; now and then, and at the end, what came of them."""
+    runs, held, began = Row("soak", "live runs", seed), [], time.monotonic()
     chance = random.Random(f"{seed}/soak")
-    for _ in range(count):
-        if time.monotonic() > until:
-            break
+    for number in range(1, count + 1):
         with runs.trying("ended as they should"):
             once(station, chance)
         held.append(station.held())
+        spent = time.monotonic() - began
+        if number == count or (seconds and spent > seconds):
+            break
+        if number % OFTEN == 0:
+            yield judged(runs, held, seed)
+        time.sleep(max(0.0, (seconds or 0.0) * number / count - spent))
+    yield judged(runs, held, seed)
+
+
+def judged(runs: Row, held: list[Held], seed: int) -> list[Row]:
+    """A row for the runs, and one for each thing that is held."""
     return [runs, *(growth(name, [getattr(each, name) for each in held], seed) for name in Held._fields)]
 
 

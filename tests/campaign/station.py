@@ -6,8 +6,10 @@ import shutil
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
 import uuid
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
@@ -39,8 +41,17 @@ class Held(NamedTuple):
 class Station:
     """A folder with scenarios and kinds, and the server in it. Everything that it starts can be told by a mark."""
 
-    def __init__(self, folder: Path, *, before: Callable[[], None] | None = None, db: Path | None = None, **environment: str) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        before: Callable[[], None] | None = None,
+        db: Path | None = None,
+        more: tuple[str, ...] = (),
+        **environment: str,
+    ) -> None:
         self.folder, self.db, self.mark, self.before = folder, db or folder / "runs.db", uuid.uuid4().hex, before
+        self.options = ("--no-browser", "--db", str(self.db), *more)
         self.environment = {
             **os.environ,
             "STUDIO_OVERPASS": NOBODY,
@@ -59,18 +70,30 @@ class Station:
 
     def start(self) -> "Station":
         """Starts the server and waits until it answers."""
-        command = [sys.executable, "-m", "studio.cli", "--port", "0", "--no-browser", "--kinds", "kinds", "--db", str(self.db)]
         with (self.folder / "server.log").open("a") as log:
-            self.process = subprocess.Popen(
-                command, cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=log, text=True, preexec_fn=self.before
-            )
+            self.process = self.begin("--port", "0", "--kinds", "kinds", *self.options, stderr=log, preexec_fn=self.before)
         assert self.process.stdout
         said = self.process.stdout.readline()
         found = re.search(r"http://\S+", said)
         assert found, f"no address: {said} {self.log()}"
+        threading.Thread(
+            target=deque, args=(self.process.stdout, 0), daemon=True
+        ).start()  # what applications print is read, as in a terminal
         self.client.base_url = httpx.URL(found.group())
         self.client.get("/api/scenarios").raise_for_status()
         return self
+
+    def begin(self, *words: str, **how: Any) -> subprocess.Popen[str]:
+        """Begins a command of the studio in its folder, with what it says in pipes."""
+        usual = {"env": self.environment, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        return subprocess.Popen([sys.executable, "-m", "studio.cli", *words], cwd=self.folder, text=True, **usual | how)
+
+    def command(self, *words: str, **how: Any) -> str:
+        """The same, and waits for its end: what it has said of what is wrong, with what it has ended with."""
+        process = self.begin(*words, **how)
+        said = process.communicate(timeout=PATIENCE)[1]
+        assert "Traceback" not in said, said[-1500:]
+        return f"{process.returncode} {said}"
 
     def kill(self) -> None:
         """kill -9."""
@@ -110,7 +133,13 @@ class Station:
 
     def status(self, run: int) -> str:
         """What the history says of a run."""
-        return self.client.get(f"/api/runs/{run}").json()["status"]
+        return self.row(run)["status"]
+
+    def row(self, run: int) -> dict[str, Any]:
+        """All that it says."""
+        answer = self.client.get(f"/api/runs/{run}")
+        assert answer.status_code == 200, answer.text[:1000]
+        return answer.json()
 
     def over(self, run: int) -> str:
         """Waits for the end of a run; how it ended."""

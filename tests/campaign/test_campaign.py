@@ -67,7 +67,8 @@ def test_faults(station, tmp_path, fault):
 
 
 def test_soak_and_the_end(station):
-    nothing_is_wrong(soak.campaign(station, seed=SEED, count=RUNS)[0])
+    *_, (runs, *_) = soak.campaign(station, seed=SEED, count=RUNS)
+    nothing_is_wrong(runs)
     station.terminate()
     station.leaves_nobody()
     station.start()

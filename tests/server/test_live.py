@@ -1,18 +1,21 @@
 """Live runs: orders, news, what a crash leaves behind."""
 
+import gc
 import json
 import os
 import signal
 import time
+from math import inf
 
 import psutil
 import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
-from studio.process import Child
-from studio.server import live
+from studio.process import Child, spawn
+from studio.server import live, serve, worker
 from studio.server.news import News
+from studio.store.runs import read_runs
 from tests.broken import HANGING
 from tests.patience import PATIENCE
 from tests.patience import until as wait_until
@@ -242,6 +245,18 @@ def test_a_run_that_has_stopped_is_not_ended_while_it_saves(says, tmp_path):
     process.end(0.0)
 
 
+def test_a_run_without_room_to_begin_says_so_in_words(sample, tmp_path, monkeypatch):
+    monkeypatch.setattr("studio.store.recording.MOST", 10.0)
+    ours, line = spawn.Pipe()
+    text = sample.read_text(encoding="utf-8")
+    worker.start(line, worker.Order(sample, text, {}, None, None, inf, paused=False, db=tmp_path / "runs.db"))
+    (began, run, _), (ended, status, why) = ours.recv(), ours.recv()
+    assert (began, run, ended, status) == ("begun", 1, "end", "failed")
+    assert "record" in why and "Traceback" not in why
+    row = read_runs(tmp_path / "runs.db").find(1)
+    assert (row.status, row.error) == ("failed", why)
+
+
 def sleep(line):
     """A process that does not react."""
     time.sleep(PATIENCE)
@@ -289,3 +304,14 @@ def command(process):
         return " ".join(process.cmdline())
     except psutil.Error:
         return ""
+
+
+def test_what_requests_leave_is_cleared_up_soon(tmp_path, sample):
+    """Each leaves things that refer to each other: a server that waits for very many of them seems to grow for hours."""
+    before = gc.get_threshold()
+    try:
+        serve.inner(tmp_path / "runs.db", sample.parent, None, 1)
+        assert gc.get_threshold()[0] == serve.COLLECTED_AFTER < 5000 and gc.get_freeze_count()
+    finally:
+        gc.unfreeze()
+        gc.set_threshold(*before)

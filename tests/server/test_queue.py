@@ -9,6 +9,8 @@ import sys
 import psutil
 import pytest
 
+from studio import job
+from studio.store.queue import queue
 from studio.store.runs import LEFT, open_runs, read_runs
 from tests.broken import HANGING
 from tests.patience import PATIENCE
@@ -162,6 +164,16 @@ def test_the_server_ends_while_an_application_hangs(tmp_path, sample):
     with served(tmp_path, *options) as (client, _, _):
         assert (status(client, run), status(client, waits)) == ("killed", "cancelled") and in_queue(client) == []
         assert "server ended" in client.get(f"/api/runs/{run}").json()["error"]
+
+
+@pytest.mark.parametrize("document", ["[]", "{", '{"clock": 5}', '{"clock": {"duration": "x"}}', '{"clock": {"duration": 1e999}}'])
+def test_a_run_whose_scenario_is_damaged_holds_up_nobody(tmp_path, sample, document):
+    runs, loaded = open_runs(tmp_path / "runs.db"), job.load(sample)
+    job.begin(loaded, job.prepare(loaded), runs, None)
+    assert [each.duration for each in queue(runs)] == [loaded.scenario.clock.duration]
+    with runs.writing():
+        runs.database.conn.execute("update scenarios set document = ?", [document])
+    assert [(each.run, each.duration) for each in queue(runs)] == [(1, 0.0)]
 
 
 def test_who_waited_for_a_server_that_was_killed_is_told_so(tmp_path, sample):

@@ -7,8 +7,9 @@ import sys
 import time
 
 import psutil
+import pytest
 
-from studio.store.owner import began, is_gone, mark
+from studio.store.owner import began, is_gone, is_here, mark
 from tests.patience import until
 
 
@@ -32,6 +33,14 @@ def test_a_beginning_is_counted_from_the_start_of_the_machine():
     ticks = os.sysconf("SC_CLK_TCK")
     assert 0 < began(os.getpid()) / ticks <= time.clock_gettime(time.CLOCK_BOOTTIME)
     assert abs(began(os.getpid()) / ticks - psutil.Process().create_time()) > 1e6  # not seconds since 1970
+
+
+@pytest.mark.parametrize("known", ["", "{", "5", "[]", "null", '["a"]', "\0", "[" * 100_000])
+def test_of_a_damaged_mark_only_the_number_is_known(known):
+    assert not is_gone(os.getpid(), known) and not is_here(known)
+    gone = subprocess.Popen([sys.executable, "-c", "pass"])
+    gone.wait()
+    assert is_gone(gone.pid, known)
 
 
 def test_another_process_of_the_same_number_is_another():

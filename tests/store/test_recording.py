@@ -1,5 +1,6 @@
 """What a run records is on the disk while it goes on: a run that is killed, that fails or for which there is no room keeps what it had."""
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -10,8 +11,9 @@ import psutil
 import pytest
 
 from studio import job
-from studio.errors import ScenarioError
+from studio.errors import ScenarioError, StoreError
 from studio.execution import shelf
+from studio.execution.salvage import recorded
 from studio.execution.simulation import simulation
 from studio.store import recording
 from studio.store.runs import open_runs, read_runs
@@ -45,12 +47,11 @@ def test_a_killed_run_keeps_what_it_had(sample, tmp_path):
     seen = read_runs(db)
     row, before = seen.find(1), seen.trace(1, ["leader.speed", "follower_1.gap", "follower_1.front.range"])
     last = before["time"][-1]
-    assert (row.status, row.sim_time_s) == ("killed", pytest.approx(last)) and f"until {last:g} s is kept" in row.error
+    assert (row.status, row.sim_time_s) == ("killed", round(last, 9)) and f"until {last:g} s is kept" in row.error
     assert {each["name"] for each in seen.channels(1)} >= {"leader.speed", "leader.time_gap"} and seen.record(1).time[-1] == last
     runs = open_runs(db)
     row, after = runs.find(1), runs.trace(1, list(before)[1:])
-    assert (row.status, row.sim_time_s, row.state_hash) == ("killed", pytest.approx(last), None)
-    assert f"until {last:g} s is kept" in row.error
+    assert (row.status, row.sim_time_s, row.state_hash) == ("killed", round(last, 9), None) and f"until {last:g} s is kept" in row.error
     assert row.metrics["min_gap"].value > 0 and not (tmp_path / "runs.db.recording").exists()
     whole = job.run(job.load(sample, {"clock.duration": float(np.ceil(last))}))
     for name, values in before.items():
@@ -83,7 +84,7 @@ def test_an_interrupted_run_keeps_what_it_had(sample, tmp_path):
         job.run(job.load(sample, LONG), runs=open_runs(db), progress=interrupt)
     row = read_runs(db).find(1)
     assert row.status == "stopped" and "KeyboardInterrupt" in row.error and row.sim_time_s >= 3.6
-    assert read_runs(db).trace(1, ["leader.speed"])["time"][-1] == pytest.approx(row.sim_time_s) and row.metrics
+    assert read_runs(db).trace(1, ["leader.speed"])["time"][-1] == pytest.approx(row.sim_time_s, abs=1e-9) and row.metrics
 
 
 def test_a_run_that_fills_the_disk_ends_and_keeps_what_it_had(sample, tmp_path):
@@ -105,6 +106,20 @@ print(job.run(loaded, runs=open_runs("runs.db")).status)
     assert 10.0 < row.sim_time_s < 60.0 and abs(kept["time"][-1] - row.sim_time_s) < 0.021
     whole = job.run(job.load(sample, {"clock.duration": float(np.ceil(row.sim_time_s))}))
     assert kept["leader.speed"].tobytes() == whole.trace("leader.speed")[: kept["time"].size].tobytes()
+
+
+def test_a_run_whose_recording_is_taken_away_says_so(sample, tmp_path, monkeypatch):
+    """Neither its row nor who began it is told of anything else than that."""
+    monkeypatch.setattr("studio.execution.record.CHUNK", 100_000)  # so that not all of it is mapped
+    runs = open_runs(tmp_path / "runs.db")
+
+    def take_away(share):
+        shutil.rmtree(tmp_path / "runs.db.recording", ignore_errors=True)
+
+    with pytest.raises(StoreError, match="cannot be read any more"):
+        job.run(job.load(sample, {"clock.duration": 20}), runs=runs, progress=take_away)
+    row = runs.find(1)
+    assert row.status == "failed" and "What was recorded of this run cannot be read any more." in row.error
 
 
 def test_a_run_that_has_recorded_as_much_as_may_be_ends(sample, tmp_path):
@@ -131,7 +146,7 @@ def test_memory_does_not_grow_with_the_run(sample, tmp_path):
 
 def test_a_run_for_which_there_is_no_room_is_refused(sample, tmp_path, monkeypatch):
     monkeypatch.setattr(job.shutil, "disk_usage", lambda path: job.shutil._ntuple_diskusage(100, 99, 1_000_000))
-    with pytest.raises(ScenarioError, match=r"(?s)too much.*25\.2 MB: 5 vehicles.*at most 0\.2 MB.*free on the disk"):
+    with pytest.raises(ScenarioError, match=r"(?s)too much.*28\.1 MB: 5 vehicles.*at most 0\.2 MB.*free on the disk"):
         job.run(job.load(sample, {"clock.duration": 360}), runs=open_runs(tmp_path / "runs.db"))
 
 
@@ -147,6 +162,27 @@ def test_a_recording_that_cannot_be_read_is_set_aside(sample, tmp_path):
     row = open_runs(db).find(1)
     assert row.status == "killed" and f"damaged-{folder.name}" in row.error
     assert (folder.parent / f"damaged-{folder.name}").is_dir() and open_runs(db).find(1) == row
+
+
+OTHERS = [b"{}", b"[]", b'{"status": [], "error": 1}', b'{"status": "done", "error": ""}', b"noise", b"\xff", b"[" * 10**5]
+
+
+@pytest.mark.parametrize("why", OTHERS)
+def test_a_reason_that_is_damaged_is_none(tmp_path, why):
+    (tmp_path / "why.jsonl").write_bytes(why + b"\n")
+    assert recording.ending(tmp_path) == {}
+    recording.put_down(tmp_path / "new", "failed", "no folder")  # nobody can be told
+    assert recording.ending(tmp_path / "new") == {}
+
+
+@pytest.mark.parametrize("last", [np.nan, np.inf, 1e300])
+def test_no_more_samples_are_read_than_there_are_times(tmp_path, last):
+    """Whatever stands where it is told how far the recording is."""
+    kept = shelf.Folder(tmp_path)
+    kept.roll("times", (10,)).begin()
+    kept.roll("progress", (2,)).begin()[:] = 1e15, last
+    assert recorded(kept, [{"room": 10}]) == 10
+    assert recording.until(tmp_path) == (last if np.isfinite(last) else 0.0)
 
 
 def test_what_was_not_written_whole_is_not_there(tmp_path):
