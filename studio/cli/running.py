@@ -276,16 +276,19 @@ def print_events(events) -> None:
 
 
 def print_traffic(prepared) -> None:
-    """The cars of the traffic with their drivers, for people."""
+    """The cars of the traffic with what their drivers differ in, and what these have in common, for people."""
     cars = [car for car in prepared.cars if car.returns or car.is_outside]
     told = [(car, {name: text(each) for name, each in car.driver.model_dump().items() if name != "preset"}) for car in cars]
-    settings = list(dict.fromkeys(name for _, driver in told for name in driver))
+    named = list(dict.fromkeys(name for _, driver in told for name in driver))
+    settings = [name for name in named if len({driver.get(name, "") for _, driver in told}) > 1]
     streams = [prepared.sources[car.source].stream.rpartition("/")[0] if car.source is not None else "" for car in cars]
     rows = [
         [car.name, car.model.name, stream, *(driver.get(name, "") for name in settings)]
         for (car, driver), stream in zip(told, streams, strict=True)
     ]
     print_table(["vehicle", "model", "flow", *settings], rows)
+    alike = ", ".join(f"{name} {told[0][1][name]}" for name in named if name not in settings)
+    print(f"alike for all: {alike}" if alike else "")
 
 
 def print_run(row) -> None:
