@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 MOST = 4e9  # [B] that a run may record
 WHY = "why"
+SPARE, ROOM = "spare", 1 << 14  # a file that keeps room [B] for the reason on a disk that fills up
+SHORT = 2000  # letters of a reason that fit in there, whatever they are
 ENDINGS = ("failed", "killed", "stopped")  # of a run that brought no result
 
 
@@ -44,6 +46,7 @@ def begin(folder: Path) -> Folder:
     """A new one. Raises StoreError when there is no room for it."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        (folder / SPARE).write_bytes(bytes(ROOM))
     except OSError as error:
         problem = Problem(str(folder.parent), error.strerror or str(error), remedy="make room, or make it writable")
         raise StoreError(f"Nothing can be recorded beside {folder.parent.name.removesuffix('.recording')}.", [problem]) from None
@@ -66,9 +69,14 @@ def set_aside(folder: Path) -> Path:
 
 
 def put_down(folder: Path, status: str, error: str) -> None:
-    """How its run has ended, for who finds it; when there is no room for that, it is told as killed."""
-    with suppress(NoRoom, OSError):
-        Folder(folder).write(WHY, [{"status": status, "error": error}])
+    """How its run has ended, for who finds it; on a full disk the beginning of that. When that fails too it is told as killed."""
+    for text in (error, error[:SHORT]):
+        with suppress(NoRoom, OSError):
+            Folder(folder).write(WHY, [{"status": status, "error": text}])
+            return
+        with suppress(OSError):
+            (folder / SPARE).unlink()
+            (folder / f"{WHY}.jsonl").unlink()  # of which only a part may be there
 
 
 def tell_to_end(folder: Path) -> None:
