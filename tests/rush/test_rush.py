@@ -13,6 +13,6 @@ def test_nobody_strikes_anybody_or_breaks_a_rule(place):
 
 
 def test_a_ring_does_not_take_less_because_more_come():
-    """At the Großer Stern as many arrive when three times as many come; before it was kept open, nobody did after a while."""
+    """At the Großer Stern as many arrive when three times as many come; on a ring that is filled up fewer do."""
     arrived = [outcome("Großer Stern", cars, seconds=420, seed=1).measures["arrivals"] for cars in (80, 240)]
     assert arrived[1] >= arrived[0]
