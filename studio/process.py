@@ -13,6 +13,9 @@ of a user's runs in it, so nothing can hold it up. When the one who began it is 
 the worker; when the worker has ended, it ends whatever that has started, in groups and sessions of their own too, and ends like it.
 
 A process that takes no orders costs its own run only: the orders wait in a queue of bounded length, and one too many is refused.
+
+To import all of the studio takes a new process seconds. One that is `prepared` is split off a process that has done so, once, and does
+nothing else; where the system cannot do that, or the environment is another than then, it is a new process as well.
 """
 
 import ctypes
@@ -25,6 +28,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from multiprocessing.connection import Connection
 from multiprocessing.reduction import ForkingPickler
 from typing import Any, NoReturn
@@ -36,7 +40,9 @@ END_PATIENCE = 3.0  # [s] for a process to end by itself
 LAST_WORDS = 2.0  # [s] for a process to put down that it was left alone
 NOW = "now"  # said over the lifeline: no last words
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # of Linux, prctl(2)
+READ_EARLY = ("STUDIO_", "XDG_", "NUMBA_", "PYTHON")  # beginnings of what of the environment is read by who is imported
 spawn = multiprocessing.get_context("spawn")
+split: Any = multiprocessing.get_context("forkserver") if sys.platform == "linux" else None
 
 
 class Gone(OSError):
@@ -63,13 +69,18 @@ class Child:
         threading.Thread(target=self.deliver, name=f"orders of {process.pid}", daemon=True).start()
 
     @classmethod
-    def begin(cls, work: Callable[..., None], *arguments: Any) -> "Child":
-        """Starts `work(line, *arguments)`, a function that stands in a module. Raises OSError when there is no process to be had."""
+    def begin(cls, work: Callable[..., None], *arguments: Any, prepared: bool = False) -> "Child":
+        """Starts `work(line, *arguments)`, a function that stands in a module. Raises OSError when there is no process to be had.
+
+        The first that is `prepared` waits until there is something that it can be split off.
+        """
         ours, line = spawn.Pipe()
         watched, lifeline = spawn.Pipe(duplex=False)
         try:
             task = bytes(ForkingPickler.dumps((work, arguments)))
-            process = spawn.Process(target=live, args=(line, watched, task), daemon=True)
+            process = (split if prepared and can_split() else spawn).Process(
+                target=live, args=(line, watched, task, dict(os.environ)), daemon=True
+            )
             process.start()
         except BaseException:
             ours.close()
@@ -151,15 +162,43 @@ class Child:
         self.orders.put(None)
 
 
+# -- what processes are split off --------------------------------------------------------------------
+
+
+def prepare(module: str) -> None:
+    """Says what a process has imported that others are split off; counts until the first is."""
+    if split:
+        split.set_forkserver_preload([module])
+
+
+def can_split() -> bool:
+    """Whether processes can be split off one that has read the environment as it is now."""
+    return bool(split) and environment_then() == environment_now()
+
+
+@cache
+def environment_then() -> dict[str, str]:
+    """The environment that was read when the first was split off."""
+    return environment_now()
+
+
+def environment_now() -> dict[str, str]:
+    """What of the environment is read by who is imported."""
+    return {name: value for name, value in os.environ.items() if name.startswith(READ_EARLY)}
+
+
 # -- the guard ---------------------------------------------------------------------------------------
 
 
-def live(line: Connection, lifeline: Connection, task: bytes) -> None:
+def live(line: Connection, lifeline: Connection, task: bytes, environment: dict[str, str]) -> None:
     """What the process does: its work, for as long as somebody holds the other end of the lifeline.
 
     The work is unpacked, with all the imports that this takes, in the process that does it.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever began it decides when it ends
+    if os.environ != environment:
+        os.environ.clear()
+        os.environ.update(environment)
     if hasattr(os, "fork"):
         split_off(line, lifeline)
     else:

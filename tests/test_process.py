@@ -45,6 +45,11 @@ def stray(line):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+def tell(line, name):
+    """Says by whom its guard was started, and a variable of its environment."""
+    line.send((psutil.Process().parent().ppid(), os.environ.get(name)))
+
+
 def crash(line):
     """Ends without a word."""
     os._exit(7)
@@ -80,9 +85,10 @@ def test_a_crash_is_told_with_its_code():
     assert child.exit_code() == 7
 
 
-def test_a_process_that_takes_no_orders_holds_nobody_up():
+@pytest.mark.parametrize("prepared", [False, True])
+def test_a_process_that_takes_no_orders_holds_nobody_up(prepared):
     """However many orders, however long: one too many is refused, and the end comes all the same, with what it has started."""
-    child = Child.begin(hang)
+    child = Child.begin(hang, prepared=prepared)
     _, *pids = child.hear()
     long, refused = "x" * 10_000, 0
     for _ in range(10 * MOST_ORDERS):
@@ -96,8 +102,9 @@ def test_a_process_that_takes_no_orders_holds_nobody_up():
     assert all(map(is_gone, pids))
 
 
-def test_a_process_that_dies_leaves_nobody_behind():
-    child = Child.begin(stray)
+@pytest.mark.parametrize("prepared", [False, True])
+def test_a_process_that_dies_leaves_nobody_behind(prepared):
+    child = Child.begin(stray, prepared=prepared)
     _, pid = child.hear()
     with pytest.raises(Gone) as gone:
         child.hear()
@@ -115,21 +122,43 @@ def test_nothing_is_left_of_a_process_that_has_ended():
     until(lambda: threading.active_count() <= threads, "the end of its threads")
 
 
+def told(**options):
+    """What `tell` says, of a variable that is set for it."""
+    child = Child.begin(tell, "HOME", **options)
+    try:
+        return child.hear()
+    finally:
+        child.end()
+
+
+def test_prepared_processes_are_split_off_one_that_stays(monkeypatch):
+    """With the environment as it is now; where that says something else to who is imported, they are new processes."""
+    first, _ = told(prepared=True)
+    assert first != os.getpid()
+    monkeypatch.setenv("HOME", "elsewhere")
+    assert told(prepared=True) == (first, "elsewhere")
+    assert told() == (os.getpid(), "elsewhere")
+    monkeypatch.setenv("STUDIO_CACHE", "elsewhere")
+    assert told(prepared=True) == (os.getpid(), "elsewhere")
+
+
 MASTER = """
 import os, sys, time
-from studio.process import Child
+from studio.process import Child, prepare
 from tests.test_process import hang
 
 if __name__ == "__main__":
-    child = Child.begin(hang)
+    prepare("studio.errors")
+    child = Child.begin(hang, prepared={prepared})
     print(child.process.pid, *child.hear()[1:], flush=True)
     time.sleep({patience})
 """
 
 
-def test_nobody_outlives_the_one_who_began_it(tmp_path):
+@pytest.mark.parametrize("prepared", [False, True])
+def test_nobody_outlives_the_one_who_began_it(tmp_path, prepared):
     """Not even when that one is killed, and nothing but a signal reaches the process; nor does what it has started."""
-    (tmp_path / "master.py").write_text(MASTER.format(patience=PATIENCE))
+    (tmp_path / "master.py").write_text(MASTER.format(patience=PATIENCE, prepared=prepared))
     root = str(Path(__file__).parents[1])
     master = subprocess.Popen(
         [sys.executable, str(tmp_path / "master.py")],

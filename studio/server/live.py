@@ -11,6 +11,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from math import inf, isfinite
@@ -22,7 +23,7 @@ import numpy as np
 from studio import job
 from studio.errors import Problem, ServerError, StudioError, UnknownError
 from studio.job import Loaded
-from studio.process import Busy, Child, Gone
+from studio.process import Busy, Child, Gone, prepare
 from studio.server import answer, worker
 from studio.server.frame import Frame
 from studio.server.news import ChannelsNews, EndNews, EventNews, Kind, SamplesNews, StateNews
@@ -37,6 +38,7 @@ MOST_OVER = 8  # runs that are over, whose news are kept for who comes late
 END_PATIENCE = 3.0  # [s] for a process to save and end
 STOP_PATIENCE = 5.0  # [s] for a run to react to stop; an application may hang
 LOG = logging.getLogger(__name__)
+prepare("studio.server.nursery")
 
 
 def plain(values: np.ndarray) -> list[float | None]:
@@ -91,7 +93,7 @@ class LiveRun:
     def take_in(self, status: str, reason: str) -> None:
         """Has what was recorded taken into the database, in a process of its own, and waits for that."""
         reopen_runs(self.db).leave(self.run, status, reason)
-        child = Child.begin(worker.take_in, self.db, self.kinds)
+        child = Child.begin(worker.take_in, self.db, self.kinds, prepared=True)
         with suppress(Gone):
             child.hear()
         child.end()
@@ -281,26 +283,40 @@ class Lives:
         self.db, self.first, self.kinds, self.most, self.on_frame = db, first, kinds, most, on_frame
         self.runs: dict[int, LiveRun] = {}
         self.waiting: list[tuple[LiveRun, Order]] = []
-        self.spare: Child | None = None
+        self.spare: Future[Child] | None = None
         self.starting = 0
         self.is_closed = False
         self.lock = threading.RLock()
         self.order = threading.Lock()  # so that runs wait in the order of their numbers
 
     def make_ready(self) -> None:
-        """Starts the process for the next run, unless it waits already."""
+        """Has the process for the next run started, unless one waits already, or is about to; does not wait for it."""
         with self.lock:
-            if not self.is_closed and (self.spare is None or not self.spare.is_alive()):
-                self.spare = Child.begin(worker.main, self.first, self.kinds)
+            if not self.is_closed and (self.spare is None or is_lost(self.spare)):
+                self.spare = Future()
+                threading.Thread(target=self.start_spare, args=(self.spare,), name="next run", daemon=True).start()
+
+    def start_spare(self, promised: "Future[Child]") -> None:
+        """Starts a process; the first takes a while, and the server may have ended meanwhile."""
+        try:
+            process = Child.begin(worker.main, self.first, self.kinds, prepared=True)
+        except Exception as error:
+            promised.set_exception(error)
+            return
+        with self.lock:
+            promised.set_result(process)
+            is_late = self.is_closed
+        if is_late:
+            process.end(0.0)
 
     def take(self) -> Child:
-        """The process that waits."""
+        """The process that waits. Raises OSError when there is none to be had."""
         self.make_ready()
         with self.lock:
-            process, self.spare = self.spare, None
-        if process is None:
+            promised, self.spare = self.spare, None
+        if promised is None:
             raise ServerError("The server is about to end.")
-        return process
+        return promised.result()
 
     # -- the order of runs ---------------------------------------------------------------------------
 
@@ -454,8 +470,13 @@ class Lives:
             time.sleep(0.02)
         for live in self.all():
             live.abandon()
-        if self.spare is not None:
-            self.spare.end(0.0)
+        if self.spare is not None and self.spare.done() and not self.spare.exception():
+            self.spare.result().end(0.0)
+
+
+def is_lost(promised: "Future[Child]") -> bool:
+    """Whether a process that was promised has ended, or could not be started."""
+    return promised.done() and (promised.exception() is not None or not promised.result().is_alive())
 
 
 def begun(process: Child, order: Order) -> tuple[int, float]:

@@ -204,6 +204,7 @@ class Live:
 
 def main(pipe: Connection, first: Path | None, kinds: tuple[Path, ...]) -> None:
     """The process: gets ready, waits for its order, runs it."""
+    np.random.seed()  # noqa: NPY002 - a user's code may draw from it; split off, every process would draw the same
     try:
         for folder in kinds:
             load_folder(folder)

@@ -295,7 +295,8 @@ def test_nothing_is_left_of_runs_that_are_over(client, server):
 
 def workers(server):
     """The processes of live runs, and the one that waits."""
-    return [each for each in psutil.Process(server[2].pid).children() if "spawn_main" in command(each)]
+    origins = [each for each in psutil.Process(server[2].pid).children() if "forkserver" in command(each)]
+    return [each for origin in origins for each in origin.children()]
 
 
 def command(process):
