@@ -105,7 +105,13 @@ def until(folder: Path) -> float:
 
 
 def record(folder: Path) -> "Record | None":
-    """All of it as one record; nothing when there is none."""
+    """All of it as one record; nothing when there is none, or none any more: of one that goes while it is read, parts are missing."""
     from studio.execution import salvage
 
-    return salvage.salvaged(Folder(folder)) if folder.is_dir() else None
+    try:
+        found = salvage.salvaged(Folder(folder)) if folder.is_dir() else None
+    except Exception:
+        if folder.is_dir():
+            raise
+        return None
+    return found if folder.is_dir() else None

@@ -427,14 +427,16 @@ class Runs:
 
     def parquet(self, run: int) -> bytes:
         """The traces of a run as they are kept; raises UnknownError when there are none."""
+        from studio.store import trace
+
         row = self.find(run)
         if (parquet := self.kept_parquet(run)) is not None:
             return parquet
-        if (record := self.recorded(run)) is None:
-            raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
-        from studio.store import trace
-
-        return trace.write(record, self.document(row)["recording"]["channels"])
+        if (record := self.recorded(run)) is not None:
+            return trace.write(record, self.document(row)["recording"]["channels"])
+        if (parquet := self.kept_parquet(run)) is not None:  # taken in just now
+            return parquet
+        raise UnknownError(f"Run {run} has no traces: it did not come to its end.")
 
     def kept_parquet(self, run: int) -> bytes | None:
         """The traces of a run that is over."""

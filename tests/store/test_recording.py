@@ -164,6 +164,40 @@ def test_a_recording_that_cannot_be_read_is_set_aside(sample, tmp_path):
     assert (folder.parent / f"damaged-{folder.name}").is_dir() and open_runs(db).find(1) == row
 
 
+def test_who_reads_a_recording_that_goes_meanwhile_finds_all_of_it_or_nothing(sample, tmp_path, monkeypatch):
+    """Whenever it is taken in: it is removed before each of the files that are read of it."""
+    loaded = job.load(sample, {"clock.duration": 0.5})
+    prepared, runs = job.prepare(loaded), open_runs(tmp_path / "runs.db")
+    number = job.begin(loaded, prepared, runs, None)
+    job.recorded(prepared, runs, number).advance(10)
+    folder, opened = runs.folder(number), []
+
+    def count(self, name):
+        opened.append(name)
+        if len(opened) == last:
+            recording.remove(Path(self.path))
+        return read(self, name)
+
+    read, last = shelf.Folder.lines, 0
+    monkeypatch.setattr(shelf.Folder, "lines", count)
+    assert recording.record(folder).time.size == 10 and len(opened) > 3
+    for last in range(1, len(opened) + 1):
+        shutil.copytree(folder, copy := folder.with_name(f"copy-{last}"))
+        opened.clear()
+        assert recording.record(copy) is None and not copy.exists()
+
+
+def test_a_run_whose_recording_is_taken_in_meanwhile_has_its_traces(sample, tmp_path, monkeypatch):
+    """Between two looks: none is kept yet, and no recording is there any more."""
+    runs = open_runs(tmp_path / "runs.db")
+    number = job.run(job.load(sample, {"clock.duration": 0.2}), runs=runs).row.run
+    kept, looks = type(runs).kept_parquet, []
+    monkeypatch.setattr(
+        type(runs), "kept_parquet", lambda self, run: None if not looks.append(run) and len(looks) == 1 else kept(self, run)
+    )
+    assert runs.parquet(number) == kept(runs, number) and len(looks) == 2
+
+
 OTHERS = [b"{}", b"[]", b'{"status": [], "error": 1}', b'{"status": "done", "error": ""}', b"noise", b"\xff", b"[" * 10**5]
 
 
