@@ -197,8 +197,8 @@ def let_cross(world: World) -> tuple:
     """Who crosses on stripes, or is about to, at a time [s]."""
     v, r, o, w, m = world.vehicles, world.roads, world.obstacles, world.worlds, world.obstacles.movers
     paths, objects = (r.points, r.path_first, r.path_count), (o.table, o.standing, o.first, o.count, world.script.turned)
-    walking = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra)
-    return zebra.let_cross, v.state, v.parameter, *paths, *objects, *walking, w.of, v.drivers, v.mind
+    walking, view = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra), (world.neighbours.places, r.place_of, r.shadow)
+    return zebra.let_cross, v.state, v.parameter, *paths, *objects, *walking, w.of, *view, v.drivers, v.mind
 
 
 def think(world: World) -> None:
