@@ -16,7 +16,7 @@ from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
 from studio.world.board.post import taking_turns
-from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic
+from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic, zebra
 from studio.world.table.mind import STATION
 from studio.world.world import World
 
@@ -145,6 +145,8 @@ def look(world: World) -> None:
         mind_obstacles(world)
     if world.obstacles.movers.object.size:
         mind_movers(world)
+    if world.obstacles.movers.zebra.size:
+        let_cross(world, world.clock.time)
 
 
 @given
@@ -188,6 +190,15 @@ def mind_movers(world: World) -> tuple:
     v, r, o, w = world.vehicles, world.roads, world.obstacles, world.worlds
     paths, objects = (r.points, r.path_first, r.path_count), (o.movers.object, o.table, o.standing, o.first, o.count)
     return traffic.movers, v.state, v.parameter, *paths, *objects, w.of, v.drivers, v.mind
+
+
+@given
+def let_cross(world: World) -> tuple:
+    """Who crosses on stripes, or is about to, at a time [s]."""
+    v, r, o, w, m = world.vehicles, world.roads, world.obstacles, world.worlds, world.obstacles.movers
+    paths, objects = (r.points, r.path_first, r.path_count), (o.table, o.standing, o.first, o.count, world.script.turned)
+    walking, view = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra), (world.neighbours.places, r.place_of, r.shadow)
+    return zebra.let_cross, v.state, v.parameter, *paths, *objects, *walking, w.of, *view, v.drivers, v.mind
 
 
 def think(world: World) -> None:
