@@ -20,6 +20,10 @@ DISTRACTION_RATE = DRIVER.row("distraction_rate", "1/min", "how often he looks a
 DISTRACTION_LENGTH = DRIVER.row("distraction_length", "s", "for how long, median")
 SWAY = DRIVER.row("sway", "m", "standard deviation of the place in the lane that he wants")
 SWAY_TIME = DRIVER.row("sway_time", "s", "in which this is forgotten")
+POLITENESS = DRIVER.row("politeness", "1", "what others gain or lose by a change of lanes counts so much of one's own")
+GAIN = DRIVER.row("changing_threshold", "m/s²", "what a change of lanes has to gain")
+IMPOSED = DRIVER.row("imposed_braking", "m/s²", "harder nobody is made to brake by it, nor does one brake oneself")
+KEEP_SIDE = DRIVER.row("keep_side", "m/s²", "what the lane nearer to the kerb is worth outside towns")
 SIGHT = DRIVER.row("sight", "m", "how far the weather lets the driver see")
 SIGHT_SPEED = DRIVER.row("sight_speed", "m/s", "from which the driver stops within sight")
 MINDS_COLLISION = DRIVER.row("minds_collision", "1", "1 when the driver overrules an application before a collision")
@@ -95,6 +99,11 @@ STARTLED = MIND.row(
     role=Role.STATE,
     label="Driver is surprised until",
 )
+CHANGING = MIND.row("changing", "1", "share of a change of lanes that is done", role=Role.STATE)
+ASIDE_FROM = MIND.row("aside_from", "m", "where it began, left of the path over there", role=Role.STATE)
+ASIDE = MIND.row("aside", "m", "place in the lane that this asks for now, left of the path", label="Still to go over to the new lane")
+CHANGED = MIND.row("since_change", "s", "how long ago the last change of lanes began", role=Role.STATE)
+LEFT_BY = MIND.row("left_by", "m", "station on the line that is being left, beyond that on the own one", role=Role.STATE)
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
 STEER_WISH = MIND.row("steer_wish", "rad", "road wheel angle the driver asks for")
 NEEDED_COLLISION = MIND.row("needed_collision", "s", "since when he would brake before a collision; infinite when not", role=Role.STATE)
