@@ -14,7 +14,7 @@ slow goes over on a length instead, on which a car can be steered.
 from studio.compiled import compiled, inlined
 
 DURATION = 5.0  # [s]
-SHORTEST = 15.0  # [m] to go over by a lane: the sharpest bend of the quintic, 5.8 · 3.5 m/(15 m)², has a radius of 11 m
+SHORTEST = 12.0  # [m] to go over by a lane: the sharpest bend of the quintic, 5.8 · 3.5 m/(12 m)², has a radius of 7 m
 
 
 @compiled

@@ -46,6 +46,8 @@ def step(block: Block) -> int:
 
 def gates_of(here: Block, there: Block, number: int) -> Iterator[tuple[float, ...]]:
     """The gates from a block to one that is on the next lane, as rows of the table."""
+    if here.side and not there.side:
+        yield from returns(here.side, number)
     if abs(step(here) - step(there)) != 1:
         return
     free = np.logical_and(free_of(here.side, there.side), free_of(there.side, here.side))
@@ -54,6 +56,15 @@ def gates_of(here: Block, there: Block, number: int) -> Iterator[tuple[float, ..
             ends = float(run[0]), float(run[-1])
             own, other = (tuple(station(each.side, s) for s in ends) for each in (here, there))
             yield (number, step(there) - step(here), *own, *other, back(here.side, ends[0]), back(there.side, ends[0]))
+
+
+def returns(side: Side, number: int) -> Iterator[tuple[float, ...]]:
+    """Where a line has come back to the usual lanes, which one is on then."""
+    begins = [*(first for first, _, _ in side.spans[1:]), float(side.at.size)]
+    for (_, last, back_from), begin in zip(side.spans, begins, strict=True):
+        if np.isfinite(back_from) and begin - last > 1.0:
+            ends = last, begin - 1.0
+            yield (number, 0.0, *(station(side, s) for s in ends), *ends, np.inf, np.inf)
 
 
 def free_of(side: Side | None, other: Side | None) -> np.ndarray:

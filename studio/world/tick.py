@@ -213,7 +213,7 @@ def choose_lanes(world: World) -> tuple:
     lines = (r.stop_first, r.stop_count, *world.obstacles.swept, r.drive_first, r.drive_count, d.base, d.work, d.choice)
     queues = (r.web, q.first, q.place, q.at, g.found)
     every = max(round(lane.EVERY / world.clock.tick), 1)
-    return lane.choose, every, v.state, v.parameter, g.places, *numbers, *moving, *lines, *queues, v.drivers, v.mind
+    return lane.choose, world.clock.tick, every, v.state, v.parameter, g.places, *numbers, *moving, *lines, *queues, v.drivers, v.mind
 
 
 def think(world: World) -> None:

@@ -40,6 +40,18 @@ class Group(NamedTuple):
     following: float
 
 
+class Run(NamedTuple):
+    """From the `first` to the `last` point a path runs beside another; over so many metres it comes back, none where it ends there."""
+
+    first: int
+    last: int
+    back: float
+
+    def out(self, path: Path) -> float:
+        """Over how many metres it leaves the other one, which nobody drives."""
+        return taper(path, self.first) if self.first > 0 else 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class Side:
     """`step` lanes towards the middle of the road, below zero towards the kerb. `at` is where on `path` every point of the usual one lies.
@@ -100,17 +112,18 @@ def side(network: Network, path: Path, groups: list[Group], step: int) -> Side |
     """The path so many lanes aside, where there are such lanes."""
     goals, found = path.points[[PATH_X, PATH_Y]].copy(), []
     for chain in chains(network, groups, step):
-        columns = on_side(network, path, chain, step, goals)
-        found += [(run[0], run[-1], chain) for run in runs(columns) if is_long_enough(path, run)]
+        if chain := without_short_ends(path, chain):
+            run = longest(on_side(network, path, chain, step, goals))
+            found += [run_of(path, run, chain[-1])] if run.size and is_long_enough(path, run) else []
     if not found:
         return None
     made, at, spans = path, np.arange(path.points.shape[1], dtype=float), []
     share = np.zeros(at.size)
-    for first, last, _ in reversed(found):
-        part = shares(path, first, last)
+    for run in reversed(found):
+        part = shares(path, run)
         share += part
         made, at = gone(path, made, at, goals, part)
-        spans.append((float(first), float(last), back_from(path, first, last)))
+        spans.append((float(run.first), float(run.last), run.last - run.back if run.back else np.inf))
     lanes = {station.s: lane_beside(network, lane_of(network, station), step) for station in path.stations}
     made = replace(made, stations=tuple(stations_on(path, share, at, lanes)), stop_lines=tuple(stops_on(network, path, share, at, lanes)))
     return Side(step, made, at, tuple(reversed(spans)), free_of(network, groups, step, share))
@@ -172,9 +185,23 @@ def joined(strands: Strands, order: list[int]) -> np.ndarray:
     return points[:, np.append(True, np.hypot(*np.diff(points[[PATH_X, PATH_Y]])) > 1e-3)]
 
 
-def runs(columns: np.ndarray) -> list[np.ndarray]:
-    """Points one after the other without a gap."""
-    return [each for each in np.split(columns, np.flatnonzero(np.diff(columns) > 1) + 1) if each.size]
+def without_short_ends(path: Path, chain: list[Group]) -> list[Group]:
+    """A chain whose last road has room to come back on, unless the path ends there."""
+    while chain and chain[-1].following < path.length and chain[-1].end - chain[-1].begin < LEAST + LAST:
+        chain = chain[:-1]
+    return chain
+
+
+def longest(columns: np.ndarray) -> np.ndarray:
+    """The most points one after the other without a gap."""
+    return max(np.split(columns, np.flatnonzero(np.diff(columns) > 1) + 1), key=len)
+
+
+def run_of(path: Path, columns: np.ndarray, last: Group) -> Run:
+    """The run along some points, which comes back on its last road."""
+    is_to_the_end = columns[-1] == path.points.shape[1] - 1
+    room = columns[-1] - max(last.begin, columns[0] + SHORTEST / 2)
+    return Run(int(columns[0]), int(columns[-1]), 0.0 if is_to_the_end else float(np.clip(room, 1.0, taper(path, columns[-1]))))
 
 
 def is_long_enough(path: Path, run: np.ndarray) -> bool:
@@ -188,17 +215,12 @@ def taper(path: Path, last: int) -> float:
     return float(np.clip(BACK * path.points[PATH_SPEED, max(int(last) - 50, 0)], LEAST, MOST))
 
 
-def back_from(path: Path, first: int, last: int) -> float:
-    """From where a path comes back [m]; infinite where it ends first."""
-    return np.inf if last >= path.points.shape[1] - 1 else float(last) - taper(path, last)
-
-
-def shares(path: Path, first: int, last: int) -> np.ndarray:
-    """How far the points of a path have gone over, 0 to 1, between two of them."""
-    stations, length = np.arange(path.points.shape[1], dtype=float), taper(path, last)
-    out = np.ones(stations.size) if first == 0 else ease((stations - first) / length)
-    back = np.ones(stations.size) if last == stations.size - 1 else ease((last - stations) / length)
-    return np.where((stations >= first) & (stations <= last), out * back, 0.0)
+def shares(path: Path, run: Run) -> np.ndarray:
+    """How far the points of a path have gone over, 0 to 1."""
+    stations, length = np.arange(path.points.shape[1], dtype=float), run.out(path)
+    out = ease((stations - run.first) / length) if length else np.ones(stations.size)
+    back = ease((run.last - stations) / run.back) if run.back else np.ones(stations.size)
+    return np.where((stations >= run.first) & (stations <= run.last), out * back, 0.0)
 
 
 def gone(path: Path, made: Path, at: np.ndarray, goals: np.ndarray, share: np.ndarray) -> tuple[Path, np.ndarray]:

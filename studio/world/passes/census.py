@@ -142,7 +142,8 @@ def taking(world: World, at: Census) -> tuple:
         r.stop_link,
         r.shown,
     )
-    own = (world.demand.came, at.front, at.path, at.end, at.speed, at.stood, at.off, at.ringed, at.mark, at.watched, at.pairs, at.table, at.count)
+    before = (at.front, at.path, at.end, at.speed, at.stood, at.off)
+    own = (world.demand.came, *before, at.ringed, at.mark, at.watched, at.pairs, at.table, at.count)
     return everybody, *who, *road, r.drive_first, r.drive_count, r.web, q.first, q.place, q.at, *own
 
 

@@ -2,9 +2,9 @@
 
 worth it     MOBIL (model/lane_change.py): at every `EVERY` a driver looks at the lanes beside his own that lead where he wants to go;
              outside towns the one nearer to the kerb is worth something by itself
-in time      a lane that is left again, since it ends, leads elsewhere or is closed, is not taken within `HORIZON` of that; who is on
-             one goes back as soon as that is safe
-somebody     who stands with nobody and nothing ahead is passed: one keeps `ROOM` behind him, and goes over as soon as that is safe
+in time      a lane that is left again, since it ends, leads elsewhere or is closed, is not taken within twice the `HORIZON` of that;
+             within it who is on one goes back as soon as that is safe
+somebody     who stands though nothing keeps him is passed: one keeps `ROOM` behind him, and goes over as soon as that is safe
 going over   a driver is on his new line at once, and follows it at a distance that shrinks; until his body has left the old lane
              he stands in its queue too, and minds who is ahead there and in his way
 then         for `REST` he stays
@@ -16,7 +16,8 @@ from studio.compiled import inlined, lean
 from studio.model.lane_change import DURATION, gone_over, incentive, left_over
 from studio.road.ways.path import PATH_SPACING, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
-from studio.vehicle.state import A_X, ACTIVE, V_X, X, Y
+from studio.vehicle.state import ACTIVE, V_X, X, Y
+from studio.world.passes.junction import STANDING
 from studio.world.passes.neighbour import REAR_X, REAR_Y
 from studio.world.passes.queue import KEY, THERE, WHO, bucket_of, first_drive, from_station, station_on
 from studio.world.passes.regard import behind, follow, is_unseen
@@ -25,10 +26,13 @@ from studio.world.table.mind import (
     ASIDE,
     ASIDE_FROM,
     AWAY,
+    BESIDE,
     CHANGED,
     CHANGING,
     FOLLOWING,
     GAIN,
+    GAP,
+    IDLED,
     IMPOSED,
     KEEP_SIDE,
     LEFT_BY,
@@ -37,7 +41,6 @@ from studio.world.table.mind import (
     POLITENESS,
     RED_STATION,
     STATION,
-    STOOD,
     STOPPING,
     V_DESIRED,
     WAY_STATION,
@@ -58,14 +61,15 @@ from studio.world.table.web import ENTER, LEAVE
 
 EVERY = 0.5  # [s]
 REST, SOON = 6.0, 2.0  # [s] after a change until one is worth it again; until one is needed
-HORIZON, LEAST = 15.0, 60.0  # [s], [m] before a lane is left again
+HORIZON, LEAST = 10.0, 60.0  # [s], [m] before a lane is left again
+STAYING = 2.0  # times as far one wants to stay on it
 AHEAD, LOOKING, BACK = 100.0, 2.0, 150.0  # [m], [m/s²], [m] others are looked for so far: AHEAD + v²/LOOKING, and behind
 TOWN = 60.0 / 3.6  # [m/s] where no more is allowed, lanes are chosen freely (StVO § 7 (3))
 OUT_OF = 0.8  # [m] from the new line, a body has left the old lane
 BODY = 0.3  # [m] beside another that one passes in going over
 NEAREST = 1.0  # [m] bumper to bumper, before and behind
-ROOM, SLOW = 7.0, 3.0  # [m], [m/s] from a slower one ahead less is not enough to go over
-LONG_STOOD, GOES = 1.0, 0.3  # [s], [m/s²] who stands longer though he could drive on so is passed
+ROOM, NEAR, SLOW = 9.0, 8.0, 3.0  # [m], [m], [m/s] what is kept behind one who stands; less is not enough to go over behind one so slow
+LONG, GOES = 1.5, 0.3  # [s], [m/s²] who stands longer though he could drive on so is passed
 PAST = 25.0  # [m] behind one who stands one may have to be back
 APART = 60.0  # [m] of two who change near each other one waits
 TURN = 5.0  # [m] a place on the other line is looked for so far
@@ -84,14 +88,28 @@ def go_over(tick, state, asked, block, left_first, left_count, beside, phase, po
         mind[CHANGED, v] += tick
         shift(v, tick, state, left_count, mind)
         gate, asked[v] = asked[v], -1
-        if gate < 0 or state[ACTIVE, v] == 0.0:
+        if state[ACTIVE, v] == 0.0:
             continue
-        left_first[v], left_count[v] = drive_first[v], drive_count[v]
+        if gate < 0 and block[v] != beside.home[v]:
+            gate = way_home(mind[STATION, v], block[v], beside)
+        if gate < 0:
+            continue
+        if beside.gate[STEP, gate] != 0.0:
+            left_first[v], left_count[v] = drive_first[v], drive_count[v]
         take(
             v, int(beside.gate[TO, gate]), block, beside, phase, path_first, path_count, stop_first, stop_count, sweep_first, sweep_count,
             drive_first, drive_count, base, work, choice,
         )  # fmt: skip
         begin(v, there(mind[STATION, v], gate, beside), state, points, path_first[v], path_count[v], mind)
+
+
+@inlined
+def way_home(station, b, beside):
+    """The gate through which one is on the usual lanes, where the own line has come back to them; -1 where it has not."""
+    for gate in range(beside.first[b], beside.first[b] + beside.count[b]):
+        if beside.gate[STEP, gate] == 0.0 and beside.gate[HERE_FROM, gate] <= station <= beside.gate[HERE_TO, gate]:
+            return gate
+    return -1
 
 
 @inlined
@@ -122,7 +140,7 @@ def line_of(b, beside, phase):
     return line
 
 
-@inlined
+@lean
 def take(v, b, block, beside, phase, path_first, path_count, stop_first, stop_count, sweep_first, sweep_count, drive_first, drive_count,
          base, work, choice):  # fmt: skip
     """v is on the line of a block."""
@@ -138,7 +156,7 @@ def take(v, b, block, beside, phase, path_first, path_count, stop_first, stop_co
             work[i, j] = beside.work[i, b]
 
 
-@inlined
+@lean
 def begin(v, guess, state, points, first, count, mind):
     """v finds itself on its new line, beside it, and begins to go over."""
     best, station = inf, guess
@@ -157,11 +175,13 @@ def begin(v, guess, state, points, first, count, mind):
 
 
 @lean
-def choose(every, state, parameter, places, points, path_first, path_count, world_of, number, entity, asked, block, left_first,
+def choose(tick, every, state, parameter, places, points, path_first, path_count, world_of, number, entity, asked, block, left_first,
            left_count, beside, phase, stop_first, stop_count, sweep_first, sweep_count, drive_first, drive_count, base, work, choice, web,
            first, place, at, found, drivers, mind, k):  # fmt: skip
     """Who wants to change lanes; who has arrived is on his usual ones again."""
     count = 0
+    for v in range(state.shape[1]):
+        mind[IDLED, v] = mind[IDLED, v] + tick if idles(v, state, mind) else 0.0
     for v in range(state.shape[1]):
         if beside.home[v] < 0:
             continue
@@ -174,18 +194,22 @@ def choose(every, state, parameter, places, points, path_first, path_count, worl
                 mind[OFFSET, v] = 0.0
             left_count[v], mind[CHANGING, v], mind[ASIDE, v], mind[CHANGED, v] = 0, 1.0, 0.0, REST
             continue
+        mind[BESIDE, v] = beside.aside[block[v]]
         if left_count[v] > 0:
             mind_old_lane(
                 v, state, parameter, places, points, path_first[v], path_count[v], world_of[v], number, left_first[v], left_count[v], web,
                 first, place, at, drivers, mind,
             )  # fmt: skip
+        is_asked = (k + entity[v]) % every == 0 and mind[CHANGING, v] == 1.0 and left_count[v] == 0 and mind[AWAY, v] == 0.0
+        if not (is_asked or mind[GAP, v] < AHEAD):
+            continue
         other, gap = ahead_on(
             v, mind[STATION, v], drive_first[v], drive_count[v], world_of[v], state, parameter, drivers, web, first, place, at
         )
-        stander = other >= 0 and left_count[v] == 0 and stands_alone(other, state, mind)
-        if stander and state[V_X, v] > SLOW and is_passable(v, gap + parameter[LENGTH, other] + PAST, block[v], beside, mind):
+        stander = other >= 0 and left_count[v] == 0 and mind[IDLED, other] > LONG
+        if stander and gap > NEAR and is_passable(v, gap + parameter[LENGTH, other] + PAST, block[v], beside, mind):
             follow(v, number[other], max(gap - ROOM, NEAREST), 0.0, state, drivers, mind)
-        if (k + entity[v]) % every != 0 or mind[CHANGING, v] < 1.0 or left_count[v] > 0 or mind[AWAY, v] > 0.0:
+        if not is_asked:
             continue
         asked[v] = best_gate(
             v, other, gap, stander, state, parameter, world_of[v], block[v], beside, phase, drive_first[v], drive_count[v], web, first,
@@ -209,7 +233,7 @@ def is_near_another(v, count, world_of, places, state, found):
     return False
 
 
-@inlined
+@lean
 def mind_old_lane(v, state, parameter, places, points, path_first, path_count, world, number, drive, count, web, first, place, at, drivers,
                   mind):  # fmt: skip
     """Who is ahead on the lane that is being left is followed while he is in the way."""
@@ -222,10 +246,10 @@ def mind_old_lane(v, state, parameter, places, points, path_first, path_count, w
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
 
 
-@inlined
-def stands_alone(v, state, mind):
-    """Whether somebody stands, or is about to, though nobody and nothing that can be seen keeps him from driving."""
-    if state[V_X, v] > SLOW or state[A_X, v] > GOES or mind[STOOD, v] < LONG_STOOD:
+@lean
+def idles(v, state, mind):
+    """Whether somebody stands though no line, light, car or object that could be seen keeps him from driving."""
+    if state[ACTIVE, v] == 0.0 or abs(state[V_X, v]) > STANDING:
         return False
     is_free = min(min(mind[FOLLOWING, v], mind[YIELDING, v]), mind[STOPPING, v]) > GOES
     return is_free and mind[RED_STATION, v] == inf and mind[WAY_STATION, v] == inf
@@ -236,7 +260,7 @@ def is_passable(v, way, b, beside, mind):
     """Whether so many metres on there is another lane beside."""
     for gate in range(beside.first[b], beside.first[b] + beside.count[b]):
         station = mind[STATION, v]
-        if beside.gate[HERE_FROM, gate] <= station and station + way <= beside.gate[HERE_TO, gate]:
+        if beside.gate[STEP, gate] != 0.0 and beside.gate[HERE_FROM, gate] <= station and station + way <= beside.gate[HERE_TO, gate]:
             return True
     return False
 
@@ -251,18 +275,18 @@ def to_work(b, station, beside, phase):
     return left
 
 
-@inlined
+@lean
 def best_gate(v, ahead, gap, stander, state, parameter, world, b, beside, phase, drive, count, web, first, place, at, drivers, mind):
     """The gate through which a change is wanted most and safe; -1 for none."""
     station, best, most = mind[STATION, v], -1, 0.0
     speed = max(state[V_X, v], 0.0)
-    is_close = ahead >= 0 and gap < ROOM and state[V_X, ahead] < SLOW
+    is_close = ahead >= 0 and gap < NEAR and state[V_X, ahead] < SLOW
     if is_close or to_work(b, station, beside, phase) < speed * DURATION + ROOM:
         return -1
     now = free_or_behind(v, ahead, gap, state, drivers, mind)
     follower, its_gap = behind_on(v, station, drive, count, world, state, parameter, web, first, place, at)
     for gate in range(beside.first[b], beside.first[b] + beside.count[b]):
-        if not beside.gate[HERE_FROM, gate] <= station < beside.gate[HERE_TO, gate] - speed * DURATION:
+        if beside.gate[STEP, gate] == 0.0 or not beside.gate[HERE_FROM, gate] <= station < beside.gate[HERE_TO, gate] - speed * DURATION:
             continue
         to = int(beside.gate[TO, gate])
         other_station = there(station, gate, beside)
@@ -272,7 +296,7 @@ def best_gate(v, ahead, gap, stander, state, parameter, world, b, beside, phase,
         is_home = abs(beside.aside[to]) < abs(beside.aside[b])
         needed = here < reach * max(abs(beside.aside[b]), 1) and (is_home or beyond > here) and beyond > 0.0
         passes = stander and beyond > gap + parameter[LENGTH, ahead] + PAST
-        is_long = beyond >= reach * max(abs(beside.aside[to]), 1)
+        is_long = beyond >= STAYING * reach * max(abs(beside.aside[to]), 1)
         if mind[CHANGED, v] < (SOON if needed or passes else REST) or not (needed or passes or is_long):
             continue
         worth = worth_of(
@@ -289,7 +313,7 @@ def best_gate(v, ahead, gap, stander, state, parameter, world, b, beside, phase,
     return best
 
 
-@inlined
+@lean
 def worth_of(v, to, station, now, ahead, gap, follower, its_gap, beside, phase, world, state, parameter, web, first, place, at, drivers,
              mind):  # fmt: skip
     """What a change to another block's line is worth [m/s²]; less than anything when it is not safe."""
@@ -323,7 +347,7 @@ def free_or_behind(v, ahead, gap, state, drivers, mind):
 # -- looking up --------------------------------------------------------------------------------------
 
 
-@inlined
+@lean
 def ahead_on(v, station, drive, count, world, state, parameter, drivers, web, first, place, at):
     """The first who drives ahead on a line, from a station [m] on, and the gap [m] to him; -1 and infinite for nobody."""
     nose = station + parameter[FRONT, v]
@@ -344,7 +368,7 @@ def ahead_on(v, station, drive, count, world, state, parameter, drivers, web, fi
     return -1, inf
 
 
-@inlined
+@lean
 def behind_on(v, station, drive, count, world, state, parameter, web, first, place, at):
     """The first who drives behind on a line, and the gap [m] to him; -1 and infinite for nobody."""
     rear = parameter[LENGTH, v] - parameter[FRONT, v]

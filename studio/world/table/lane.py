@@ -8,7 +8,7 @@ from studio.rows import Role, Table
 
 GATE = Table("gate", Role.PARAMETER, per="stretch on which one may change lanes")
 TO = GATE.row("to", "1", "number of the block of lines over there")
-STEP = GATE.row("step", "1", "1 towards the middle of the road, -1 towards the kerb")
+STEP = GATE.row("step", "1", "1 towards the middle of the road, -1 towards the kerb, 0 where the line has come back to the usual lanes")
 HERE_FROM = GATE.row("here_from", "m", "where it begins on the own line")
 HERE_TO = GATE.row("here_to", "m", "where it ends there")
 THERE_FROM = GATE.row("there_from", "m", "where it begins on the other line")
