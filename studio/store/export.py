@@ -26,8 +26,7 @@ from studio.store import trace
 from studio.store.runs import Runs
 
 Format = Literal["fcd", "csv"]
-BESIDE = "lanes_beside"  # 0 in a run that did not record it
-NEEDED = ("x", "y", "heading", "speed", "station", "acceleration")
+NEEDED = ("x", "y", "heading", "speed", "station", "acceleration", "lanes_beside")
 BATCH = 512  # samples that are read at a time
 MEDIA = {"fcd": "application/xml", "csv": "text/csv"}
 HEAD = ("time", "vehicle", "type", "x", "y", "angle", "speed", "acceleration", "lane", "pos", "slope")
@@ -71,24 +70,22 @@ def seen(parquet: bytes, as_degrees: bool) -> Iterator[tuple[float, list[Seen]]]
     """Sample after sample: the time [s], and all vehicles that are on the road."""
     known = trace.about_of(parquet)
     names, cast = known["vehicles"], known["cast"]
-    present = {each["name"] for each in trace.channels(parquet)}
-    wanted = {name: [f"{name}.{channel}" for channel in (*NEEDED, BESIDE) if f"{name}.{channel}" in present] for name in names}
-    columns = ["time", *(column for each in wanted.values() for column in each)]
+    columns = ["time", *(f"{name}.{channel}" for name in names for channel in NEEDED)]
     box = Box(cast.origin[0], cast.origin[1], cast.origin[0], cast.origin[1]) if as_degrees else None
     for batch in pq.ParquetFile(pa.BufferReader(parquet), pre_buffer=False).iter_batches(BATCH, columns=columns):
         values = {name: batch.column(name).to_pylist() for name in columns}
         for i, time in enumerate(values["time"]):
-            rows = ((name, [values[column][i] for column in wanted[name]]) for name in names)
+            rows = ((name, [values[f"{name}.{channel}"][i] for channel in NEEDED]) for name in names)
             yield time, [vehicle(name, row, known["bodies"][name], cast, box) for name, row in rows if isfinite(row[0])]
 
 
 def vehicle(name: str, row: list[float], body: Body, cast: Cast, box: Box | None) -> Seen:
     """One vehicle at one sample."""
-    x, y, heading, speed, station, acceleration, *beside = row
+    x, y, heading, speed, station, acceleration, beside = row
     x, y = x + body.front * cos(heading), y + body.front * sin(heading)
     manned = cast.manned[name]
     lane, pos, slope = cast.ways[manned.way].place(station + body.front)
-    lane = lane_beside(lane, int(beside[0]) if beside and isfinite(beside[0]) else 0)
+    lane = lane_beside(lane, int(beside))
     if box is not None:
         ((x, y),) = box.degrees(np.array([[x], [y]]))
     return Seen(name, manned.model, x, y, round(90.0 - degrees(heading), 2) % 360.0, speed, acceleration, lane, pos, degrees(atan(slope)))
