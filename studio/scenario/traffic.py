@@ -197,7 +197,7 @@ class Traffic(Part, defer_build=True):
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
     spread: Spread = spread_field()
     lane_changes: bool = Field(
-        False, title="Lane changes", description="whether drivers change to a better lane where their way asks for none, and pass who stands"
+        False, title="Lane changes", description="whether drivers change to better lanes where their way asks for none, and pass who stands"
     )
 
     @model_validator(mode="after")
