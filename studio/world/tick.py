@@ -16,7 +16,7 @@ from studio.vehicle import fleet
 from studio.world import script
 from studio.world.board.host import Fault, Hosted
 from studio.world.board.post import taking_turns
-from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic, zebra
+from studio.world.passes import collision, control, entry, ground, lane, neighbour, percept, queue, traffic, zebra
 from studio.world.table.mind import STATION
 from studio.world.world import World
 
@@ -100,11 +100,23 @@ def given(arguments: Callable[[World], tuple]) -> Callable:
 def environment(world: World) -> None:
     """The script, lights, and the ground under the wheels."""
     script.turn(world)
+    if world.lanes.any_beside:
+        go_over(world)
     if world.roads.any_raised:
         rise(world)
     lay_ground(world)
     if world.roads.shown.size:
         show_lights(world, world.clock.time)
+
+
+@given
+def go_over(world: World) -> tuple:
+    """Who changes lanes."""
+    v, r, d, b = world.vehicles, world.roads, world.detours, world.lanes
+    lines = (r.path_first, r.path_count, r.stop_first, r.stop_count, *world.obstacles.swept, r.drive_first, r.drive_count)
+    moving = (b.asked, b.block, b.left_first, b.left_count)
+    fixed = (b.beside, world.script.phase, r.points)
+    return lane.go_over, world.clock.tick, v.state, *moving, *fixed, *lines, d.base, d.work, d.choice, v.mind
 
 
 @given
@@ -147,6 +159,8 @@ def look(world: World) -> None:
         mind_movers(world)
     if world.obstacles.movers.zebra.size:
         let_cross(world, world.clock.time)
+    if world.lanes.any_beside:
+        choose_lanes(world, world.clock.k)
 
 
 @given
@@ -163,7 +177,7 @@ def line_up(world: World) -> tuple:
     """Who is behind whom on every strand."""
     v, r, q, w = world.vehicles, world.roads, world.queues, world.worlds
     asked = (q.wanted, q.wanted_at, q.there, q.count)
-    drives = (r.drive_first, r.drive_count, r.web)
+    drives = (r.drive_first, r.drive_count, world.lanes.left_first, world.lanes.left_count, r.web)
     return queue.sort, v.state, v.parameter, v.mind, w.of, w.entity, *drives, q.first, q.place, q.at, *asked
 
 
@@ -199,6 +213,18 @@ def let_cross(world: World) -> tuple:
     paths, objects = (r.points, r.path_first, r.path_count), (o.table, o.standing, o.first, o.count, world.script.turned)
     walking, view = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra), (world.neighbours.places, r.place_of, r.shadow)
     return zebra.let_cross, v.state, v.parameter, *paths, *objects, *walking, w.of, *view, v.drivers, v.mind
+
+
+@given
+def choose_lanes(world: World) -> tuple:
+    """Who wants to change lanes at tick k."""
+    v, r, q, w, d, b, g = world.vehicles, world.roads, world.queues, world.worlds, world.detours, world.lanes, world.neighbours
+    numbers = (r.points, r.path_first, r.path_count, w.of, w.number, w.entity)
+    moving = (b.asked, b.block, b.left_first, b.left_count, b.beside, world.script.phase)
+    lines = (r.stop_first, r.stop_count, *world.obstacles.swept, r.drive_first, r.drive_count, d.base, d.work, d.choice)
+    queues = (r.web, q.first, q.place, q.at, g.found)
+    every = max(round(lane.EVERY / world.clock.tick), 1)
+    return lane.choose, world.clock.tick, every, v.state, v.parameter, g.places, *numbers, *moving, *lines, *queues, v.drivers, v.mind
 
 
 def think(world: World) -> None:
