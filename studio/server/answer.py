@@ -467,7 +467,7 @@ class Comparison(BaseModel):
 
 
 class OnStage(BaseModel):
-    """What the scene is to show: a scenario as it would start, or a live run."""
+    """What the scene is to show: a scenario as it would start, or a run: as it goes on, or as it was recorded."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -485,10 +485,29 @@ class SceneVehicle(BaseModel):
 
 
 class SceneCast(BaseModel):
-    """Who is to be seen, and whose map it is."""
+    """Who is to be seen, and whose map it is; of a run that is played back from when to when, and what cannot be shown."""
 
     vehicles: list[SceneVehicle]
     attribution: str
+    begin: float | None = Field(None, description="first time that was recorded [s]; null unless a run is played back")
+    end: float | None = Field(None, description="last time that was recorded [s]")
+    step: float | None = Field(None, description="from one sample to the next [s]")
+    notes: list[str] = Field([], description="what is not as it was, or is missing")
+
+
+class Moment(BaseModel):
+    """A time of a run that the scene plays back."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    run: int
+    time: float = Field(description="[s]; before the first and after the last sample that of this", allow_inf_nan=False)
+
+
+class Shown(BaseModel):
+    """Whether the scene shows that time now: not when it was set to something else meanwhile."""
+
+    shown: bool
 
 
 # -- maps ------------------------------------------------------------------------------------------

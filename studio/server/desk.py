@@ -16,6 +16,7 @@ from studio.server.frame import Frame
 from studio.server.live import MOST_LIVE, LiveRun, Lives
 from studio.server.maps import Maps
 from studio.server.maps.job import MapJobs
+from studio.server.replay import Replay, replay
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
 from studio.store import queue
@@ -121,6 +122,10 @@ class Desk:
     def runs(self) -> Runs:
         """The run database, for one request."""
         return reopen_runs(self.db)
+
+    def replay(self, runs: Runs, run: int) -> Replay:
+        """A run that is over, for the scene. Raises UnknownError, StudioError for what its map or models do not give any more."""
+        return replay(runs, run, self.scenarios / f"{runs.find(run).scenario}.yaml")
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
               pace: Pace, paused: bool) -> LiveRun:  # fmt: skip

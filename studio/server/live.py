@@ -450,6 +450,12 @@ class Lives:
                 raise UnknownError(f"Run {run} is not a live run of this server.", [Problem("run", "is not live", str(run), known)])
             return self.runs[run]
 
+    def going(self, run: int) -> LiveRun | None:
+        """A live run that is not over; None when there is none of this number."""
+        with self.lock:
+            live = self.runs.get(run)
+            return None if live is None or live.is_over else live
+
     def all(self) -> list[LiveRun]:
         """All of them, newest first."""
         with self.lock:

@@ -325,11 +325,19 @@ async def socket(browser: WebSocket, run: int) -> None:
 
 
 @router.post("/scene")
-def scene(wanted: answer.OnStage, desk: AtDesk) -> answer.SceneCast:
+def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneCast:
     """Chooses what the scene shows."""
     if wanted.run is not None:
-        live = desk.lives.find(wanted.run)
+        live = desk.lives.going(wanted.run)
+        if live is None:
+            return answer.SceneCast(**desk.stage.play(desk.replay(runs, wanted.run)))
         return answer.SceneCast(**desk.stage.show(live.loaded, live))
     if wanted.scenario is None:
         raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])
     return answer.SceneCast(**desk.stage.show(desk.load(wanted.scenario, wanted.set)))
+
+
+@router.put("/scene/time")
+def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
+    """Another time of the run that the scene plays back."""
+    return answer.Shown(shown=desk.stage.seek(moment.run, moment.time))

@@ -1,4 +1,4 @@
-"""The stage: what the scene shows now. A scenario as it would start, or a live run; the last choice counts."""
+"""The stage: what the scene shows now. A scenario as it would start, a live run, or one that is over; the last choice counts."""
 
 import threading
 from dataclasses import dataclass, field
@@ -10,16 +10,18 @@ from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
 from studio.server.frame import Frame, first_frame, looks, places
 from studio.server.live import LiveRun
+from studio.server.replay import Replay
 from studio.world.car import position
 from studio.world.setting import Setting
 
 
 @dataclass
 class Stage:
-    """Owns the scene. `showing` is the live run whose frames are drawn."""
+    """Owns the scene. `showing` is the live run whose frames are drawn, `playing` the run that is played back."""
 
     scene: Scene = field(default_factory=Scene)
     showing: LiveRun | None = None
+    playing: Replay | None = None
     city: str = ""
     cast: tuple = ()
     props: tuple = ()
@@ -30,9 +32,27 @@ class Stage:
         prepared = prepare(loaded)
         with self.lock:
             self.set_up(prepared)
-            self.showing = live
+            self.showing, self.playing = live, None
             self.draw(live.frame if live and live.frame else first_frame(prepared))
         return described(prepared)
+
+    def play(self, replay: Replay, time: float | None = None) -> dict[str, Any]:
+        """Shows a run that is over at a time [s], by default at its end; returns who is to be seen, from when to when, and what is not."""
+        first, last = float(replay.time[0]), float(replay.time[-1])
+        about = {"begin": first, "end": last, "step": (last - first) / max(replay.time.size - 1, 1), "notes": list(replay.notes)}
+        with self.lock:
+            self.set_up(replay.setting)
+            self.showing, self.playing = None, replay
+            self.draw(replay.frame(last if time is None else time))
+        return described(replay.setting) | about
+
+    def seek(self, run: int, time: float) -> bool:
+        """Shows the run that is played back at another time [s]; False when it is another, or none."""
+        with self.lock:
+            if self.playing is None or self.playing.run != run:
+                return False
+            self.draw(self.playing.frame(time))
+            return True
 
     def set_up(self, prepared: Setting) -> None:
         """City, vehicles and objects, as far as they are others than before; the weather."""

@@ -101,10 +101,12 @@ export const comparison = (a: number, b: number) =>
     queryFn: () => answer(client.GET("/api/compare", { params: { query: { a, b } } })) as Promise<Comparison>,
   });
 
-export const scene = (what: { scenario: string; set?: Changes } | { run: number }) =>
+/** A run that has ended meanwhile is another thing to show than while it went on. */
+export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean }) =>
   queryOptions({
     queryKey: ["scene", what],
-    queryFn: () => answer(client.POST("/api/scene", { body: { set: {}, ...what } })),
+    queryFn: () =>
+      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run } : { set: {}, ...what } })),
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,

@@ -224,8 +224,12 @@ function Compiling() {
 }
 
 const KEYS: [string[], string][] = [
-  [["space"], "Run, pause or resume"],
-  [["."], "Step one tick (20 ms)"],
+  [["space"], "Run, pause or resume; play or pause a run that is over"],
+  [["r"], "Run, or run again"],
+  [["."], "Step one tick (20 ms); of a run that is over, one sample on"],
+  [[","], "One sample back in a run that is over"],
+  [["<", ">"], "One second back or on in a run that is over"],
+  [["[", "]"], "Previous or next event of a run that is over"],
   [["/"], "Search parameters or kinds, or filter the runs"],
   [["g", "s"], "Go to the studio"],
   [["g", "r"], "Go to the runs"],

@@ -1,7 +1,7 @@
 /** One quantity over time: a uPlot chart with our own compact legend. */
 
 import { useComputedColorScheme } from "@mantine/core";
-import { type ReactNode, useEffect, useRef, useState } from "react";
+import { type ReactNode, useEffect, useRef, useState, useSyncExternalStore } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { formatTime, withUnit } from "../model/units";
@@ -30,6 +30,15 @@ interface Props {
   height?: number;
   /** Stands in front of the legend, for instance the choice of the quantity. */
   lead?: ReactNode;
+  /** The time of a playback: a line stands there, and a click goes there. */
+  head?: Head | undefined;
+}
+
+/** A time that moves [s], who wants to hear of it, and how to go to another. */
+export interface Head {
+  readonly time: number;
+  readonly subscribe: (listener: () => void) => () => void;
+  readonly seek: (time: number) => void;
 }
 
 const INK = {
@@ -61,6 +70,46 @@ const LOW = 120;
 interface Memory {
   zoomed: boolean;
   onCursor: (index: number | null) => void;
+  /** Puts the line of the playback where it belongs. */
+  onDraw: () => void;
+}
+
+/** [px] Who moves the pointer farther between down and up has drawn a range, and not clicked. */
+const CLICK = 4;
+
+/** [s] Between two values of the legend while a playback goes on. */
+const GRAIN = 0.1;
+
+/** A line over the plot at the time of a playback, moved without drawing the chart again; a click goes there. */
+function follow(chart: uPlot, head: Head, memory: Memory): () => void {
+  const line = document.createElement("div");
+  line.className = classes.head ?? "";
+  chart.over.append(line);
+  const put = () => {
+    const left = chart.valToPos(head.time, "x");
+    line.hidden = !(left >= 0 && left <= chart.over.clientWidth);
+    line.style.transform = `translateX(${left}px)`;
+  };
+  memory.onDraw = put;
+  put();
+  let down = 0;
+  const press = (event: MouseEvent) => {
+    down = event.clientX;
+  };
+  const click = (event: MouseEvent) => {
+    if (Math.abs(event.clientX - down) < CLICK)
+      head.seek(chart.posToVal(event.clientX - chart.over.getBoundingClientRect().left, "x"));
+  };
+  chart.over.addEventListener("mousedown", press);
+  chart.over.addEventListener("click", click);
+  const unsubscribe = head.subscribe(put);
+  return () => {
+    unsubscribe();
+    memory.onDraw = () => undefined;
+    chart.over.removeEventListener("mousedown", press);
+    chart.over.removeEventListener("click", click);
+    line.remove();
+  };
 }
 
 function options(
@@ -100,6 +149,7 @@ function options(
     ],
     series: [{ label: "Time" }, ...lines.map(series)],
     hooks: {
+      draw: [() => memory.onDraw()],
       setCursor: [(chart) => memory.onCursor(chart.cursor.idx ?? null)],
       setSelect: [
         () => {
@@ -132,6 +182,21 @@ function newest(data: Columns): number | null {
   return data[0].length > 0 ? data[0].length - 1 : null;
 }
 
+const still = () => () => undefined;
+
+/** The sample that is nearest to a time. */
+function nearest(times: readonly number[], time: number): number | null {
+  let low = 0;
+  let high = times.length - 1;
+  if (high < 0) return null;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] as number) > time) high = middle;
+    else low = middle;
+  }
+  return time - (times[low] as number) < (times[high] as number) - time ? low : high;
+}
+
 /** How many samples of the other run may lie between two of this one. */
 const LOOK_BACK = 64;
 
@@ -144,12 +209,12 @@ function valueAt(column: Columns[number] | undefined, index: number | null): num
 }
 
 export function TimeChart(props: Props) {
-  const { lines, data, version, title, unit, height = 180, lead } = props;
+  const { lines, data, version, title, unit, height = 180, lead, head } = props;
   const dark = useComputedColorScheme("light") === "dark";
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>(undefined);
   const [cursor, setCursor] = useState<number | null>(null);
-  const memory = useRef<Memory>({ zoomed: false, onCursor: setCursor });
+  const memory = useRef<Memory>({ zoomed: false, onCursor: setCursor, onDraw: () => undefined });
   const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark]);
 
   // A chart is rebuilt only when its lines, axes or theme change; samples are set below.
@@ -175,6 +240,11 @@ export function TimeChart(props: Props) {
     };
   }, [shape]);
 
+  useEffect(
+    () => (head && chart.current ? follow(chart.current, head, memory.current) : undefined),
+    [head, shape],
+  );
+
   // The columns grow in place, `version` tells when.
   useEffect(() => {
     // New samples must not throw away a zoom made by hand.
@@ -182,7 +252,10 @@ export function TimeChart(props: Props) {
     if (memory.current.zoomed) chart.current?.redraw(true);
   }, [data, version]);
 
-  const index = cursor ?? newest(data);
+  const played = useSyncExternalStore(head?.subscribe ?? still, () =>
+    head ? Math.round(head.time / GRAIN) * GRAIN : null,
+  );
+  const index = cursor ?? (played === null ? newest(data) : nearest(data[0], played));
   const time = index === null ? undefined : data[0][index];
   return (
     <figure className={classes.figure} aria-label={`${withUnit(title, unit)} over time`}>

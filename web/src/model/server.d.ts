@@ -496,6 +496,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/scene/time": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Scene Time
+         * @description Another time of the run that the scene plays back.
+         */
+        put: operations["scene_time_api_scene_time_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/maps": {
         parameters: {
             query?: never;
@@ -1670,6 +1690,19 @@ export interface components {
             better: ("a" | "b" | "same") | null;
         };
         /**
+         * Moment
+         * @description A time of a run that the scene plays back.
+         */
+        Moment: {
+            /** Run */
+            run: number;
+            /**
+             * Time
+             * @description [s]; before the first and after the last sample that of this
+             */
+            time: number;
+        };
+        /**
          * NewCorrection
          * @description A correction to make; added to what is corrected of this element already.
          */
@@ -1804,7 +1837,7 @@ export interface components {
         };
         /**
          * OnStage
-         * @description What the scene is to show: a scenario as it would start, or a live run.
+         * @description What the scene is to show: a scenario as it would start, or a run: as it goes on, or as it was recorded.
          */
         OnStage: {
             /** Scenario */
@@ -2352,13 +2385,34 @@ export interface components {
         };
         /**
          * SceneCast
-         * @description Who is to be seen, and whose map it is.
+         * @description Who is to be seen, and whose map it is; of a run that is played back from when to when, and what cannot be shown.
          */
         SceneCast: {
             /** Vehicles */
             vehicles: components["schemas"]["SceneVehicle"][];
             /** Attribution */
             attribution: string;
+            /**
+             * Begin
+             * @description first time that was recorded [s]; null unless a run is played back
+             */
+            begin?: number | null;
+            /**
+             * End
+             * @description last time that was recorded [s]
+             */
+            end?: number | null;
+            /**
+             * Step
+             * @description from one sample to the next [s]
+             */
+            step?: number | null;
+            /**
+             * Notes
+             * @description what is not as it was, or is missing
+             * @default []
+             */
+            notes: string[];
         };
         /**
          * SceneVehicle
@@ -2371,6 +2425,14 @@ export interface components {
             index: number;
             /** Color */
             color: string;
+        };
+        /**
+         * Shown
+         * @description Whether the scene shows that time now: not when it was set to something else meanwhile.
+         */
+        Shown: {
+            /** Shown */
+            shown: boolean;
         };
         /**
          * SignalCount
@@ -5693,6 +5755,129 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SceneCast"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    scene_time_api_scene_time_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Moment"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Shown"];
                 };
             };
             /** @description The body is no JSON. */

@@ -4,6 +4,7 @@ const PATHS = {
   run: "M7 5l12 7-12 7z",
   pause: "M8 5v14M16 5v14",
   step: "M6 5l8 7-8 7zM18 5v14",
+  back: "M18 5l-8 7 8 7zM6 5v14",
   stop: "M6 6h12v12H6z",
   sun: "M12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8zM12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M19 5l-2 2M7 17l-2 2",
   moon: "M20 14A8 8 0 0 1 10 4a8 8 0 1 0 10 10z",

@@ -11,6 +11,7 @@ import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty } from "../../ui/State";
+import type { Playhead } from "./playhead";
 import classes from "./Studio.module.css";
 
 interface Shared {
@@ -19,6 +20,8 @@ interface Shared {
   duration: number;
   /** The paint of the cars, by name. */
   paints: Readonly<Record<string, string>>;
+  /** Of a run that is played back. */
+  head: Playhead | undefined;
 }
 
 interface Props extends Omit<Shared, "samples"> {
@@ -70,7 +73,7 @@ interface ChartProps extends Shared {
   onChoose: (name: string) => void;
 }
 
-function LiveChart({ name, names, quantities, samples, version, duration, paints, onChoose }: ChartProps) {
+function LiveChart({ name, names, quantities, samples, version, duration, paints, head, onChoose }: ChartProps) {
   const dark = useDark();
   const shown = useMemo(() => drawn(name, names), [name, names]);
   const lines = useMemo(() => linesOf(shown, names, paints, dark), [shown, names, paints, dark]);
@@ -91,6 +94,7 @@ function LiveChart({ name, names, quantities, samples, version, duration, paints
         sync="live"
         duration={duration}
         height={60}
+        head={head}
         lead={<QuantitySelect value={name} quantities={quantities} onChange={onChoose} />}
       />
     </div>

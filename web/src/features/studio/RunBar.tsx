@@ -121,7 +121,7 @@ function Motion({ progress, blocked, onPause, onResume, onStep, onStop }: Props)
         label="Step one tick, 20 ms (.)"
         onClick={onStep}
         reason={isLive(status) ? "" : blocked}
-        disabled={status === "running" || status === "starting" || status === "waiting"}
+        disabled={status !== undefined && status !== "paused"}
       />
       <Press id="stop" icon="stop" label="Stop" onClick={onStop} disabled={!isLive(status)} />
     </ActionIcon.Group>

@@ -12,6 +12,7 @@ import { EventList } from "../../ui/EventList";
 import { Icon } from "../../ui/Icon";
 import { Empty, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
+import { type Playhead, useMoment } from "./playhead";
 import classes from "./Studio.module.css";
 
 interface Props {
@@ -20,9 +21,11 @@ interface Props {
   /** How that run stands now, which the list of runs learns only later. */
   status: Status | undefined;
   events: readonly RunEvent[];
+  /** Of a run that is played back. */
+  head: Playhead | undefined;
 }
 
-export const SidePanel = memo(function SidePanel({ scenario, run, status, events }: Props) {
+export const SidePanel = memo(function SidePanel({ scenario, run, status, events, head }: Props) {
   return (
     <Tabs defaultValue="runs" className={classes.side} keepMounted={false}>
       <Tabs.List>
@@ -44,7 +47,7 @@ export const SidePanel = memo(function SidePanel({ scenario, run, status, events
         <History scenario={scenario} shown={run} status={status} />
       </Tabs.Panel>
       <Tabs.Panel value="events" className={classes.sideBody}>
-        <Events events={events} />
+        <Events events={events} head={head} />
       </Tabs.Panel>
     </Tabs>
   );
@@ -172,7 +175,8 @@ function Setting({ run }: { run: Run }) {
   );
 }
 
-function Events({ events }: { events: readonly RunEvent[] }) {
+function Events({ events, head }: { events: readonly RunEvent[]; head: Playhead | undefined }) {
+  const time = useMoment(head, 0.1);
   if (events.length === 0) {
     return (
       <Empty icon="warning" title="No events yet">
@@ -182,7 +186,7 @@ function Events({ events }: { events: readonly RunEvent[] }) {
   }
   return (
     <ScrollArea className={classes.history} classNames={{ content: classes.historyContent ?? "" }} type="auto">
-      <EventList events={events} />
+      <EventList events={events} now={time} onSeek={head?.seek} />
     </ScrollArea>
   );
 }

@@ -14,6 +14,7 @@ import { type Draft, useDraft } from "./draft";
 import { useFarewell } from "./farewell";
 import { type Form, useForm } from "./form";
 import { LiveCharts } from "./LiveCharts";
+import { usePlayhead } from "./playhead";
 import { ParameterPanel } from "./ParameterPanel";
 import { RunBar } from "./RunBar";
 import { SceneView } from "./SceneView";
@@ -21,6 +22,7 @@ import { SidePanel } from "./SidePanel";
 import classes from "./Studio.module.css";
 import { useShownRun } from "./shown";
 import { useScene } from "./stage";
+import { Timeline } from "./Timeline";
 
 interface Props {
   scenario: string;
@@ -41,10 +43,13 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
   useTakeOver(id, from, update);
   useFarewell(shown.live, run);
-  const scene = useScene(id, draft.changes, shown.live ? run : undefined, form.ok);
-  const space =
-    { paused: control.onResume, running: control.onPause }[shown.progress?.status as string] ?? control.onRun;
-  useShortcuts({ " ": space, ".": control.onStep }, active);
+  const status = shown.progress?.status;
+  const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
+  const playable = over && shown.channels.length > 0;
+  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable);
+  const head = usePlayhead(playable && !scene.settling ? run : undefined, scene);
+  const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
+  useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
   const duration = shown.progress?.duration || form.duration;
 
   return (
@@ -66,6 +71,7 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
           blocked={form.blocked}
         />
       ) : null}
+      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} /> : null}
       <SceneView
         vehicles={scene.vehicles}
         attribution={scene.attribution}
@@ -83,8 +89,9 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
             version={shown.version}
             duration={duration}
             paints={scene.paints}
+            head={head}
           />
-          <SidePanel scenario={id} run={run} status={shown.progress?.status} events={shown.events} />
+          <SidePanel scenario={id} run={run} status={status} events={shown.events} head={head} />
         </div>
       ) : null}
     </div>

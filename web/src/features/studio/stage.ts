@@ -5,21 +5,22 @@ import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useMemo } from "react";
 import { Unreachable } from "../../api/client";
 import * as queries from "../../api/queries";
+import type { Scene } from "../../api/types";
 import type { Changes } from "../../model/run";
 import { notifyError } from "../../ui/notify";
 
-const NO_SCENE = { vehicles: [], attribution: "" };
+const NO_SCENE: Scene = { vehicles: [], attribution: "", begin: null, end: null, step: null, notes: [] };
 
-/** Show the scenario in the 3D scene, or the run that is going; when it ends, its last moment stays. */
-export function useScene(id: string, set: Changes, live: number | undefined, ok: boolean) {
+/** Show the scenario in the 3D scene, or a run: as it goes on, or, when it is `over`, as it was recorded. */
+export function useScene(id: string, set: Changes, run: number | undefined, over: boolean, ok: boolean) {
   // Only what changes the picture is worth building the scene again.
   const visible = useMemo(
     () => Object.fromEntries(Object.entries(set).filter(([path]) => SEEN.test(path))),
     [set],
   );
-  const what = live === undefined ? { scenario: id, set: visible } : { run: live };
-  const [settled] = useDebouncedValue(what, live === undefined ? 400 : 0);
-  const { data = NO_SCENE, error } = useQuery({ ...queries.scene(settled), enabled: ok });
+  const what = run === undefined ? { scenario: id, set: visible } : { run, over };
+  const [settled] = useDebouncedValue(what, run === undefined ? 400 : 0);
+  const { data = NO_SCENE, error, isPlaceholderData } = useQuery({ ...queries.scene(settled), enabled: ok });
   useEffect(() => {
     // That the server is gone stands over the whole page.
     if (error && !(error instanceof Unreachable)) notifyError(error);
@@ -30,7 +31,7 @@ export function useScene(id: string, set: Changes, live: number | undefined, ok:
     () => Object.fromEntries(data.vehicles.map(({ name, color }) => [name, color])),
     [data.vehicles],
   );
-  return { ...data, paints, again };
+  return { ...data, paints, again, settling: isPlaceholderData };
 }
 
 const SEEN = /^(map|vehicles|traffic|script|weather|routes)\b/;

@@ -1,0 +1,184 @@
+"""The playback of a run that is over: where everybody was at any time, from what was recorded.
+
+Vehicles that were not recorded are not there; whoever asks is told who. Between two samples everybody is on the way from one to the other.
+Lights follow their programmes and the script, and what the script brings is where its line says, as long as its entry acted.
+"""
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from math import nan
+from pathlib import Path
+
+import numpy as np
+
+from studio import job
+from studio.errors import Problem, UnknownError
+from studio.execution.brought import Brought, acting_since, turns_of
+from studio.execution.cast import Cast
+from studio.execution.happening import Happening
+from studio.execution.record import Body
+from studio.job import Loaded
+from studio.scenario import file
+from studio.scene import pose
+from studio.server.frame import Frame, blend
+from studio.store import trace
+from studio.store.runs import Row, Runs
+from studio.world.deed import SHOWN
+from studio.world.effect import Lights
+from studio.world.passes import traffic
+from studio.world.setting import Setting
+
+PLACE = ("x", "y", "heading")  # without these nobody can be shown
+POSED = {"x": pose.X, "y": pose.Y, "heading": pose.YAW, "roll": pose.ROLL, "pitch": pose.PITCH, "steering": pose.STEER}
+ROLLING = ("speed", "station")  # wheels turn by the speed; the slope of the road is that at the station
+MOST = 1 << 28  # [bytes] of all poses: of a longer recording every n-th sample is taken
+OTHER = "The map, or a vehicle, is another than it was in this run: what stands around the vehicles may not be what they saw."
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A run: its number, setting, and where its recorded vehicles were, float32[POSE_ROWS, vehicle, sample]."""
+
+    run: int
+    setting: Setting
+    time: np.ndarray
+    poses: np.ndarray
+    columns: np.ndarray  # of the recorded vehicles among all
+    happenings: tuple[Happening, ...]
+    brought: dict[str, Brought]
+    notes: tuple[str, ...]
+
+    def frame(self, time: float) -> Frame:
+        """The picture at a time [s]; before the first and after the last sample that of this."""
+        t = float(np.clip(time, self.time[0], self.time[-1]))
+        return Frame(self.seen(t), self.lights(t), *self.objects(t))
+
+    def seen(self, t: float) -> np.ndarray:
+        """Poses of all vehicles."""
+        i = min(max(int(np.searchsorted(self.time, t, side="right")) - 1, 0), self.time.size - 1)
+        j = min(i + 1, self.time.size - 1)
+        whole = np.zeros((pose.POSE_ROWS, len(self.setting.cars)), np.float32)
+        share = (t - self.time[i]) / (self.time[j] - self.time[i]) if j > i else 1.0
+        before, after = self.poses[:, :, i], self.poses[:, :, j]
+        whole[:, self.columns] = blend(before, after, share)
+        whole[pose.VISIBLE, self.columns] = before[pose.VISIBLE] if share < 1.0 else after[pose.VISIBLE]
+        gone = whole[pose.VISIBLE] == 0.0
+        whole[:, gone] = 0.0
+        return whole
+
+    def lights(self, t: float) -> np.ndarray:
+        """int8[link]: by programme, or as the script had them."""
+        signals, start = self.setting.network.signals, self.setting.scenario.map.signal_start
+        forced, shown = np.full((2, len(signals)), -1)
+        for entry, links, state in self.forced:
+            if acting_since(self.turns.get(entry, ()), t) is not None:
+                forced[links] = state
+        times = np.array([signals.cycle, signals.offset - start])
+        traffic.lights(times, signals.first, signals.count, signals.phase_end, signals.phase_state, forced, shown, t)
+        return shown.astype(np.int8)
+
+    @cached_property
+    def turns(self) -> dict[str, list[Happening]]:
+        """When every entry of the script has begun and ended."""
+        return turns_of(self.happenings)
+
+    @cached_property
+    def forced(self) -> list[tuple[str, np.ndarray, int]]:
+        """The lights that the script had under its hand: by which entry, which, and what they showed."""
+        network = self.setting.network
+        road = np.array([network.lanes[lane].road for lane in network.signals.link_lane])
+        return [
+            (site.name, np.flatnonzero(road == each.road), SHOWN[each.shows])
+            for site in self.setting.sites
+            for each in site.effects
+            if isinstance(each, Lights)
+        ]
+
+    def objects(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """Which objects stand, int8[object], and where they are, float32[3, object]."""
+        found = [self.place(each, t) for each in self.brought.values()]
+        standing = np.array([each is not None for each in found], np.int8)
+        return standing, np.array([each or (nan, nan, nan) for each in found], np.float32).reshape(-1, 3).T
+
+    def place(self, each: Brought, t: float) -> tuple[float, float, float] | None:
+        """Where something was that the script brought; None while it was not there."""
+        since = acting_since(self.turns.get(each.entry, ()), t)
+        return None if since is None else each.after(t - since)
+
+
+def replay(runs: Runs, run: int, path: Path) -> Replay:
+    """Of a run that is over; `path` is where its scenario stands. Raises UnknownError where too little was recorded, or ScenarioError."""
+    row = runs.find(run)
+    loaded = loaded_of(runs, row, path)
+    setting, parquet = job.prepare(loaded), runs.parquet(run)
+    with runs.intact(run, "traces"):
+        about = trace.about_of(parquet)
+        vehicles = checked(row, about["vehicles"], {each["name"] for each in trace.channels(parquet)})
+        columns = channels_of(parquet, vehicles)
+    number = {car.name: i for i, car in enumerate(setting.cars)}
+    known = [name for name in vehicles if name in number]
+    notes = [OTHER] if job.scenario_hash(loaded, setting) != row.scenario_hash else []
+    if missing := len(setting.cars) - len(known):
+        notes.append(f"{missing} of {len(setting.cars)} vehicles were not recorded and are not shown: set recording.traffic.")
+    time = columns["time"]
+    stride = max(4 * pose.POSE_ROWS * len(known) * time.size // MOST + 1, 1)
+    return Replay(
+        run=run,
+        setting=setting,
+        time=time[::stride],
+        poses=poses(time, columns, known, about["cast"], about["bodies"], stride),
+        columns=np.array([number[name] for name in known], dtype=np.int64),
+        happenings=tuple(runs.events(run)),
+        brought=about["brought"],
+        notes=tuple(notes),
+    )
+
+
+def loaded_of(runs: Runs, row: Row, path: Path) -> Loaded:
+    """The scenario as it was run, beside the file that it stems from."""
+    text = json.dumps(runs.document(row)).encode()
+    return job.loaded(file.mapping(text, path.name, "scenario"), path)
+
+
+def checked(row: Row, vehicles: tuple[str, ...], names: set[str]) -> list[str]:
+    """The vehicles of whom is known where they were; raises UnknownError when there is none."""
+    found = [each for each in vehicles if all(f"{each}.{quantity}" in names for quantity in PLACE)]
+    if not found:
+        problem = Problem(
+            "recording.channels", "leaves out where the vehicles were", allowed="with x, y and heading", remedy="run it again"
+        )
+        raise UnknownError(f"Run {row.run} cannot be played back.", [problem])
+    return found
+
+
+def channels_of(parquet: bytes, vehicles: list[str]) -> dict[str, np.ndarray]:
+    """Time and what poses are made of, as far as it was recorded."""
+    known = {each["name"] for each in trace.channels(parquet)}
+    wanted = [f"{vehicle}.{quantity}" for vehicle in vehicles for quantity in (*POSED, *ROLLING)]
+    return trace.read(parquet, [name for name in wanted if name in known])
+
+
+def poses(time: np.ndarray, columns: dict[str, np.ndarray], vehicles: list[str], cast: Cast, bodies: dict[str, Body],
+          stride: int) -> np.ndarray:  # fmt: skip
+    """float32[POSE_ROWS, vehicle, sample] of every n-th sample."""
+    made, none = np.zeros((pose.POSE_ROWS, len(vehicles), time[::stride].size), np.float32), np.zeros(time.size)
+    for v, name in enumerate(vehicles):
+        own = {quantity: columns.get(f"{name}.{quantity}", none) for quantity in (*POSED, *ROLLING)}
+        for quantity, row in POSED.items():
+            made[row, v] = own[quantity][::stride]
+        made[pose.PITCH, v] += slope(own["station"], name, cast)[::stride]
+        made[pose.WHEEL_ANGLE, v] = turned(time, own["speed"], bodies[name].radius)[::stride]
+        made[pose.VISIBLE, v] = np.isfinite(columns[f"{name}.x"])[::stride]
+    return made
+
+
+def slope(station: np.ndarray, name: str, cast: Cast) -> np.ndarray:
+    """Angle of the road [rad] under a vehicle, sample by sample: the picture is flat, and the body stands in it as on the road."""
+    slopes = np.array(cast.ways[cast.manned[name].way].slopes or [0.0])
+    return np.arctan(slopes[np.clip(np.nan_to_num(station), 0, slopes.size - 1).astype(np.int64)])
+
+
+def turned(time: np.ndarray, speed: np.ndarray, radius: float) -> np.ndarray:
+    """Angle [rad] by which wheels that do not slip have turned since the start."""
+    return np.cumsum(np.nan_to_num(speed) * np.diff(time, prepend=time[0])) / radius

@@ -1,0 +1,140 @@
+/** The playhead of a run that is over: one time for the scene, the charts, the events and the clock. */
+
+import { useEffect, useMemo, useSyncExternalStore } from "react";
+import { answer, client } from "../../api/client";
+import type { Scene } from "../../api/types";
+
+export const PACES = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
+
+/** Between two pictures; by a clock and not by what is drawn, so that a slow picture does not slow down the time. */
+const PERIOD_MS = 20;
+
+/** What is asked of the scene while it has not answered: only the newest time counts. */
+interface Asking {
+  busy: boolean;
+  wanted: number | undefined;
+}
+
+export class Playhead {
+  time: number;
+  playing = false;
+  pace = 1;
+  private readonly listeners = new Set<() => void>();
+  private readonly asking: Asking = { busy: false, wanted: undefined };
+  private clock = 0;
+
+  constructor(
+    readonly run: number,
+    readonly begin: number,
+    readonly end: number,
+    readonly step: number,
+    /** Shows a time in the scene. */
+    private readonly show: (run: number, time: number) => Promise<unknown>,
+  ) {
+    this.time = end;
+  }
+
+  readonly subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  /** Go to a time [s]. */
+  readonly seek = (time: number): void => {
+    const next = Math.min(Math.max(time, this.begin), this.end);
+    if (next === this.time) return;
+    this.time = next;
+    this.ask(next);
+    this.tell();
+  };
+
+  /** So many samples on, or back. */
+  readonly move = (samples: number): void => {
+    this.pause();
+    const at = Math.round((this.time - this.begin) / this.step);
+    this.seek(this.begin + (at + samples) * this.step);
+  };
+
+  /** So many seconds on, or back. */
+  readonly jump = (seconds: number): void => this.seek(this.time + seconds);
+
+  readonly toggle = (): void => (this.playing ? this.pause() : this.play());
+
+  readonly choosePace = (pace: number): void => {
+    this.pace = pace;
+    this.tell();
+  };
+
+  /** At the end, from the beginning. */
+  play(): void {
+    if (this.time >= this.end) this.seek(this.begin);
+    this.playing = true;
+    let last = performance.now();
+    this.clock = window.setInterval(() => {
+      const now = performance.now();
+      this.seek(this.time + (this.pace * (now - last)) / 1000);
+      last = now;
+      if (this.time >= this.end) this.pause();
+    }, PERIOD_MS);
+    this.tell();
+  }
+
+  readonly pause = (): void => {
+    if (!this.playing) return;
+    window.clearInterval(this.clock);
+    this.playing = false;
+    this.tell();
+  };
+
+  /** Another question only when the last one is answered: a slow scene skips pictures and stays on time. */
+  private ask(time: number): void {
+    this.asking.wanted = time;
+    if (this.asking.busy) return;
+    this.asking.busy = true;
+    void this.drain();
+  }
+
+  private async drain(): Promise<void> {
+    while (this.asking.wanted !== undefined) {
+      const time = this.asking.wanted;
+      this.asking.wanted = undefined;
+      await this.show(this.run, time).catch(() => undefined);
+    }
+    this.asking.busy = false;
+  }
+
+  private tell(): void {
+    for (const listener of this.listeners) listener();
+  }
+}
+
+const showInScene = (run: number, time: number) => answer(client.PUT("/api/scene/time", { body: { run, time } }));
+
+/** The playhead of the run that the scene plays back; none while it shows something else. */
+export function usePlayhead(run: number | undefined, { begin, end, step }: Scene): Playhead | undefined {
+  const head = useMemo(
+    () =>
+      run === undefined || !isNumber(begin) || !isNumber(end) || !isNumber(step) || end <= begin
+        ? undefined
+        : new Playhead(run, begin, end, step, showInScene),
+    [run, begin, end, step],
+  );
+  useEffect(() => head?.pause, [head]);
+  return head;
+}
+
+const isNumber = (value: number | null | undefined): value is number => typeof value === "number";
+
+const still = () => () => undefined;
+
+/** The time of a playhead, rounded to `grain` [s], so that not every picture is a rendering. */
+export function useMoment(head: Playhead | undefined, grain = 0): number | undefined {
+  const rounded = () => (head === undefined ? undefined : grain ? Math.round(head.time / grain) * grain : head.time);
+  return useSyncExternalStore(head?.subscribe ?? still, rounded);
+}
+
+/** Whether it plays. */
+export const usePlaying = (head: Playhead): boolean => useSyncExternalStore(head.subscribe, () => head.playing);
+
+/** How fast it plays. */
+export const usePace = (head: Playhead): number => useSyncExternalStore(head.subscribe, () => head.pace);
