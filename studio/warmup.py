@@ -30,7 +30,7 @@ from studio.workshop.stage import everything
 
 MODEL, TYRE = "bmw_320i", "smart_175_55r15"
 MOMENT = 0.2  # [s] that a part lasts
-LOOK = 0.5  # [s] between two looks at how far it is
+LOOK = 1.0  # [s] between two looks at how far it is
 ON_THE_RIG, ON_THE_STAGE = "rig", "stage"
 
 
@@ -51,17 +51,19 @@ def do(part: str) -> None:
         everything().advance(10)
     else:
         job.run(job.load(part, {"clock.duration": MOMENT}))
-    sign(part).touch()
+    (sign,) = signs(part)
+    sign.touch()
 
 
-def sign(part: str) -> Path:
-    """The sign that a part has been done with the files as they are."""
-    return compiled.CACHE / f"warm-{digest_of(*sorted(files()))}-{CPU}.{Path(part).stem}"
+def signs(*of: str) -> list[Path]:
+    """The signs that parts have been done with the files as they are."""
+    digest = digest_of(*sorted(files()))
+    return [compiled.CACHE / f"warm-{digest}-{CPU}.{Path(part).stem}" for part in of]
 
 
 def is_warm() -> bool:
     """Whether all parts have been done. What has no machine code then is for kinds of the user's own, and compiled when one calls it."""
-    return all(sign(part).exists() for part in parts())
+    return all(sign.exists() for sign in signs(*parts()))
 
 
 def files() -> set[Path]:
@@ -70,8 +72,8 @@ def files() -> set[Path]:
     Kinds of the user's own are compiled when they first run.
     """
     roots = [Path(__file__), *(each.file for each in registry.every() if each.file)]
-    ours = {path for root in roots for path in closure(root) if path.is_relative_to(PACKAGE)}
-    return {path for path in ours if compiled_functions(path)}
+    found = set().union(*map(closure, roots))
+    return {path for path in found if path.is_relative_to(PACKAGE) and compiled_functions(path)}
 
 
 def missing() -> list[str]:

@@ -117,7 +117,6 @@ function Scrubber({ head, events }: { head: Playhead; events: readonly RunEvent[
       restrictToMarks={false}
       label={(value) => `${formatTime(value)} s`}
       thumbLabel="Time of the playback"
-      thumbProps={{ "aria-valuetext": `${formatTime(time)} s` }}
     />
   );
 }
