@@ -30,6 +30,7 @@ from studio.server.news import ChannelsNews, EndNews, EventNews, Kind, SamplesNe
 from studio.server.worker import Order
 from studio.store.queue import CANCELLED
 from studio.store.runs import LEFT, reopen_runs
+from studio.warmup import is_warm
 
 START_PATIENCE = 600.0  # [s] the first start compiles; the page tells how far it is
 MOST_LIVE = 8  # processes at a time, unless somebody wants it otherwise
@@ -93,7 +94,7 @@ class LiveRun:
     def take_in(self, status: str, reason: str) -> None:
         """Has what was recorded taken into the database, in a process of its own, and waits for that."""
         reopen_runs(self.db).leave(self.run, status, reason)
-        child = Child.begin(worker.take_in, self.db, self.kinds, prepared=True)
+        child = Child.begin(worker.take_in, self.db, self.kinds, prepared=is_warm())
         with suppress(Gone):
             child.hear()
         child.end()
@@ -299,7 +300,7 @@ class Lives:
     def start_spare(self, promised: "Future[Child]") -> None:
         """Starts a process; the first takes a while, and the server may have ended meanwhile."""
         try:
-            process = Child.begin(worker.main, self.first, self.kinds, prepared=True)
+            process = Child.begin(worker.main, self.first, self.kinds, prepared=is_warm())
         except Exception as error:
             promised.set_exception(error)
             return

@@ -113,9 +113,10 @@ def replay(runs: Runs, run: int, path: Path) -> Replay:
     loaded = loaded_of(runs, row, path)
     setting, parquet = job.prepare(loaded), runs.parquet(run)
     with runs.intact(run, "traces"):
-        about = trace.about_of(parquet)
-        vehicles = checked(row, about["vehicles"], {each["name"] for each in trace.channels(parquet)})
-        columns = channels_of(parquet, vehicles)
+        about, names = trace.about_of(parquet), {each["name"] for each in trace.channels(parquet)}
+        vehicles = checked(row, about["vehicles"], names)
+        wanted = [f"{vehicle}.{quantity}" for vehicle in vehicles for quantity in (*POSED, *ROLLING)]
+        columns = trace.read(parquet, [name for name in wanted if name in names])
     number = {car.name: i for i, car in enumerate(setting.cars)}
     known = [name for name in vehicles if name in number]
     notes = [OTHER] if job.scenario_hash(loaded, setting) != row.scenario_hash else []
@@ -150,13 +151,6 @@ def checked(row: Row, vehicles: tuple[str, ...], names: set[str]) -> list[str]:
         )
         raise UnknownError(f"Run {row.run} cannot be played back.", [problem])
     return found
-
-
-def channels_of(parquet: bytes, vehicles: list[str]) -> dict[str, np.ndarray]:
-    """Time and what poses are made of, as far as it was recorded."""
-    known = {each["name"] for each in trace.channels(parquet)}
-    wanted = [f"{vehicle}.{quantity}" for vehicle in vehicles for quantity in (*POSED, *ROLLING)]
-    return trace.read(parquet, [name for name in wanted if name in known])
 
 
 def poses(time: np.ndarray, columns: dict[str, np.ndarray], vehicles: list[str], cast: Cast, bodies: dict[str, Body],

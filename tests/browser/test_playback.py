@@ -33,6 +33,12 @@ def test_a_run_is_played_back(tmp_path, sample):
         time.press("Enter")
         assert shown(client, run, 1.5)
 
+        client.post("/api/scene", json={"scenario": sample.stem}).raise_for_status()  # as from another page
+        assert not client.put("/api/scene/time", json={"run": run, "time": 1.5}).json()["shown"]
+        bar.get_by_role("button", name=re.compile("On by one sample")).click()
+        expect(time).to_have_value("1.52 s")
+        until(lambda: shown(client, run, 1.52), "the run in the scene again")
+
         bar.get_by_role("combobox", name="Pace of the playback").select_option("8")
         bar.get_by_role("button", name="Play (space)").click()
         expect(time).to_have_value("4 s")  # by itself, and there it stops

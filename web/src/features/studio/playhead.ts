@@ -108,16 +108,26 @@ export class Playhead {
   }
 }
 
-const showInScene = (run: number, time: number) => answer(client.PUT("/api/scene/time", { body: { run, time } }));
+/** Shows a time of a run in the scene; when another page has had it show something else, it is told `again` what this one wants. */
+export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<void> {
+  const ask = () => answer(client.PUT("/api/scene/time", { body: { run, time } }));
+  if ((await ask()).shown) return;
+  await again();
+  await ask();
+}
+
+interface Playing extends Pick<Scene, "begin" | "end" | "step"> {
+  again: () => Promise<unknown>;
+}
 
 /** The playhead of the run that the scene plays back; none while it shows something else. */
-export function usePlayhead(run: number | undefined, { begin, end, step }: Scene): Playhead | undefined {
+export function usePlayhead(run: number | undefined, { begin, end, step, again }: Playing): Playhead | undefined {
   const head = useMemo(
     () =>
       run === undefined || !isNumber(begin) || !isNumber(end) || !isNumber(step) || end <= begin
         ? undefined
-        : new Playhead(run, begin, end, step, showInScene),
-    [run, begin, end, step],
+        : new Playhead(run, begin, end, step, (which, time) => showInScene(which, time, again)),
+    [run, begin, end, step, again],
   );
   useEffect(() => head?.pause, [head]);
   return head;

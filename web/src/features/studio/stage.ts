@@ -26,7 +26,7 @@ export function useScene(id: string, set: Changes, run: number | undefined, over
     if (error && !(error instanceof Unreachable)) notifyError(error);
   }, [error]);
   const client = useQueryClient();
-  const again = useCallback(() => void client.refetchQueries({ queryKey: ["scene"], type: "active" }), [client]);
+  const again = useCallback(() => client.refetchQueries({ queryKey: ["scene"], type: "active" }), [client]);
   const paints = useMemo(
     () => Object.fromEntries(data.vehicles.map(({ name, color }) => [name, color])),
     [data.vehicles],
