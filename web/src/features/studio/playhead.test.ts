@@ -36,6 +36,12 @@ describe("the playhead", () => {
     at.move(-1);
     at.move(-1);
     expect(at.time).toBeCloseTo(0.98, 9);
+    at.seek(4.193);
+    at.move(1);
+    expect(at.time).toBeCloseTo(4.2, 9);
+    at.seek(4.193);
+    at.move(-1);
+    expect(at.time).toBeCloseTo(4.18, 9);
   });
 
   it("asks the scene for the newest time only, and for another when that is there", async () => {

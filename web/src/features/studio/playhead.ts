@@ -9,6 +9,9 @@ export const PACES = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
 /** Between two pictures; by a clock and not by what is drawn, so that a slow picture does not slow down the time. */
 const PERIOD_MS = 20;
 
+/** Of a sample: who is nearer to one than this stands on it. */
+const SAME = 1e-3;
+
 /** What is asked of the scene while it has not answered: only the newest time counts. */
 interface Asking {
   busy: boolean;
@@ -48,11 +51,12 @@ export class Playhead {
     this.tell();
   };
 
-  /** So many samples on, or back. */
+  /** So many samples on, or back; from between two the nearer one that way is the first. */
   readonly move = (samples: number): void => {
     this.pause();
-    const at = Math.round((this.time - this.begin) / this.step);
-    this.seek(this.begin + (at + samples) * this.step);
+    const at = (this.time - this.begin) / this.step;
+    const from = samples > 0 ? Math.floor(at + SAME) : Math.ceil(at - SAME);
+    this.seek(this.begin + (from + samples) * this.step);
   };
 
   /** So many seconds on, or back. */
