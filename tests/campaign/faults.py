@@ -31,7 +31,8 @@ from tests.patience import PATIENCE, until
 
 ANSWER_TIME = 1.0  # [s] for the server to tell what it knows while something hangs
 END_TIME = 10.0  # [s] for a server to end at SIGTERM
-AT_REST = 4  # processes: the server, the guard and the worker of the next run, and who cleans up after both
+NEXT_RUN = 2  # processes: a guard and its worker
+SERVANTS = ("multiprocessing.resource_tracker", "multiprocessing.forkserver")  # of the server, for as long as it lives
 OVER = ("done", "failed", "stopped", "killed")
 LONG = {"clock.duration": 60}
 ENDLESS = ("hanging", "deaf", "sleeping", "forking", "stopping")  # have to be stopped
@@ -67,9 +68,24 @@ def nobody_runs(station: Station) -> None:
 
 
 def at_rest(station: Station) -> None:
-    """No more processes are left, in time, than a server has that does nothing."""
+    """No more processes of runs are left, in time, than a server has that does nothing."""
+    until(lambda: station.client.get("/api/info").json()["compiling"] is None, "everything to be compiled")
     with station.within(ORPHAN_TIME, "processes to end"):
-        until(lambda: len(station.family()) <= AT_REST, "processes to end")
+        until(lambda: len(of_runs(station)) <= NEXT_RUN, "processes to end")
+
+
+def of_runs(station: Station) -> list[psutil.Process]:
+    """The processes that have begun with a run, and that of the next: neither the server nor a servant of it."""
+    return [each for each in station.family() if not is_of_the_server(each, station)]
+
+
+def is_of_the_server(process: psutil.Process, station: Station) -> bool:
+    """Whether a process is the server or one that it has once. Who has ended is as good as one."""
+    server = station.process.pid if station.process else 0
+    try:
+        return process.pid == server or (process.ppid() == server and any(each in str(process.cmdline()) for each in SERVANTS))
+    except psutil.Error:
+        return True
 
 
 def answers(station: Station) -> None:
@@ -106,11 +122,7 @@ def workers(station: Station) -> list[psutil.Process]:
     family = station.family()
     parents = {each.ppid() for each in family}
     assert station.process
-    return [
-        each
-        for each in family
-        if each.pid not in parents and each.pid != station.process.pid and "resource_tracker" not in str(each.cmdline())
-    ]
+    return [each for each in family if each.pid not in parents and not is_of_the_server(each, station)]
 
 
 def to_worker(number: int) -> Callable[[Station, random.Random], None]:
@@ -139,6 +151,20 @@ def to_guard(station: Station, chance: random.Random) -> None:
     for each in guards - {station.process.pid}:
         os.kill(each, signal.SIGKILL)
     assert station.over(run) in OVER
+
+
+def to_nursery(station: Station, chance: random.Random) -> None:
+    """kill -9 to whom the processes of runs are split off: a run that goes on ends, and the next has a process again."""
+    quick_run(station)
+    at_rest(station)
+    quick_run(station)
+    run = station.live(set=LONG, pace=5)
+    time.sleep(chance.random())
+    assert station.process
+    [nursery] = [each for each in psutil.Process(station.process.pid).children() if SERVANTS[1] in str(each.cmdline())]
+    nursery.kill()
+    assert station.over(run) in OVER
+    at_rest(station)
 
 
 def to_server(number: int) -> Callable[[Station, random.Random], None]:
@@ -689,6 +715,7 @@ FAULTS = (
         for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGSTOP, signal.SIGSEGV, signal.SIGHUP)
     ),
     Fault("guard: SIGKILL", to_guard),
+    Fault("who runs are split off from: SIGKILL", to_nursery),
     Fault("worker: SIGKILL, and what it had recorded", killed_and_kept, True),
     *(
         Fault(f"server: {each.name}", to_server(each), each == signal.SIGKILL)

@@ -18,9 +18,14 @@ export function useScene(id: string, set: Changes, run: number | undefined, over
     () => Object.fromEntries(Object.entries(set).filter(([path]) => SEEN.test(path))),
     [set],
   );
-  const what = run === undefined ? { scenario: id, set: visible } : { run, over };
+  const what = useMemo(
+    () => (run === undefined ? { scenario: id, set: visible } : { run, over }),
+    [id, visible, run, over],
+  );
   const [settled] = useDebouncedValue(what, run === undefined ? 400 : 0);
-  const { data = NO_SCENE, error, isPlaceholderData } = useQuery({ ...queries.scene(settled), enabled: ok });
+  // That this is in order says nothing about what stood here before.
+  const enabled = ok && settled === what;
+  const { data = NO_SCENE, error, isPlaceholderData } = useQuery({ ...queries.scene(settled), enabled });
   useEffect(() => {
     // That the server is gone stands over the whole page.
     if (error && !(error instanceof Unreachable)) notifyError(error);
@@ -31,7 +36,7 @@ export function useScene(id: string, set: Changes, run: number | undefined, over
     () => Object.fromEntries(data.vehicles.map(({ name, color }) => [name, color])),
     [data.vehicles],
   );
-  return { ...data, paints, again, settling: isPlaceholderData };
+  return { ...data, paints, again, settling: isPlaceholderData || settled !== what };
 }
 
 const SEEN = /^(map|vehicles|traffic|script|weather|routes)\b/;
