@@ -294,11 +294,13 @@ class Lives:
         """Has the process for the next run started, unless one waits already, or is about to; does not wait for it."""
         with self.lock:
             if not self.is_closed and (self.spare is None or is_lost(self.spare)):
-                self.spare = Future()
-                threading.Thread(target=self.start_spare, args=(self.spare,), name="next run", daemon=True).start()
+                lost, self.spare = self.spare, Future()
+                threading.Thread(target=self.start_spare, args=(self.spare, lost), name="next run", daemon=True).start()
 
-    def start_spare(self, promised: "Future[Child]") -> None:
-        """Starts a process; the first takes a while, and the server may have ended meanwhile."""
+    def start_spare(self, promised: "Future[Child]", lost: "Future[Child] | None" = None) -> None:
+        """Starts a process, in place of one that was lost; the first takes a while, and the server may have ended meanwhile."""
+        if lost and lost.exception() is None:
+            lost.result().end(0.0)  # it may live still, when only who it was split off from has gone
         try:
             process = Child.begin(worker.main, self.first, self.kinds, prepared=is_warm())
         except Exception as error:

@@ -715,7 +715,7 @@ FAULTS = (
         for each in (signal.SIGKILL, signal.SIGTERM, signal.SIGSTOP, signal.SIGSEGV, signal.SIGHUP)
     ),
     Fault("guard: SIGKILL", to_guard),
-    Fault("who runs are split off from: SIGKILL", to_nursery),
+    Fault("who runs are split off from: SIGKILL", to_nursery, True),
     Fault("worker: SIGKILL, and what it had recorded", killed_and_kept, True),
     *(
         Fault(f"server: {each.name}", to_server(each), each == signal.SIGKILL)
