@@ -58,8 +58,8 @@ def runs(
         print(f"No run in {db} yet. Try: studio run scenarios/grosser_stern_platoon.yaml")
         return
     print_table(
-        ["run", "scenario", "status", "parent", "seed", "set", "min TTC [s]", "worst hop gain [1]"],
-        [[str(row.run), row.scenario, row.status, str(row.parent or ""), str(row.seed), settings(row.parameters),
+        ["run", "scenario", "status", "verdict", "parent", "seed", "set", "min TTC [s]", "worst hop gain [1]"],
+        [[str(row.run), row.scenario, row.status, row.verdict, str(row.parent or ""), str(row.seed), settings(row.parameters),
           metric_text(row, "min_ttc"), metric_text(row, "worst_hop_gain")] for row in rows],
     )  # fmt: skip
 
@@ -298,6 +298,8 @@ def print_run(row) -> None:
         "scenario": f"{row.scenario}  {row.scenario_hash[:12]}",
         "set": settings(row.parameters) or "nothing, as in the file",
         "parent": str(row.parent or "none"),
+        "verdict": f"{row.verdict}: {row.reason}" if row.reason else row.verdict,
+        "called": ", ".join(each for each in (row.name, *row.tags) if each) or "nothing",
         "seed": str(row.seed),
         "time": f"{text(row.sim_time_s)} s simulated in {text(row.wall_time_s)} s",
         "state": (row.state_hash or "none")[:16],

@@ -16,6 +16,7 @@ Goal = Literal["higher", "lower"] | None
 Over = Literal["done", "stopped", "failed", "cancelled"]
 LiveStatus = Literal["waiting", "starting", "running", "paused", Over]
 RunStatus = Literal["waiting", "running", "done", "failed", "stopped", "killed", "cancelled"]
+VerdictWord = Literal["open", "candidate", "discarded"]
 ImportStatus = Literal["running", "done", "failed", "cancelled"]
 
 
@@ -251,6 +252,39 @@ class Run(BaseModel):
     parameters: dict[str, Any]
     unmet: list[str]
     metrics: dict[str, Metric]
+    verdict: VerdictWord = Field(description="the last that was given")
+    reason: str = Field(description="of that verdict; empty when none was given")
+    name: str = Field(description="that somebody gave it; empty when it has none")
+    tags: list[str]
+
+
+class NewVerdict(BaseModel):
+    """What somebody decides about a run that is over."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    verdict: VerdictWord
+    reason: str = Field(description="why, in one line")
+    who: str = Field("", description="empty for the user of the machine that the server runs on")
+
+
+class Verdict(BaseModel):
+    """What was decided about a run, why, by whom and when."""
+
+    verdict: VerdictWord
+    reason: str
+    who: str
+    when: str = Field(description="UTC (ISO 8601)")
+
+
+class Remark(BaseModel):
+    """What a run is called, what it is found by, and a text about it."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: str = ""
+    tags: list[str] = []
+    note: str = ""
 
 
 class Channel(BaseModel):
@@ -360,6 +394,8 @@ class RunDetail(Run):
     document: dict[str, Any]
     channels: list[Channel]
     events: list[Event]
+    verdicts: list[Verdict] = Field(description="all that were given, the first first")
+    note: str = Field(description="what somebody has written about it")
 
 
 class NewRun(BaseModel):

@@ -27,6 +27,7 @@ from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
 from studio.store.queue import queue
 from studio.store.runs import Runs
+from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
 YAML: dict[int | str, dict[str, Any]] = {
@@ -187,7 +188,21 @@ def run(run: int, kept: KeptRuns) -> answer.RunDetail:
     """One run with its scenario, channels and events."""
     row = kept.find(run)
     events = [answer.event(each) for each in kept.events(run)]
-    return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events)
+    said = {"verdicts": [answer.Verdict(**each.as_json()) for each in verdicts(kept, run)], "note": remark_of(kept, run).note}
+    return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events, **said)
+
+
+@router.post("/runs/{run}/verdicts", status_code=201)
+def judge_run(run: int, new: answer.NewVerdict, kept: KeptRuns) -> answer.Verdict:
+    """Decides about a run that is over: a verdict stands behind those before it, and counts from now on."""
+    return answer.Verdict(**judge(kept, run, new.verdict, new.reason, new.who).as_json())
+
+
+@router.put("/runs/{run}/remark")
+def remark_on_run(run: int, new: answer.Remark, kept: KeptRuns) -> answer.Remark:
+    """Sets name, tags and note of a run."""
+    said = remark(kept, run, name=new.name, tags=new.tags, note=new.note)
+    return answer.Remark(name=said.name, tags=list(said.tags), note=said.note)
 
 
 @router.get("/runs/{run}/trace")

@@ -50,6 +50,7 @@ class Row:
     """A run as it stands in the database. `parameters` are those that were set, by path; `kinds` the digests of all that it used.
 
     `revisions` say what git has told of the folders of its code, each with the digest of its patch. Runs of an older studio have none.
+    `verdict` is the last that was given, with its `reason`; `name` and `tags` are those that somebody gave it.
     """
 
     run: int
@@ -71,6 +72,10 @@ class Row:
     host: str | None = None
     versions: dict[str, str] = field(default_factory=dict)
     revisions: list[dict[str, Any]] = field(default_factory=list)
+    verdict: str = "open"
+    reason: str = ""
+    name: str = ""
+    tags: list[str] = field(default_factory=list)
 
     def as_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -349,8 +354,9 @@ class Runs:
         try:
             with self.looking():
                 rows = [self.seen(row) for row in self.rows(query, (*values, limit))]
-                metrics = self.metrics_of([row["run"] for row in rows])
-            return [row_of(row, metrics.get(row["run"], {})) for row in rows]
+                found = [row["run"] for row in rows]
+                metrics, said = self.metrics_of(found), self.said_of(found)
+            return [row_of(row | UNSAID | said.get(row["run"], {}), metrics.get(row["run"], {})) for row in rows]
         except (LookupError, TypeError) as error:
             problem = Problem(
                 "runs", f"have not the columns that they should have ({short(str(error))})", remedy="take a copy of the database"
@@ -384,6 +390,15 @@ class Runs:
         for row in self.rows(f"select * from metrics where run in ({marks}) order by rowid", runs):
             with self.intact(row["run"], "metrics"):
                 found.setdefault(row["run"], {})[row["name"]] = measured_of(row)
+        return found
+
+    def said_of(self, runs: list[int]) -> dict[int, dict[str, Any]]:
+        """The last verdict of many runs, their names and tags."""
+        marks = ", ".join("?" * len(runs))
+        last = f"select max(rowid) from verdicts where run in ({marks}) group by run"
+        found = {row.pop("run"): row for row in self.rows(f"select run, verdict, reason from verdicts where rowid in ({last})", runs)}
+        for row in self.rows(f"select run, name, tags from remarks where run in ({marks})", runs):
+            found.setdefault(row.pop("run"), {}).update(row)
         return found
 
     def seen(self, row: dict[str, Any]) -> dict[str, Any]:
@@ -562,7 +577,9 @@ def event_of(row: dict[str, Any]) -> Happening:
 
 
 OF_PROCESS = ("process", "process_started", "process_mark")
-STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list}
+STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list, "tags": list}
+VERDICTS = ("open", "candidate", "discarded")  # as verdict.py says them
+UNSAID = {"verdict": VERDICTS[0], "reason": "", "name": "", "tags": "[]"}  # of a run about which nobody has said anything
 
 
 def unpacked(text: str | None, kind: type) -> Any:
@@ -578,8 +595,11 @@ def row_of(row: dict[str, Any], metrics: dict[str, Measured]) -> Row:
     """A Row from the database's row."""
     plain = {key: row[key] for key in row if key not in (*OF_PROCESS, *STRUCTURED)}
     structured = {key: unpacked(row[key], empty) for key, empty in STRUCTURED.items()}
-    damaged = ", ".join(key for key, value in structured.items() if value is None)
+    damaged = [key for key, value in structured.items() if value is None]
+    if plain["verdict"] not in VERDICTS:
+        damaged.append("verdict")
+        plain["verdict"] = VERDICTS[0]
     if damaged:
-        plain["error"] = f"Damaged in the database: {damaged}. {plain['error'] or ''}".strip()
+        plain["error"] = f"Damaged in the database: {', '.join(damaged)}. {plain['error'] or ''}".strip()
     whole: dict[str, Any] = {key: STRUCTURED[key]() if value is None else value for key, value in structured.items()}
     return Row(**plain, **whole, metrics=metrics)

@@ -9,6 +9,8 @@
     messages    run → two Parquet files: what was sent, and what became of it at everybody in range
     kinds       digest → sort, name, the digests of its texts by file; a run has the digests of those that it used
     texts       digest → text                  files of kinds, and patches; equal ones stand once
+    verdicts    run → verdict, reason, who, when; one after another, the last one counts
+    remarks     run → name, tags, note
 
 SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
 """
@@ -23,7 +25,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 5
+LAYOUT = 6
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -91,6 +93,8 @@ TABLES = {
     "pieces": ({"run": int, "column": str, "number": int, "bytes": bytes}, ("run", "column", "number"), (("run", "runs", "run"),)),
     "kinds": ({"digest": str, "kind": str, "name": str, "files": str}, "digest", ()),
     "texts": ({"digest": str, "text": str}, "digest", ()),
+    "verdicts": ({"run": int, "verdict": str, "reason": str, "who": str, "when": str}, None, (("run", "runs", "run"),)),
+    "remarks": ({"run": int, "name": str, "tags": str, "note": str}, "run", (("run", "runs", "run"),)),
 }  # fmt: skip
 
 
@@ -208,6 +212,7 @@ def make_tables(database: Database) -> None:
                 table.add_column(column, columns[column])
         database.table("events").create_index(["run"], if_not_exists=True)
         database.table("runs").create_index(["scenario"], if_not_exists=True)
+        database.table("verdicts").create_index(["run"], if_not_exists=True)
         database.execute(f"pragma user_version = {LAYOUT}")
 
 

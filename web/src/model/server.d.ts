@@ -232,6 +232,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run}/verdicts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Judge Run
+         * @description Decides about a run that is over: a verdict stands behind those before it, and counts from now on.
+         */
+        post: operations["judge_run_api_runs__run__verdicts_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/runs/{run}/remark": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Remark On Run
+         * @description Sets name, tags and note of a run.
+         */
+        put: operations["remark_on_run_api_runs__run__remark_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run}/trace": {
         parameters: {
             query?: never;
@@ -1816,6 +1856,28 @@ export interface components {
             parent?: number | null;
         };
         /**
+         * NewVerdict
+         * @description What somebody decides about a run that is over.
+         */
+        NewVerdict: {
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "open" | "candidate" | "discarded";
+            /**
+             * Reason
+             * @description why, in one line
+             */
+            reason: string;
+            /**
+             * Who
+             * @description empty for the user of the machine that the server runs on
+             * @default
+             */
+            who: string;
+        };
+        /**
          * News
          * @description One message of the socket of a live run.
          */
@@ -2170,6 +2232,27 @@ export interface components {
             type: "refused";
         };
         /**
+         * Remark
+         * @description What a run is called, what it is found by, and a text about it.
+         */
+        Remark: {
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /**
+             * Tags
+             * @default []
+             */
+            tags: string[];
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+        };
+        /**
          * Revision
          * @description What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was.
          */
@@ -2228,6 +2311,24 @@ export interface components {
             metrics: {
                 [key: string]: components["schemas"]["Metric"];
             };
+            /**
+             * Verdict
+             * @description the last that was given
+             * @enum {string}
+             */
+            verdict: "open" | "candidate" | "discarded";
+            /**
+             * Reason
+             * @description of that verdict; empty when none was given
+             */
+            reason: string;
+            /**
+             * Name
+             * @description that somebody gave it; empty when it has none
+             */
+            name: string;
+            /** Tags */
+            tags: string[];
         };
         /**
          * RunDetail
@@ -2272,6 +2373,24 @@ export interface components {
                 [key: string]: components["schemas"]["Metric"];
             };
             /**
+             * Verdict
+             * @description the last that was given
+             * @enum {string}
+             */
+            verdict: "open" | "candidate" | "discarded";
+            /**
+             * Reason
+             * @description of that verdict; empty when none was given
+             */
+            reason: string;
+            /**
+             * Name
+             * @description that somebody gave it; empty when it has none
+             */
+            name: string;
+            /** Tags */
+            tags: string[];
+            /**
              * Kinds
              * @description digests of all kinds that it used, by sort.name
              */
@@ -2300,6 +2419,16 @@ export interface components {
             channels: components["schemas"]["Channel"][];
             /** Events */
             events: components["schemas"]["Event"][];
+            /**
+             * Verdicts
+             * @description all that were given, the first first
+             */
+            verdicts: components["schemas"]["Verdict"][];
+            /**
+             * Note
+             * @description what somebody has written about it
+             */
+            note: string;
         };
         /**
          * SamplesNews
@@ -2522,6 +2651,26 @@ export interface components {
             tagged_lanes: number;
             /** Matching */
             matching: number;
+        };
+        /**
+         * Verdict
+         * @description What was decided about a run, why, by whom and when.
+         */
+        Verdict: {
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "open" | "candidate" | "discarded";
+            /** Reason */
+            reason: string;
+            /** Who */
+            who: string;
+            /**
+             * When
+             * @description UTC (ISO 8601)
+             */
+            when: string;
         };
         /**
          * Wheel
@@ -4026,6 +4175,256 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunDetail"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    judge_run_api_runs__run__verdicts_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewVerdict"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Verdict"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    remark_on_run_api_runs__run__remark_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Remark"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Remark"];
                 };
             };
             /** @description The body is no JSON. */
