@@ -1,7 +1,7 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
-import { type Changes, EXPLAINED, type Filled, isLive, type Queued, type Run, type RunDetail, type Server } from "../model/run";
+import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
 
@@ -45,7 +45,7 @@ export const check = (id: string, set: Changes) =>
 export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
   queryOptions({
     queryKey: ["runs", filter],
-    queryFn: () => answer(client.GET("/api/runs", { params: { query: filter } })) as Promise<Run[]>,
+    queryFn: () => answer(client.GET("/api/runs", { params: { query: filter } })) as Promise<ListedRun[]>,
     refetchInterval: ({ state }) => (state.data?.some(({ status }) => isLive(status)) ? 2000 : 15000),
     placeholderData: keepPreviousData,
   });

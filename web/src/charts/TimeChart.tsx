@@ -4,7 +4,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { type ReactNode, useEffect, useRef, useState, useSyncExternalStore } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { formatTime, withUnit } from "../model/units";
+import { formatFixed, formatTime, withUnit } from "../model/units";
 import classes from "./TimeChart.module.css";
 
 export interface Line {
@@ -290,7 +290,7 @@ function byLabel(lines: readonly Line[]): [string, { line: Line; place: number }
 
 /** Two decimals at all times, so that the legend does not jump. */
 const shown = (value: number | null): string =>
-  value === null ? "–" : value.toFixed(2).replace("-", "\u2212");
+  value === null ? "–" : formatFixed(value, 2);
 
 function Stroke({ color, dashed }: { color: string; dashed: boolean }) {
   return (
