@@ -74,16 +74,28 @@ export const run = (number: number) =>
     refetchInterval: ({ state }) => (isLive(state.data?.status) ? 2000 : false),
   });
 
-export const trace = (number: number, channels: readonly string[], points = 1000) =>
+interface Seen {
+  points?: number;
+  /** From when to when [s]; finer than all of it. */
+  span?: readonly [number, number] | undefined;
+  /** Of a run that goes on: it is asked for again. */
+  grows?: boolean;
+}
+
+export const trace = (number: number, channels: readonly string[], { points = 1000, span, grows = false }: Seen = {}) =>
   queryOptions({
-    queryKey: ["trace", number, channels, points],
+    queryKey: ["trace", number, channels, points, span],
     queryFn: () =>
       answer(
         client.GET("/api/runs/{run}/trace", {
-          params: { path: { run: number }, query: { channels: channels.join(","), points } },
+          params: {
+            path: { run: number },
+            query: { channels: channels.join(","), points, ...(span ? { begin: span[0], end: span[1] } : {}) },
+          },
         }),
       ),
     enabled: channels.length > 0,
+    refetchInterval: grows ? 2000 : false,
     placeholderData: keepPreviousData,
   });
 
