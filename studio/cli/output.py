@@ -32,7 +32,7 @@ def text(value: Any) -> str:
     """A value for people."""
     if value is None:
         return "–"
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+    return f"{value + 0.0:.4g}" if isinstance(value, float) else str(value)  # with zero added there is no -0
 
 
 def signed(value: float | None) -> str:

@@ -161,6 +161,7 @@ def compare(
         [[f"{each['name']} [{each['unit']}]", text(each["a"]), text(each["b"]), signed(each["difference"]),
           {"a": f"run {a}", "b": f"run {b}"}.get(each["better"], each["better"] or "")] for each in result["metrics"]],
     )  # fmt: skip
+    print(result["unranked"] or f"same: differs by less than {100 * result['alike']:g} %")
 
 
 @commands.command()

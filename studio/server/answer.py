@@ -287,6 +287,14 @@ class Remark(BaseModel):
     note: str = ""
 
 
+class ListedRun(Run):
+    """A run among others, with what they can be told apart by."""
+
+    settings: dict[str, Any] = Field(
+        description="the value of every parameter that one of the listed runs has set, as this one had it; none that it has not"
+    )
+
+
 class Channel(BaseModel):
     """A recorded quantity of a vehicle."""
 
@@ -480,7 +488,7 @@ class ParameterDifference(BaseModel):
 
 
 class MetricDifference(BaseModel):
-    """A metric of two runs; `difference` is b - a."""
+    """A metric of two runs; `difference` is b - a. Nothing is `better` where the comparison is unranked, or the metric has no direction."""
 
     name: str
     unit: str
@@ -497,6 +505,8 @@ class Comparison(BaseModel):
 
     a: Run
     b: Run
+    alike: float = Field(description="[1] of the greater value: metrics that differ by less are the same")
+    unranked: str = Field(description="why no metric is better in one of the runs, because one ended early; empty when both are whole")
     parameters: list[ParameterDifference]
     metrics: list[MetricDifference]
 

@@ -27,6 +27,7 @@ from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
 from studio.store.queue import queue
 from studio.store.runs import Runs
+from studio.store.setting import settings
 from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
@@ -158,10 +159,12 @@ def measure_of(kind: Kind) -> answer.Measure:
 
 
 @router.get("/runs")
-def runs(kept: KeptRuns, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.Run]:
-    """Runs, newest first."""
+def runs(kept: KeptRuns, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.ListedRun]:
+    """Runs, newest first, with what they were set to."""
     where, values = ("scenario = ?", [scenario]) if scenario else ("1", [])
-    return [answer.Run(**row.as_json()) for row in kept.select(where=where, values=values, limit=limit)]
+    rows = kept.select(where=where, values=values, limit=limit)
+    had = settings(kept, rows)
+    return [answer.ListedRun(**row.as_json(), settings=had[row.run]) for row in rows]
 
 
 @router.post("/runs", status_code=202)
@@ -211,11 +214,13 @@ def run_trace(
     kept: KeptRuns,
     channels: Annotated[str, Query(description="names, separated by commas")],
     points: Annotated[int, Query(ge=2, le=1_000_000, description="about as many rows are returned; extremes are kept")] = 2000,
+    begin: Annotated[float | None, Query(description="[s] only what came from then on, and one sample before", allow_inf_nan=False)] = None,
+    end: Annotated[float | None, Query(description="[s] only what came until then, and one sample after", allow_inf_nan=False)] = None,
 ) -> answer.Trace:
-    """Selected channels of a run."""
+    """Selected channels of a run, of all of it or between two times: a shorter stretch comes with finer samples."""
     names = [name.strip() for name in channels.split(",") if name.strip()]
     units = {each["name"]: each["unit"] for each in kept.channels(run)}
-    columns = trace.decimate(kept.trace(run, names), points)
+    columns = trace.decimate(trace.between(kept.trace(run, names), begin, end), points)
     values = {name: answer.TraceColumn(unit=units[name], values=plain(columns[name])) for name in names}
     return answer.Trace(time=columns["time"].tolist(), channels=values)
 

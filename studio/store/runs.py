@@ -77,6 +77,11 @@ class Row:
     name: str = ""
     tags: list[str] = field(default_factory=list)
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether it came to its end: metrics of any other were measured over less, and are not to be ranked with those that did."""
+        return self.status == "done"
+
     def as_json(self) -> dict[str, Any]:
         """Plain data."""
         return asdict(self)

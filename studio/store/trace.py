@@ -108,6 +108,14 @@ def read(parquet: bytes, names: list[str]) -> dict[str, np.ndarray]:
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
+def between(columns: dict[str, np.ndarray], begin: float | None, end: float | None) -> dict[str, np.ndarray]:
+    """The rows between two times [s], and one more on either side, so that a curve reaches to the edges of a picture of them."""
+    time = columns["time"]
+    first = 0 if begin is None else max(int(np.searchsorted(time, begin, side="left")) - 1, 0)
+    last = time.size if end is None else int(np.searchsorted(time, end, side="right")) + 1
+    return {name: values[first:last] for name, values in columns.items()}
+
+
 def decimate(columns: dict[str, np.ndarray], points: int) -> dict[str, np.ndarray]:
     """At most about `points` rows: of every bin the rows of each column's least and greatest value are kept.
 

@@ -91,6 +91,10 @@ def test_goals():
         (2.0, 2.0, "lower", "same"),
         (1.0, 2.0, None, None),
         (0.0, 0.0, "higher", "same"),
+        (100.0, 100.25, "higher", "same"),  # chance
+        (100.0, 102.0, "higher", "b"),
+        (-30.0, -30.1, "higher", "same"),
+        (0.0, 3e-17, "lower", "same"),  # rounding
     ],
 )
 def test_better(a, b, goal, better):

@@ -117,6 +117,8 @@ def test_the_same_runs_in_the_database(pair, server):
 def test_list_and_detail(client, pair):
     listed = client.get("/api/runs", params={"scenario": SCENARIO}).json()
     assert [each["run"] for each in listed[:2]] == [pair[1]["run"], pair[0]["run"]] or len(listed) > 2
+    had = {each["run"]: each["settings"].get("applications.platoon.parameters.headway") for each in listed}
+    assert [had[each["run"]] for each in pair] == [0.6, 0.9]  # of the first, which has not set it, as its scenario has it
     detail = client.get(f"/api/runs/{pair[0]['run']}").json()
     assert detail["document"]["clock"]["duration"] == 3
     assert {"name": "follower_1.gap", "unit": "m", "label": "Gap to the car ahead"} in detail["channels"]
@@ -129,6 +131,19 @@ def test_trace_is_decimated_on_request(client, pair):
     assert len(full["channels"]["leader.gap"]["values"]) == 151
     thin = client.get(path, params={"channels": "follower_1.speed", "points": 20}).json()
     assert len(thin["time"]) <= 22
+
+
+def test_a_part_of_a_trace_comes_finer(client, pair):
+    """As many rows for a shorter time, which begin and end a sample beyond it; a time that is none is refused."""
+    path, some = f"/api/runs/{pair[0]['run']}/trace", {"channels": "follower_1.speed", "points": 20}
+    part = client.get(path, params=some | {"begin": 1.0, "end": 1.2}).json()
+    assert part["time"] == pytest.approx([0.98 + 0.02 * i for i in range(13)])
+    assert len(part["channels"]["follower_1.speed"]["values"]) == 13
+    assert client.get(path, params=some | {"begin": 2.9}).json()["time"][-1] == pytest.approx(3.0)
+    assert client.get(path, params=some | {"begin": 2, "end": 1}).json()["time"] == []
+    assert client.get(path, params=some | {"begin": "nan"}).status_code == 422
+    query = {each["name"]: each for each in client.get("/openapi.json").json()["paths"]["/api/runs/{run}/trace"]["get"]["parameters"]}
+    assert "[s]" in query["begin"]["description"] and "[s]" in query["end"]["description"]
 
 
 def test_whom_a_measure_is_about(pair):
@@ -153,6 +168,7 @@ def test_compare(client, pair):
     found = client.get("/api/compare", params={"a": pair[0]["run"], "b": pair[1]["run"]}).json()
     assert [each["path"] for each in found["parameters"]] == ["applications.platoon.parameters.headway"]
     assert {each["better"] for each in found["metrics"]} <= {"a", "b", "same", None}
+    assert found["alike"] == 0.01 and found["unranked"] == ""
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,7 @@ from studio.scenario.schema import json_schema
 from studio.store import trace
 from studio.store.comparison import compare
 from studio.store.runs import event_of, event_row, open_runs
+from studio.store.setting import settings
 from studio.world.table.event import HIT
 from tests.patience import until
 
@@ -65,6 +66,36 @@ def test_comparison(kept):
     assert "clock.duration" not in differing
     gap = next(each for each in result["metrics"] if each["name"] == "min_gap")
     assert gap["difference"] == pytest.approx(gap["b"] - gap["a"]) and gap["unit"] == "m"
+
+
+def test_what_ended_early_is_not_ranked(sample, tmp_path):
+    """A run that was stopped has better metrics of a shorter time; which are not better, and the reason is told."""
+    runs = open_runs(tmp_path / "runs.db")
+    for _ in range(2):
+        job.run(job.load(sample, {"clock.duration": 0.2}), runs=runs)
+    runs.database.conn.execute("update runs set status = 'stopped', sim_time_s = 0.1 where run = 1")
+    runs.database.conn.execute("update metrics set value = 2 * value where run = 1")
+    runs.database.conn.commit()
+    found = compare(runs, 1, 2)
+    assert {each["better"] for each in found["metrics"]} == {None}
+    assert found["unranked"] == "Nothing is ranked: run 1 is stopped at 0.1 s, so it was measured over less than a whole run."
+    assert compare(runs, 2, 2)["unranked"] == ""
+
+
+def test_settings_of_runs_that_have_not_set_them(sample, tmp_path):
+    """Every run has a value of what one of them has set, as its own scenario had it; of what it does not have, none."""
+    runs = open_runs(tmp_path / "runs.db")
+    headway, gain = (f"applications.platoon.parameters.{name}" for name in ("headway", "gap_gain"))
+    short, alone = {"clock.duration": 0.1}, {"applications": {}, "radio.buildings": False}
+    for changes in ({}, {headway: 0.9}, {"applications.platoon.application": "acc", gain: 0.2}, alone):
+        job.run(job.load(sample, short | changes), runs=runs)
+    job.run(job.load(sample, short), seed=7, runs=runs)
+    found = settings(runs, runs.select())
+    assert [found[run].get(headway) for run in (1, 2, 3, 4, 5)] == [0.6, 0.9, 0.6, None, 0.6]
+    assert [found[run].get(gain) for run in (1, 3)] == [None, 0.2]
+    assert [found[run]["radio.buildings"] for run in (1, 4)] == [True, False]
+    assert [found[run].get("applications.platoon.application") for run in (1, 3, 4)] == ["cacc", "acc", None]
+    assert found[1]["clock.duration"] == 0.1 and settings(runs, []) == {}
 
 
 def test_the_schema_is_not_made_again_for_every_difference(sample, tmp_path, monkeypatch):

@@ -1,7 +1,7 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
 import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
-import { type Changes, EXPLAINED, type Filled, isLive, type Queued, type Run, type RunDetail, type Server } from "../model/run";
+import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
 
@@ -45,7 +45,7 @@ export const check = (id: string, set: Changes) =>
 export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
   queryOptions({
     queryKey: ["runs", filter],
-    queryFn: () => answer(client.GET("/api/runs", { params: { query: filter } })) as Promise<Run[]>,
+    queryFn: () => answer(client.GET("/api/runs", { params: { query: filter } })) as Promise<ListedRun[]>,
     refetchInterval: ({ state }) => (state.data?.some(({ status }) => isLive(status)) ? 2000 : 15000),
     placeholderData: keepPreviousData,
   });
@@ -74,16 +74,28 @@ export const run = (number: number) =>
     refetchInterval: ({ state }) => (isLive(state.data?.status) ? 2000 : false),
   });
 
-export const trace = (number: number, channels: readonly string[], points = 1000) =>
+interface Seen {
+  points?: number;
+  /** From when to when [s]; finer than all of it. */
+  span?: readonly [number, number] | undefined;
+  /** Of a run that goes on: it is asked for again. */
+  grows?: boolean;
+}
+
+export const trace = (number: number, channels: readonly string[], { points = 1000, span, grows = false }: Seen = {}) =>
   queryOptions({
-    queryKey: ["trace", number, channels, points],
+    queryKey: ["trace", number, channels, points, span],
     queryFn: () =>
       answer(
         client.GET("/api/runs/{run}/trace", {
-          params: { path: { run: number }, query: { channels: channels.join(","), points } },
+          params: {
+            path: { run: number },
+            query: { channels: channels.join(","), points, ...(span ? { begin: span[0], end: span[1] } : {}) },
+          },
         }),
       ),
     enabled: channels.length > 0,
+    refetchInterval: grows ? 2000 : false,
     placeholderData: keepPreviousData,
   });
 

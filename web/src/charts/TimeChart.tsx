@@ -1,11 +1,13 @@
 /** One quantity over time: a uPlot chart with our own compact legend. */
 
 import { useComputedColorScheme } from "@mantine/core";
-import { type ReactNode, useEffect, useRef, useState, useSyncExternalStore } from "react";
+import { type ReactNode, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { formatTime, withUnit } from "../model/units";
+import { formatFixed, formatNumber, formatTime, withUnit } from "../model/units";
+import { type Limits, limitsOf } from "./limits";
 import classes from "./TimeChart.module.css";
+import type { Span, Zoom } from "./zoom";
 
 export interface Line {
   key: string;
@@ -23,8 +25,10 @@ interface Props {
   data: Columns;
   /** Changes whenever `data` has grown in place. */
   version?: number;
-  /** Charts with the same key share their cursor and zoom. */
+  /** Charts with the same key share their cursor. */
   sync?: string;
+  /** The stretch of time that is shown, which a drag over the plot chooses. */
+  zoom: Zoom;
   /** The time axis reaches at least this far [s]. */
   duration?: number;
   height?: number;
@@ -68,8 +72,10 @@ const LOW = 120;
 
 /** What the chart tells and remembers outside of React's rendering. */
 interface Memory {
-  zoomed: boolean;
-  onCursor: (index: number | null) => void;
+  span: Span | undefined;
+  limits: Limits | undefined;
+  onCursor: (time: number | null) => void;
+  onSpan: (span: Span | undefined) => void;
   /** Puts the line of the playback where it belongs. */
   onDraw: () => void;
 }
@@ -133,15 +139,21 @@ function options(
     legend: { show: false },
     cursor: {
       ...(sync ? { sync: { key: sync, setSeries: false } } : {}),
-      drag: { x: true, y: false },
+      drag: { x: true, y: false, setScale: false },
       points: { size: 6 },
+      bind: {
+        dblclick: () => () => {
+          memory.onSpan(undefined);
+          return null;
+        },
+      },
     },
     scales: {
       x: {
         time: false,
-        range: (_u, low, high) => (memory.zoomed ? [low, high] : [0, Math.max(duration, high ?? 0, 1)]),
+        range: (_u, _low, high) => (memory.span ? [...memory.span] : [0, Math.max(duration, high ?? 0, 1)]),
       },
-      y: { range: (_u, low, high) => padded(low, high) },
+      y: { range: () => padded(memory.limits) },
     },
     axes: [
       { ...axis, size: 24, space: 60, ...(low ? { values: withSecond } : { label: "Time [s]" }) },
@@ -150,29 +162,28 @@ function options(
     series: [{ label: "Time" }, ...lines.map(series)],
     hooks: {
       draw: [() => memory.onDraw()],
-      setCursor: [(chart) => memory.onCursor(chart.cursor.idx ?? null)],
+      setCursor: [(chart) => memory.onCursor(pointedAt(chart))],
       setSelect: [
-        () => {
-          memory.zoomed = true;
+        (chart) => {
+          const { left, width } = chart.select;
+          if (width > 0) memory.onSpan([chart.posToVal(left, "x"), chart.posToVal(left + width, "x")]);
+          chart.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
         },
-      ],
-      ready: [
-        (chart) =>
-          chart.over.addEventListener(
-            "dblclick",
-            () => {
-              memory.zoomed = false;
-            },
-            { capture: true },
-          ),
       ],
     },
   };
 }
 
+/** The time under the pointer, the same in all charts whose cursors go together. */
+function pointedAt(chart: uPlot): number | null {
+  const { left = -1 } = chart.cursor;
+  return left < 0 ? null : chart.posToVal(left, "x");
+}
+
 /** A little air above and below, and never a range without height. */
-function padded(low: number | null, high: number | null): [number, number] {
-  if (low === null || high === null) return [0, 1];
+function padded(limits: Limits | undefined): [number, number] {
+  if (!limits) return [0, 1];
+  const { low, high } = limits;
   const air = Math.max((high - low) * 0.08, Math.abs(high) * 0.02, 0.05);
   return [low >= 0 ? Math.max(-air / 3, low - air) : low - air, high + air];
 }
@@ -184,11 +195,14 @@ function newest(data: Columns): number | null {
 
 const still = () => () => undefined;
 
-/** The sample that is nearest to a time. */
+/** [s] Who is farther from the first and the last sample than this is beyond them. */
+const BEYOND = 0.1;
+
+/** The sample that is nearest to a time; none of a time beyond all samples. */
 function nearest(times: readonly number[], time: number): number | null {
   let low = 0;
   let high = times.length - 1;
-  if (high < 0) return null;
+  if (high < 0 || time < (times[0] as number) - BEYOND || time > (times[high] as number) + BEYOND) return null;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if ((times[middle] as number) > time) high = middle;
@@ -209,12 +223,20 @@ function valueAt(column: Columns[number] | undefined, index: number | null): num
 }
 
 export function TimeChart(props: Props) {
-  const { lines, data, version, title, unit, height = 180, lead, head } = props;
+  const { lines, data, version, title, unit, height = 180, lead, head, zoom } = props;
   const dark = useComputedColorScheme("light") === "dark";
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>(undefined);
   const [cursor, setCursor] = useState<number | null>(null);
-  const memory = useRef<Memory>({ zoomed: false, onCursor: setCursor, onDraw: () => undefined });
+  const [limits, outside, toggle] = useLimits(title, data, version, zoom.span);
+  const memory = useRef<Memory>({
+    span: zoom.span,
+    limits,
+    onCursor: setCursor,
+    onSpan: zoom.choose,
+    onDraw: () => undefined,
+  });
+  Object.assign(memory.current, { span: zoom.span, limits, onSpan: zoom.choose });
   const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark]);
 
   // A chart is rebuilt only when its lines, axes or theme change; samples are set below.
@@ -245,18 +267,15 @@ export function TimeChart(props: Props) {
     [head, shape],
   );
 
-  // The columns grow in place, `version` tells when.
-  useEffect(() => {
-    // New samples must not throw away a zoom made by hand.
-    chart.current?.setData(data as uPlot.AlignedData, !memory.current.zoomed);
-    if (memory.current.zoomed) chart.current?.redraw(true);
-  }, [data, version]);
+  // The columns grow in place, `version` tells when; the scales are asked for their ranges again.
+  useEffect(() => chart.current?.setData(data as uPlot.AlignedData), [data, version, zoom.span, limits]);
 
   const played = useSyncExternalStore(head?.subscribe ?? still, () =>
     head ? Math.round(head.time / GRAIN) * GRAIN : null,
   );
-  const index = cursor ?? (played === null ? newest(data) : nearest(data[0], played));
-  const time = index === null ? undefined : data[0][index];
+  const wanted = cursor ?? played;
+  const index = wanted === null ? newest(data) : nearest(data[0], wanted);
+  const time = wanted ?? (index === null ? undefined : data[0][index]);
   return (
     <figure className={classes.figure} aria-label={`${withUnit(title, unit)} over time`}>
       <figcaption className={classes.legend}>
@@ -273,9 +292,42 @@ export function TimeChart(props: Props) {
             ))}
           </span>
         ))}
+        <Outside limits={outside} whole={limits !== outside} onToggle={toggle} />
+        {zoom.span ? (
+          <button type="button" className={classes.action} onClick={() => zoom.choose(undefined)}>
+            Show all of it
+          </button>
+        ) : null}
       </figcaption>
       <div ref={host} className={classes.plot} style={{ minHeight: height }} />
     </figure>
+  );
+}
+
+/** The limits that are drawn, those without needles, and how to choose between these and all that there is; of another quantity anew. */
+function useLimits(title: string, data: Columns, version: number | undefined, span: Span | undefined) {
+  const [wholeOf, setWholeOf] = useState<string>();
+  const robust = useMemo(() => limitsOf(data, span), [data, version, span]);
+  const whole = useMemo(() => robust && { low: robust.below ?? robust.low, high: robust.above ?? robust.high }, [robust]);
+  const isWhole = wholeOf === title;
+  return [isWhole ? whole : robust, robust, () => setWholeOf(isWhole ? undefined : title)] as const;
+}
+
+/** What lies beyond the axis is told, and seen when it is asked for. */
+function Outside({ limits, whole, onToggle }: { limits: Limits | undefined; whole: boolean; onToggle: () => void }) {
+  const { below, above } = limits ?? {};
+  if (below === undefined && above === undefined) return null;
+  const told = [above === undefined ? "" : `▲ up to ${formatNumber(above)}`, below === undefined ? "" : `▼ down to ${formatNumber(below)}`];
+  return (
+    <button
+      type="button"
+      className={classes.action}
+      aria-pressed={whole}
+      title={whole ? "The axis reaches to the outermost values" : "Short peaks lie beyond the axis: show them"}
+      onClick={onToggle}
+    >
+      {told.filter(Boolean).join(", ")} {whole ? "inside" : "outside"}
+    </button>
   );
 }
 
@@ -290,7 +342,7 @@ function byLabel(lines: readonly Line[]): [string, { line: Line; place: number }
 
 /** Two decimals at all times, so that the legend does not jump. */
 const shown = (value: number | null): string =>
-  value === null ? "–" : value.toFixed(2).replace("-", "\u2212");
+  value === null ? "–" : formatFixed(value, 2);
 
 function Stroke({ color, dashed }: { color: string; dashed: boolean }) {
   return (

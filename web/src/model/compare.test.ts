@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { type MetricDifference, merge, tally, verdict } from "./compare";
+import { differing, type MetricDifference, merge, tally, verdict } from "./compare";
 
 const metric = (part: Partial<MetricDifference>): MetricDifference => ({
   name: "gap",
@@ -31,8 +31,22 @@ describe("the verdict on B", () => {
       worse: 1,
       same: 0,
       "no goal": 0,
+      "not ranked": 0,
       missing: 0,
     });
+  });
+
+  it("is none where a run ended early, whatever the figures say", () => {
+    const why = "Nothing is ranked: run 1 is stopped at 6 s";
+    expect(verdict(metric({ better: null }), why)).toBe("not ranked");
+    expect(tally([metric({}), metric({ a: null })], why)).toMatchObject({ better: 0, "not ranked": 1, missing: 1 });
+  });
+
+  it("tells no difference where only rounding has left one", () => {
+    const left = differing(metric({ a: 0.3, b: 0.30000000000000004, difference: 5e-17, relative: 2e-16 }));
+    expect(left).toEqual({ difference: 0, relative: 0 });
+    expect(differing(metric({ a: 0, b: 1e-17, difference: 1e-17, relative: null }))).toEqual({ difference: 0, relative: 0 });
+    expect(differing(metric({}))).toEqual({ difference: 1, relative: 1 });
   });
 });
 

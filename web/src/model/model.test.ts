@@ -8,6 +8,7 @@ import { resolve } from "./schema";
 import {
   formatDifference,
   formatDuration,
+  formatFixed,
   formatNumber,
   formatRelative,
   formatTime,
@@ -35,6 +36,11 @@ describe("numbers", () => {
       "0",
     ]);
     expect([formatRelative(0.1234), formatRelative(-0.5)]).toEqual(["+12.3 %", "−50 %"]);
+  });
+
+  it("have no sign where they are told as zero", () => {
+    expect([-0.004, -0, 0.004, -0.006].map((value) => formatFixed(value, 2))).toEqual(["0.00", "0.00", "0.00", "−0.01"]);
+    expect([formatTime(-1e-9), formatNumber(-0), formatDifference(-0), formatRelative(-1e-9)]).toEqual(["0.00", "0", "0", "0 %"]);
   });
 
   it("have units, but not the unit one", () => {

@@ -25,6 +25,8 @@ export type Problem = Server["Problem"];
 export type Metric = Server["Metric"];
 export type Goal = Metric["goal"];
 export type Run = Filled<Server["Run"], { parameters: Changes }>;
+/** A run among others; `settings` are the values of everything that one of them has set, as this one had them. */
+export type ListedRun = Filled<Server["ListedRun"], { parameters: Changes; settings: Changes }>;
 /** A run that goes on or waits for its turn. */
 export type Queued = Filled<Server["Queued"], { parameters: Changes }>;
 export type Channel = Server["Channel"];
@@ -41,6 +43,9 @@ const LIVE: ReadonlySet<Status> = new Set<Status>(["waiting", "starting", "runni
 
 /** Whether a run of this status can still change. */
 export const isLive = (status: Status | undefined): boolean => status !== undefined && LIVE.has(status);
+
+/** Whether a run came to its end: whatever else was measured of less, and is not ranked with those that did. */
+export const isWhole = ({ status }: Pick<Run, "status">): boolean => status === "done";
 
 /** The last part of a dotted path: `radio.latency` → `latency`. */
 export const leaf = (path: string): string => path.slice(path.lastIndexOf(".") + 1);

@@ -157,7 +157,7 @@ export interface paths {
         };
         /**
          * Runs
-         * @description Runs, newest first.
+         * @description Runs, newest first, with what they were set to.
          */
         get: operations["runs_api_runs_get"];
         put?: never;
@@ -281,7 +281,7 @@ export interface paths {
         };
         /**
          * Run Trace
-         * @description Selected channels of a run.
+         * @description Selected channels of a run, of all of it or between two times: a shorter stretch comes with finer samples.
          */
         get: operations["run_trace_api_runs__run__trace_get"];
         put?: never;
@@ -842,6 +842,16 @@ export interface components {
         Comparison: {
             a: components["schemas"]["Run"];
             b: components["schemas"]["Run"];
+            /**
+             * Alike
+             * @description [1] of the greater value: metrics that differ by less are the same
+             */
+            alike: number;
+            /**
+             * Unranked
+             * @description why no metric is better in one of the runs, because one ended early; empty when both are whole
+             */
+            unranked: string;
             /** Parameters */
             parameters: components["schemas"]["ParameterDifference"][];
             /** Metrics */
@@ -1221,6 +1231,74 @@ export interface components {
             /** Lane Km */
             lane_km: {
                 [key: string]: number;
+            };
+        };
+        /**
+         * ListedRun
+         * @description A run among others, with what they can be told apart by.
+         */
+        ListedRun: {
+            /** Run */
+            run: number;
+            /** Scenario */
+            scenario: string;
+            /** Scenario Hash */
+            scenario_hash: string;
+            /** Parent */
+            parent: number | null;
+            /** Seed */
+            seed: number;
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "waiting" | "running" | "done" | "failed" | "stopped" | "killed" | "cancelled";
+            /** Error */
+            error: string | null;
+            /** State Hash */
+            state_hash: string | null;
+            /** Code Version */
+            code_version: string;
+            /** Created */
+            created: string;
+            /** Sim Time S */
+            sim_time_s: number | null;
+            /** Wall Time S */
+            wall_time_s: number | null;
+            /** Parameters */
+            parameters: {
+                [key: string]: unknown;
+            };
+            /** Unmet */
+            unmet: string[];
+            /** Metrics */
+            metrics: {
+                [key: string]: components["schemas"]["Metric"];
+            };
+            /**
+             * Verdict
+             * @description the last that was given
+             * @enum {string}
+             */
+            verdict: "open" | "candidate" | "discarded";
+            /**
+             * Reason
+             * @description of that verdict; empty when none was given
+             */
+            reason: string;
+            /**
+             * Name
+             * @description that somebody gave it; empty when it has none
+             */
+            name: string;
+            /** Tags */
+            tags: string[];
+            /**
+             * Settings
+             * @description the value of every parameter that one of the listed runs has set, as this one had it; none that it has not
+             */
+            settings: {
+                [key: string]: unknown;
             };
         };
         /**
@@ -1704,7 +1782,7 @@ export interface components {
         };
         /**
          * MetricDifference
-         * @description A metric of two runs; `difference` is b - a.
+         * @description A metric of two runs; `difference` is b - a. Nothing is `better` where the comparison is unranked, or the metric has no direction.
          */
         MetricDifference: {
             /** Name */
@@ -3690,7 +3768,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Run"][];
+                    "application/json": components["schemas"]["ListedRun"][];
                 };
             };
             /** @description The body is no JSON. */
@@ -4535,6 +4613,10 @@ export interface operations {
                 channels: string;
                 /** @description about as many rows are returned; extremes are kept */
                 points?: number;
+                /** @description [s] only what came from then on, and one sample before */
+                begin?: number | null;
+                /** @description [s] only what came until then, and one sample after */
+                end?: number | null;
             };
             header?: never;
             path: {

@@ -1,9 +1,9 @@
 /** The table of runs: its columns, their order, and which of them say something. */
 
-import { fromSet, unitAt } from "./form";
+import { unitAt } from "./form";
 import { explained, type Measure, titleOf } from "./measure";
-import type { Json, Run } from "./run";
-import { shortNames } from "./run";
+import type { Json, ListedRun } from "./run";
+import { isWhole, shortNames } from "./run";
 import { formatValue, words } from "./units";
 
 export type Group = "run" | "parameters" | "metrics";
@@ -17,13 +17,14 @@ export interface Column {
   name: string;
   /** Numbers stand on the right, so that their digits can be compared. */
   numeric: boolean;
-  value: (run: Run) => Json | undefined;
+  value: (run: ListedRun) => Json | undefined;
+  /** Of a parameter: whether the run has set it; else it is as the run's scenario has it. */
+  isSet?: (run: ListedRun) => boolean;
 }
 
-/** One column for every parameter that any run set. */
-export function parameterColumns(runs: readonly Run[], units: Record<string, string>): Column[] {
-  const set = new Map(runs.map((run) => [run.run, fromSet(run.parameters)]));
-  const paths = [...new Set([...set.values()].flatMap((changes) => Object.keys(changes)))].sort();
+/** One column for every parameter that any run set; every run has its value there, whether it was set or not. */
+export function parameterColumns(runs: readonly ListedRun[], units: Record<string, string>): Column[] {
+  const paths = [...new Set(runs.flatMap(({ settings }) => Object.keys(settings)))].sort();
   const short = shortNames(paths);
   return paths.map((path) => ({
     id: `parameter:${path}`,
@@ -31,15 +32,14 @@ export function parameterColumns(runs: readonly Run[], units: Record<string, str
     title: words(short[path] ?? path),
     unit: unitAt(units, path),
     name: path,
-    numeric: [...set.values()].every(
-      (changes) => changes[path] === undefined || typeof changes[path] === "number",
-    ),
-    value: ({ run }) => set.get(run)?.[path],
+    numeric: runs.every(({ settings }) => settings[path] === undefined || typeof settings[path] === "number"),
+    value: ({ settings }) => settings[path],
+    isSet: ({ parameters }) => Object.keys(parameters).some((set) => set === path || path.startsWith(`${set}.`)),
   }));
 }
 
 /** One column for every metric that any run has; `known` are the server's words for them. */
-export function metricColumns(runs: readonly Run[], known: readonly Measure[]): Column[] {
+export function metricColumns(runs: readonly ListedRun[], known: readonly Measure[]): Column[] {
   const units = new Map(
     runs.flatMap(({ metrics }) => Object.entries(metrics).map(([name, { unit }]) => [name, unit] as const)),
   );
@@ -55,10 +55,10 @@ export function metricColumns(runs: readonly Run[], known: readonly Measure[]): 
 }
 
 /** Whether the runs disagree in this column; a missing value is a value of its own. */
-export function varies(column: Column, runs: readonly Run[]): boolean {
+export function varies(column: Column, runs: readonly ListedRun[]): boolean {
   const first = runs[0];
   if (!first) return false;
-  const text = (run: Run) => JSON.stringify(column.value(run) ?? null);
+  const text = (run: ListedRun) => JSON.stringify(column.value(run) ?? null);
   return runs.some((run) => text(run) !== text(first));
 }
 
@@ -71,17 +71,27 @@ function order(a: Json | undefined, b: Json | undefined): number {
   return formatValue(a).localeCompare(formatValue(b), "en", { numeric: true });
 }
 
-/** Sort by a column; what is missing comes last in both directions, and equals keep their order. */
-export function sorted(runs: readonly Run[], value: Column["value"], descending: boolean): Run[] {
+/** Whether a metric of this run has no place among those of others, since it was measured of less than a whole run. */
+export const isUnranked = ({ group }: Pick<Column, "group">, run: ListedRun): boolean => group === "metrics" && !isWhole(run);
+
+/**
+ * Sort by a column; equals keep their order. Last in both directions come what is missing and, before it, metrics of runs
+ * that ended early.
+ */
+export function sorted(
+  runs: readonly ListedRun[],
+  { group, value }: Pick<Column, "group" | "value">,
+  descending: boolean,
+): ListedRun[] {
+  const rank = (run: ListedRun) => (missing(value(run)) ? 2 : isUnranked({ group }, run) ? 1 : 0);
   return [...runs].sort((one, other) => {
     const [a, b] = [value(one), value(other)];
-    if (missing(a) || missing(b)) return Number(missing(a)) - Number(missing(b));
-    return descending ? order(b, a) : order(a, b);
+    return rank(one) - rank(other) || (descending ? order(b, a) : order(a, b));
   });
 }
 
 /** Runs whose visible text holds every word of the query. */
-export function filtered(runs: readonly Run[], query: string): Run[] {
+export function filtered(runs: readonly ListedRun[], query: string): ListedRun[] {
   const needles = query.toLowerCase().split(/\s+/).filter(Boolean);
   if (needles.length === 0) return [...runs];
   return runs.filter((run) => {
@@ -90,8 +100,8 @@ export function filtered(runs: readonly Run[], query: string): Run[] {
   });
 }
 
-function searchText(run: Run): string {
-  const set = Object.entries(run.parameters).map(([path, value]) => `${path}=${formatValue(value)}`);
+function searchText(run: ListedRun): string {
+  const had = Object.entries(run.settings).map(([path, value]) => `${path}=${formatValue(value)}`);
   return [
     `#${run.run}`,
     run.scenario,
@@ -99,7 +109,7 @@ function searchText(run: Run): string {
     run.error ?? "",
     `seed=${run.seed}`,
     `parent=${run.parent ?? ""}`,
-    ...set,
+    ...had,
   ]
     .join(" ")
     .toLowerCase();

@@ -13,6 +13,12 @@ export function formatNumber(value: number): string {
 
 const signed = (text: string) => text.replace(/^-/, MINUS);
 
+/** A number with so many decimals; what rounds to zero has no sign. */
+export function formatFixed(value: number, decimals: number): string {
+  const text = value.toFixed(decimals);
+  return signed(Number(text) === 0 ? text.replace("-", "") : text);
+}
+
 /** Any value of a document: numbers shortened, nothing as a dash. */
 export function formatValue(value: unknown): string {
   if (value === null || value === undefined || value === "") return "–";
@@ -26,13 +32,14 @@ export function formatDifference(value: number): string {
   return value > 0 ? `+${formatNumber(value)}` : formatNumber(value);
 }
 
-/** A ratio as signed per cent: 0.123 → "+12.3 %". */
+/** A ratio as signed per cent: 0.123 → "+12.3 %"; hundredths of a per cent are the last that are told. */
 export function formatRelative(ratio: number): string {
-  return `${formatDifference(Number((ratio * 100).toPrecision(3)))} %`;
+  const percent = Number((ratio * 100).toPrecision(3));
+  return `${formatDifference(Math.abs(percent) < 1 ? Number(percent.toFixed(2)) : percent)} %`;
 }
 
 /** Simulation time with hundredths, so that one 20 ms tick is seen. */
-export const formatTime = (seconds: number): string => seconds.toFixed(2);
+export const formatTime = (seconds: number): string => formatFixed(seconds, 2);
 
 /** Duration for people: "3.4 s", "2 min 05 s". */
 export function formatDuration(seconds: number): string {

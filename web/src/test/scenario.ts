@@ -1,7 +1,7 @@
 /** A small scenario with everything that a schema made by pydantic can hold. */
 
 import type { KnownKind, Source } from "../model/form";
-import type { Metric, Run, Tree } from "../model/run";
+import type { ListedRun, Metric, Tree } from "../model/run";
 import type { Schema } from "../model/schema";
 
 const range = { type: "number", title: "Reach", unit: "m", minimum: 0 };
@@ -161,8 +161,8 @@ export const metric = (value: number | null, unit: string, goal: Metric["goal"] 
   about: "",
 });
 
-/** A finished run, with whatever is to be different. */
-export const finished = (part: Partial<Run>): Run => ({
+/** A finished run, with whatever is to be different; it has been set to its parameters, and to nothing else. */
+export const finished = (part: Partial<ListedRun>): ListedRun => ({
   run: 1,
   scenario: "test",
   scenario_hash: "",
@@ -178,5 +178,6 @@ export const finished = (part: Partial<Run>): Run => ({
   parameters: {},
   unmet: [],
   metrics: {},
+  settings: part.parameters ?? {},
   ...part,
 });

@@ -8,6 +8,7 @@ import { comparison, runs } from "../../api/queries";
 import type { Comparison } from "../../api/types";
 import { useUnits } from "../../api/units";
 import {
+  differing,
   type MetricDifference,
   type ParameterDifference,
   tally,
@@ -223,20 +224,29 @@ const VERDICTS: Record<Verdict, { color: string; text: string }> = {
   worse: { color: "orange", text: "▼ worse" },
   same: { color: "gray", text: "= same" },
   "no goal": { color: "gray", text: "no goal" },
+  "not ranked": { color: "gray", text: "not ranked" },
   missing: { color: "gray", text: "only one side" },
 };
 
 function Metrics({ comparison: found }: { comparison: Comparison }) {
-  const { metrics } = found;
-  const counts = tally(metrics);
+  const { metrics, unranked, alike } = found;
+  const counts = tally(metrics, unranked);
   return (
     <section className={classes.card} data-testid="compare-metrics">
       <h2>
         Metrics{" "}
-        <Text span size="xs" c="dimmed">
-          B is better in {counts.better}, worse in {counts.worse}, the same in {counts.same}
-        </Text>
+        {unranked ? null : (
+          <Text span size="xs" c="dimmed">
+            B is better in {counts.better}, worse in {counts.worse}, the same in {counts.same}: {formatNumber(100 * alike)} % and less
+            may be chance
+          </Text>
+        )}
       </h2>
+      {unranked ? (
+        <Text size="sm" role="note" mb={6}>
+          {unranked}
+        </Text>
+      ) : null}
       {metrics.length === 0 ? (
         <Text size="sm" c="dimmed">
           Neither run has metrics.
@@ -254,7 +264,7 @@ function Metrics({ comparison: found }: { comparison: Comparison }) {
           </Table.Thead>
           <Table.Tbody>
             {metrics.map((metric) => (
-              <MetricRow key={metric.name} metric={metric} />
+              <MetricRow key={metric.name} metric={metric} unranked={unranked} />
             ))}
           </Table.Tbody>
         </Table>
@@ -263,10 +273,11 @@ function Metrics({ comparison: found }: { comparison: Comparison }) {
   );
 }
 
-function MetricRow({ metric }: { metric: MetricDifference }) {
-  const { name, unit, goal, a, b, difference, relative } = metric;
+function MetricRow({ metric, unranked }: { metric: MetricDifference; unranked: string }) {
+  const { name, unit, goal, a, b } = metric;
+  const { difference, relative } = differing(metric);
   const known = useGlossary().metrics;
-  const found = verdict(metric);
+  const found = verdict(metric, unranked);
   const { color, text } = VERDICTS[found];
   return (
     <Table.Tr data-metric={name} data-verdict={found}>

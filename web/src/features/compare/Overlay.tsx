@@ -6,6 +6,7 @@ import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
 import { run as runQuery, trace } from "../../api/queries";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
+import { useZoom, type Zoom } from "../../charts/zoom";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { merge } from "../../model/compare";
 import { carColors, paintsOf } from "../../model/palette";
@@ -24,6 +25,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
   const other = useQuery(runQuery(b.run));
   const [chosen, setChosen] = useState(["speed", "gap"]);
   const [hidden, setHidden] = useState<string[]>([]);
+  const zoom = useZoom(`${a.run} ${b.run}`);
   const names = useMemo(
     () => [one.data, other.data].map((run) => (run?.channels ?? []).map(({ name }) => name)),
     [one.data, other.data],
@@ -62,6 +64,7 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
               colors={colors}
               had={names}
               hidden={hidden}
+              zoom={zoom}
               lead={
                 <QuantitySelect
                   value={name}
@@ -116,18 +119,19 @@ interface BothProps {
   /** The channels of each run. */
   had: readonly (readonly string[])[];
   hidden: readonly string[];
+  zoom: Zoom;
   lead: ReactNode;
 }
 
-function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, lead }: BothProps) {
+function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, zoom, lead }: BothProps) {
   const channels = useMemo(
     () => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)),
     [name, all, hidden],
   );
   // A run is asked only for what it has recorded.
   const [ofA, ofB] = had.map((known) => channels.filter((channel) => known.includes(channel)));
-  const one = useQuery(trace(a, ofA ?? [], POINTS));
-  const other = useQuery(trace(b, ofB ?? [], POINTS));
+  const one = useQuery(trace(a, ofA ?? [], { points: POINTS, span: zoom.span }));
+  const other = useQuery(trace(b, ofB ?? [], { points: POINTS, span: zoom.span }));
   const lines = useMemo<Line[]>(() => linesOf(channels, colors), [channels, colors]);
   const data = useMemo<Columns>(
     () => merge(one.data ?? NOTHING, other.data ?? NOTHING, channels),
@@ -144,7 +148,7 @@ function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, le
   if (one.isLoading || other.isLoading) return <Loading what="the traces" />;
   return (
     <div className={classes.chart}>
-      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" lead={lead} />
+      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" zoom={zoom} lead={lead} />
     </div>
   );
 }

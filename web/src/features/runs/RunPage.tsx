@@ -8,12 +8,13 @@ import { useGlossary } from "../../api/glossary";
 import { explanations, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
+import { useZoom, type Zoom } from "../../charts/zoom";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
 import { goalsOf, type Wanted } from "../../model/goal";
 import { explained, titleOf } from "../../model/measure";
 import { carColors, paintsOf } from "../../model/palette";
-import type { Metric, RunDetail } from "../../model/run";
+import { isLive, type Metric, type RunDetail } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { EventList } from "../../ui/EventList";
@@ -322,6 +323,7 @@ function Charts({ run }: { run: RunDetail }) {
   const names = useMemo(() => run.channels.map(({ name }) => name), [run.channels]);
   const quantities = recorded(run.channels, useGlossary().channels);
   const [chosen, setChosen] = useState(["speed", "gap"]);
+  const zoom = useZoom(run.run);
   if (names.length === 0)
     return (
       <Empty icon="chart" title="No traces">
@@ -334,6 +336,7 @@ function Charts({ run }: { run: RunDetail }) {
         run={run}
         shown={quantity(name, quantities)}
         all={names}
+        zoom={zoom}
         lead={
           <QuantitySelect
             value={name}
@@ -350,13 +353,14 @@ interface ChartProps {
   run: RunDetail;
   shown: Quantity;
   all: readonly string[];
+  zoom: Zoom;
   lead: ReactNode;
 }
 
-function QuantityChart({ run, shown: { name, label, unit }, all, lead }: ChartProps) {
+function QuantityChart({ run, shown: { name, label, unit }, all, zoom, lead }: ChartProps) {
   const dark = useDark();
   const channels = useMemo(() => drawn(name, all), [name, all]);
-  const { data, error } = useQuery(trace(run.run, channels));
+  const { data, error } = useQuery(trace(run.run, channels, { span: zoom.span, grows: isLive(run.status) }));
   const lines = useMemo<Line[]>(() => {
     const vehicles = vehiclesOf(all);
     const colors = carColors(vehicles, paintsOf(run.document), dark);
@@ -373,7 +377,7 @@ function QuantityChart({ run, shown: { name, label, unit }, all, lead }: ChartPr
   if (!data) return <Loading what="the trace" />;
   return (
     <div className={classes.chart}>
-      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" lead={lead} />
+      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" zoom={zoom} lead={lead} />
     </div>
   );
 }

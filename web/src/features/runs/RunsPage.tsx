@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useRef, useState } from "react";
 import { runs } from "../../api/queries";
-import { countByStatus, type Run } from "../../model/run";
+import { countByStatus, type ListedRun } from "../../model/run";
 import { filtered } from "../../model/table";
 import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
@@ -48,7 +48,7 @@ function NoRuns() {
   );
 }
 
-function Listed({ runs: all, view, onView }: Props & { runs: readonly Run[] }) {
+function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[] }) {
   const { q = "", scenario } = view;
   const [selected, setSelected] = useState<number[]>([]);
   const search = useRef<HTMLInputElement>(null);
@@ -141,7 +141,7 @@ function CompareButton({ selected }: { selected: readonly number[] }) {
   );
 }
 
-function Counts({ runs: all }: { runs: readonly Run[] }) {
+function Counts({ runs: all }: { runs: readonly ListedRun[] }) {
   return (
     <Group gap={6} data-testid="status-counts">
       {countByStatus(all).map(([status, count]) => (

@@ -14,9 +14,9 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
 import { useGlossary } from "../../api/glossary";
 import { useUnits } from "../../api/units";
-import type { Json, Run } from "../../model/run";
-import { type Column, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
-import { formatMoment, formatNumber, formatValue, withUnit } from "../../model/units";
+import type { Json, ListedRun } from "../../model/run";
+import { type Column, isUnranked, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
+import { formatMoment, formatNumber, formatTime, formatValue, withUnit } from "../../model/units";
 import { Icon } from "../../ui/Icon";
 import { useRowFocus } from "../../ui/row";
 import { StatusBadge } from "../../ui/StatusBadge";
@@ -96,14 +96,14 @@ const FIXED: Column[] = [
 /** These say what a row is, so they stay even when all rows agree. */
 const ALWAYS = new Set(["run", "status", "created"]);
 
-const GROUP_TITLES = { run: "Run", parameters: "Parameters that were set", metrics: "Metrics" };
+const GROUP_TITLES = { run: "Run", parameters: "Parameters that some run has set", metrics: "Metrics" };
 
 const features = tableFeatures({ rowSortingFeature, columnVisibilityFeature });
 
 interface Props {
-  runs: readonly Run[];
+  runs: readonly ListedRun[];
   /** The runs without the text filter, from which the columns are made. */
-  all: readonly Run[];
+  all: readonly ListedRun[];
   view: RunsView;
   onView: (view: RunsView) => void;
   selected: readonly number[];
@@ -123,7 +123,7 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
     features,
     data,
     columns: useMemo(() => grouped(columns), [columns]),
-    getRowId: (run: Run) => String(run.run),
+    getRowId: (run: ListedRun) => String(run.run),
     manualSorting: true,
     enableMultiSort: false,
     state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false) },
@@ -220,7 +220,7 @@ function Gap({ height, width }: { height: number; width: number }) {
   ) : null;
 }
 
-function grouped(columns: readonly Column[]): ColumnDef<typeof features, Run>[] {
+function grouped(columns: readonly Column[]): ColumnDef<typeof features, ListedRun>[] {
   const groups = (["run", "parameters", "metrics"] as const).map((group) => ({
     id: group,
     header: GROUP_TITLES[group],
@@ -229,7 +229,7 @@ function grouped(columns: readonly Column[]): ColumnDef<typeof features, Run>[] 
       .map(({ id, title, value }) => ({
         id,
         header: title,
-        accessorFn: (run: Run) => value(run) ?? undefined,
+        accessorFn: (run: ListedRun) => value(run) ?? undefined,
       })),
   }));
   return groups.filter(({ columns: own }) => own.length > 0);
@@ -237,7 +237,7 @@ function grouped(columns: readonly Column[]): ColumnDef<typeof features, Run>[] 
 
 function visibility(
   columns: readonly Column[],
-  runs: readonly Run[],
+  runs: readonly ListedRun[],
   varyingOnly: boolean,
 ): Record<string, boolean> {
   return Object.fromEntries(
@@ -258,12 +258,12 @@ const writeSort = ([first]: SortingState): string | undefined =>
   first ? `${first.desc ? "-" : ""}${first.id}` : undefined;
 
 function ordered(
-  runs: readonly Run[],
+  runs: readonly ListedRun[],
   columns: readonly Column[],
   sort: SortingState[number] | undefined,
-): Run[] {
+): ListedRun[] {
   const column = columns.find(({ id }) => id === sort?.id);
-  return column && sort ? sorted(runs, column.value, sort.desc) : [...runs];
+  return column && sort ? sorted(runs, column, sort.desc) : [...runs];
 }
 
 interface HeaderProps {
@@ -292,7 +292,7 @@ function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
 }
 
 interface RowProps {
-  run: Run;
+  run: ListedRun;
   index: number;
   columns: readonly Column[];
   selected: boolean;
@@ -341,7 +341,7 @@ function RunRow({ run, index, columns, selected, onToggle }: RowProps) {
   );
 }
 
-function Cell({ column, run }: { column: Column; run: Run }) {
+function Cell({ column, run }: { column: Column; run: ListedRun }) {
   const value: Json | undefined = column.value(run);
   switch (column.id) {
     case "run":
@@ -355,10 +355,28 @@ function Cell({ column, run }: { column: Column; run: Run }) {
     case "sim_time":
       return run.sim_time_s === null ? "–" : formatNumber(Number(run.sim_time_s.toFixed(2)));
     default:
-      return value === null || value === undefined ? (
-        <span className={classes.none}>–</span>
-      ) : (
-        formatValue(value)
-      );
+      if (value === null || value === undefined) return <span className={classes.none}>–</span>;
+      if (isUnranked(column, run)) return <Early run={run} value={value} />;
+      return column.isSet?.(run) === false ? <Default value={value} /> : formatValue(value);
   }
+}
+
+/** What was measured of a run that ended early stands there, but with no place among the others. */
+function Early({ run, value }: { run: ListedRun; value: Json }) {
+  const until = run.sim_time_s === null ? "" : ` until ${formatTime(run.sim_time_s)} s`;
+  return (
+    <span className={classes.early} title={`Not ranked: the run is ${run.status}, and was measured only${until}`}>
+      {formatValue(value)} <small>{run.status}</small>
+    </span>
+  );
+}
+
+/** What a run has not set is as its scenario has it. */
+function Default({ value }: { value: Json }) {
+  return (
+    <span className={classes.default} title="Not set: as the run's scenario has it">
+      {formatValue(value)}
+      <VisuallyHidden> (not set)</VisuallyHidden>
+    </span>
+  );
 }

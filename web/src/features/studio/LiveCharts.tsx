@@ -3,6 +3,7 @@
 import { useMemo } from "react";
 import { useGlossary } from "../../api/glossary";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
+import type { Zoom } from "../../charts/zoom";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { carColors } from "../../model/palette";
 import type { Channel } from "../../model/run";
@@ -22,6 +23,7 @@ interface Shared {
   paints: Readonly<Record<string, string>>;
   /** Of a run that is played back. */
   head: Playhead | undefined;
+  zoom: Zoom;
 }
 
 interface Props extends Omit<Shared, "samples"> {
@@ -73,7 +75,7 @@ interface ChartProps extends Shared {
   onChoose: (name: string) => void;
 }
 
-function LiveChart({ name, names, quantities, samples, version, duration, paints, head, onChoose }: ChartProps) {
+function LiveChart({ name, names, quantities, samples, version, duration, paints, head, zoom, onChoose }: ChartProps) {
   const dark = useDark();
   const shown = useMemo(() => drawn(name, names), [name, names]);
   const lines = useMemo(() => linesOf(shown, names, paints, dark), [shown, names, paints, dark]);
@@ -95,6 +97,7 @@ function LiveChart({ name, names, quantities, samples, version, duration, paints
         duration={duration}
         height={60}
         head={head}
+        zoom={zoom}
         lead={<QuantitySelect value={name} quantities={quantities} onChange={onChoose} />}
       />
     </div>

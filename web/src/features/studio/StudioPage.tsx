@@ -5,6 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { memo, useState } from "react";
 import * as queries from "../../api/queries";
+import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
 import { isLive, type RunDetail } from "../../model/run";
 import { Failure, Loading } from "../../ui/State";
@@ -39,7 +40,8 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
   const [charted, chart] = useState(["speed", "gap"]);
-  const shown = useShownRun(run, charted);
+  const zoom = useZoom(run);
+  const shown = useShownRun(run, charted, zoom.span);
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
   useTakeOver(id, from, update);
   useFarewell(shown.live, run);
@@ -90,6 +92,7 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
             duration={duration}
             paints={scene.paints}
             head={head}
+            zoom={zoom}
           />
           <SidePanel scenario={id} run={run} status={status} events={shown.events} head={head} />
         </div>

@@ -4,6 +4,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useEffect, useMemo, useState } from "react";
 import { type LiveState, useLive } from "../../api/live";
 import * as queries from "../../api/queries";
+import type { Span } from "../../charts/zoom";
 import { drawn } from "../../model/channel";
 import { isLive, type RunDetail } from "../../model/run";
 import type { Samples } from "../../model/samples";
@@ -13,7 +14,7 @@ import type { Progressing } from "./RunBar";
 const NONE: never[] = [];
 
 /** The run in the address: its live state while it goes, its stored trace of what the charts show otherwise. */
-export function useShownRun(run: number | undefined, charted: readonly string[]) {
+export function useShownRun(run: number | undefined, charted: readonly string[], span: Span | undefined) {
   const stored = useQuery({ ...queries.run(run ?? 0), enabled: run !== undefined });
   const detail = run === undefined ? undefined : stored.data;
   const [followed, follow] = useState<number>();
@@ -27,7 +28,7 @@ export function useShownRun(run: number | undefined, charted: readonly string[])
   useEffect(() => {
     if (lost) follow(undefined);
   }, [lost]);
-  const samples = useStoredSamples(live ? undefined : detail, charted);
+  const samples = useStoredSamples(live ? undefined : detail, charted, span);
   return {
     live,
     detail,
@@ -60,11 +61,15 @@ const fromStored = ({ run, status, sim_time_s, error, document }: RunDetail): Pr
 });
 
 /** The trace of a finished run in the same shape as live samples. */
-function useStoredSamples(run: RunDetail | undefined, charted: readonly string[]): Samples | undefined {
+function useStoredSamples(
+  run: RunDetail | undefined,
+  charted: readonly string[],
+  span: Span | undefined,
+): Samples | undefined {
   const finished = run !== undefined && !isLive(run.status);
   const names = finished ? run.channels.map(({ name }) => name) : NONE;
   const channels = charted.flatMap((quantity) => drawn(quantity, names));
-  const { data } = useQuery(queries.trace(run?.run ?? 0, channels));
+  const { data } = useQuery(queries.trace(run?.run ?? 0, channels, { span }));
   return useMemo(() => {
     if (!finished || !data) return undefined;
     const columns = Object.entries(data.channels).map(([name, { values }]) => [name, values] as const);
