@@ -1,6 +1,6 @@
 /** Everything the page reads from the server, with the keys under which it is kept. */
 
-import { keepPreviousData, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
+import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
@@ -81,6 +81,30 @@ interface Seen {
   /** Of a run that goes on: it is asked for again. */
   grows?: boolean;
 }
+
+/** Decide about a run, for good: a verdict stands behind those before it. */
+export function useJudge() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: ({ run: number, ...body }: { run: number } & Filled<Server["NewVerdict"], { who: string }>) =>
+      answer(client.POST("/api/runs/{run}/verdicts", { params: { path: { run: number } }, body })),
+    onSettled: (_answer, _error, { run: number }) => said(kept, number),
+  });
+}
+
+/** Set name, tags and note of a run. */
+export function useRemark() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: ({ run: number, ...body }: { run: number } & Required<Server["Remark"]>) =>
+      answer(client.PUT("/api/runs/{run}/remark", { params: { path: { run: number } }, body })),
+    onSettled: (_answer, _error, { run: number }) => said(kept, number),
+  });
+}
+
+/** Something was said of a run: it and the table are asked anew. */
+const said = (kept: QueryClient, number: number) =>
+  Promise.all([["runs"], ["run", number]].map((queryKey) => kept.invalidateQueries({ queryKey })));
 
 export const trace = (number: number, channels: readonly string[], { points = 1000, span, grows = false }: Seen = {}) =>
   queryOptions({

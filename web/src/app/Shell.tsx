@@ -239,6 +239,7 @@ const KEYS: [string[], string][] = [
   [["g", "k"], "Go to the kinds"],
   [["↑", "↓", "j", "k"], "Move between rows of the runs or of the queue"],
   [["x"], "Select a row to compare"],
+  [["c", "d"], "Make a run a candidate, or discard it, with a reason"],
   [["enter"], "Open the run of a row"],
   [["+", "−"], "Enlarge or reduce the plan of a map"],
   [["f"], "Show all of the plan"],

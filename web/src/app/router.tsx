@@ -38,11 +38,12 @@ export const studioRoute = createRoute({
 const runsRoute = createRoute({
   getParentRoute: () => root,
   path: "/runs",
-  validateSearch: ({ scenario, q, sort, varying }: Record<string, unknown>): RunsView => ({
+  validateSearch: ({ scenario, q, sort, varying, only }: Record<string, unknown>): RunsView => ({
     scenario: text(scenario),
     q: text(q),
     sort: text(sort),
     varying: varying === false ? false : undefined,
+    only: text(only),
   }),
   component: function Runs() {
     const navigate = useNavigate();

@@ -64,8 +64,11 @@ export function shortNames(paths: readonly string[]): Record<string, string> {
 }
 
 /** How many runs there are of each status, most frequent first. */
-export function countByStatus(runs: readonly Run[]): [Status, number][] {
-  const counts = new Map<Status, number>();
-  for (const { status } of runs) counts.set(status, (counts.get(status) ?? 0) + 1);
+export const countByStatus = (runs: readonly Run[]): [Status, number][] => countBy(runs, ({ status }) => status);
+
+/** How many there are of each word, most frequent first. */
+export function countBy<Item, Word>(items: readonly Item[], wordOf: (item: Item) => Word): [Word, number][] {
+  const counts = new Map<Word, number>();
+  for (const word of items.map(wordOf)) counts.set(word, (counts.get(word) ?? 0) + 1);
   return [...counts].sort((a, b) => b[1] - a[1]);
 }

@@ -178,6 +178,10 @@ export const finished = (part: Partial<ListedRun>): ListedRun => ({
   parameters: {},
   unmet: [],
   metrics: {},
+  verdict: "open",
+  reason: "",
+  name: "",
+  tags: [],
   settings: part.parameters ?? {},
   ...part,
 });

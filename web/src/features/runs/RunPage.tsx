@@ -24,7 +24,9 @@ import { Path } from "../../ui/Path";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
+import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
+import { VerdictCard } from "./VerdictCard";
 
 export function RunPage({ run }: { run: number }) {
   const { data, error, refetch } = useQuery(runQuery(run));
@@ -41,8 +43,9 @@ function Detail({ run }: { run: RunDetail }) {
           Run #{run.run}
         </Title>
         <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />
+        <VerdictBadge verdict={run.verdict} reason={run.reason} />
         <Text c="dimmed" size="sm">
-          {run.scenario}
+          {run.name ? `${run.name}, ${run.scenario}` : run.scenario}
         </Text>
         <Ways run={run} />
       </header>
@@ -52,6 +55,9 @@ function Detail({ run }: { run: RunDetail }) {
             <pre className={classes.trace}>{run.error}</pre>
           </Card>
         ) : null}
+        <Card title="Verdict">
+          <VerdictCard run={run} />
+        </Card>
         <Card title="Metrics">
           <Metrics metrics={run.metrics} unmet={run.unmet} />
         </Card>

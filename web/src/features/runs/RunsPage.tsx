@@ -1,17 +1,19 @@
 /** All runs in one table: what was set, what came out, and which two to compare. */
 
-import { Badge, Button, Group, Switch, Text, TextInput, Title } from "@mantine/core";
+import { Badge, Button, Group, Modal, Switch, Text, TextInput, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useRef, useState } from "react";
 import { runs } from "../../api/queries";
-import { countByStatus, type ListedRun } from "../../model/run";
+import { countBy, countByStatus, type ListedRun } from "../../model/run";
 import { filtered } from "../../model/table";
+import type { Word } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Runs.module.css";
 import { RunsTable } from "./RunsTable";
+import { VerdictForm } from "./VerdictForm";
 
 /** What the address says about the table. */
 export interface RunsView {
@@ -19,6 +21,8 @@ export interface RunsView {
   q?: string | undefined;
   sort?: string | undefined;
   varying?: boolean | undefined;
+  /** A status or verdict that is shown alone. */
+  only?: string | undefined;
 }
 
 interface Props {
@@ -49,15 +53,17 @@ function NoRuns() {
 }
 
 function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[] }) {
-  const { q = "", scenario } = view;
+  const { q = "", scenario, only } = view;
   const [selected, setSelected] = useState<number[]>([]);
   const search = useRef<HTMLInputElement>(null);
   useShortcuts({ "/": () => search.current?.focus() });
   // A run chosen for comparison stays in the table whatever the filter says.
   const shown = useMemo(() => {
     const hits = new Set(filtered(all, q));
-    return all.filter((run) => hits.has(run) || selected.includes(run.run));
-  }, [all, q, selected]);
+    const is = (run: ListedRun) => hits.has(run) && (!only || run.status === only || run.verdict === only);
+    return all.filter((run) => is(run) || selected.includes(run.run));
+  }, [all, q, only, selected]);
+  const [judged, setJudged] = useState<Judged>();
   const toggle = (run: number) =>
     setSelected(
       selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-2),
@@ -72,7 +78,7 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
         <Text size="sm" c="dimmed">
           {shown.length === all.length ? all.length : `${shown.length} of ${all.length}`}
         </Text>
-        <Counts runs={all} />
+        <Counts runs={all} only={only} onOnly={(next) => onView({ ...view, only: next })} />
         {scenario ? (
           <Button
             size="compact-xs"
@@ -109,18 +115,27 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
       {shown.length === 0 ? (
         <Empty
           icon="search"
-          title={`No run matches “${q}”`}
+          title={`No run matches “${[q, only].filter(Boolean).join(", ")}”`}
           action={
-            <Button size="xs" variant="default" onClick={() => onView({ ...view, q: undefined })}>
+            <Button size="xs" variant="default" onClick={() => onView({ ...view, q: undefined, only: undefined })}>
               Clear the filter
             </Button>
           }
         >
-          The filter looks at the number, scenario, status, error, seed, parent and what was set.
+          The filter looks at the number, scenario, status, error, verdict, name, tags, seed, parent and what was set.
         </Empty>
       ) : (
-        <RunsTable runs={shown} all={all} view={view} onView={onView} selected={selected} onToggle={toggle} />
+        <RunsTable
+          runs={shown}
+          all={all}
+          view={view}
+          onView={onView}
+          selected={selected}
+          onToggle={toggle}
+          onJudge={(run, word) => setJudged({ run, word })}
+        />
       )}
+      <VerdictDialog judged={judged} onChange={setJudged} />
     </div>
   );
 }
@@ -141,12 +156,56 @@ function CompareButton({ selected }: { selected: readonly number[] }) {
   );
 }
 
-function Counts({ runs: all }: { runs: readonly ListedRun[] }) {
+interface Judged {
+  run: ListedRun;
+  word: Word;
+}
+
+/** Decide about a run without leaving the table. */
+function VerdictDialog({ judged, onChange }: { judged: Judged | undefined; onChange: (next: Judged | undefined) => void }) {
+  const close = () => onChange(undefined);
+  return (
+    <Modal opened={judged !== undefined} onClose={close} title={`Verdict on run #${judged?.run.run ?? ""}`} size="md">
+      {judged ? (
+        <VerdictForm
+          run={judged.run}
+          word={judged.word}
+          onWord={(word) => onChange({ ...judged, word })}
+          onDone={close}
+          autoFocus
+        />
+      ) : null}
+    </Modal>
+  );
+}
+
+interface CountsProps {
+  runs: readonly ListedRun[];
+  only: string | undefined;
+  onOnly: (next: string | undefined) => void;
+}
+
+/** How many there are of each status and verdict; pressed, only those are shown. */
+function Counts({ runs: all, only, onOnly }: CountsProps) {
+  const verdicts = countBy(all, ({ verdict }) => verdict).filter(([word]) => word !== "open");
+  const counts: [string, number][] = [...countByStatus(all), ...verdicts];
   return (
     <Group gap={6} data-testid="status-counts">
-      {countByStatus(all).map(([status, count]) => (
-        <Badge key={status} variant="default" size="sm" tt="none">
-          {count} {status}
+      {counts.map(([word, count]) => (
+        <Badge
+          key={word}
+          component="button"
+          type="button"
+          className={classes.chip}
+          variant={word === only ? "light" : "default"}
+          size="sm"
+          tt="none"
+          style={{ cursor: "pointer" }}
+          aria-pressed={word === only}
+          title={word === only ? "Show all runs again" : `Show only what is ${word}`}
+          onClick={() => onOnly(word === only ? undefined : word)}
+        >
+          {count} {word}
         </Badge>
       ))}
     </Group>

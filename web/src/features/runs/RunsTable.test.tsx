@@ -12,13 +12,14 @@ import { RunsTable } from "./RunsTable";
 const ROW = 33; // [px]
 const RUNS = Array.from({ length: 200 }, (_, number) => finished({ run: number }));
 
+const judged: [number, string][] = [];
 let host: HTMLElement;
 let root: Root;
 let sight: Sight;
 
 function Table() {
   return (
-    <RunsTable runs={RUNS} all={RUNS} view={{}} onView={() => {}} selected={[]} onToggle={() => {}} />
+    <RunsTable runs={RUNS} all={RUNS} view={{}} onView={() => {}} selected={[]} onToggle={() => {}} onJudge={(run, word) => judged.push([run.run, word])} />
   );
 }
 
@@ -73,5 +74,16 @@ describe("the keys in the table of runs", () => {
     expect(document.activeElement).toBe(document.body);
     press("ArrowDown");
     expect(focused()).toBe("100");
+  });
+
+  it("decide about the run of the row, and not as the second key of a pair", () => {
+    press("ArrowDown", "j", "c");
+    press("d");
+    expect(judged).toEqual([
+      [2, "candidate"],
+      [2, "discarded"],
+    ]);
+    press("g", "c");
+    expect(judged).toHaveLength(2);
   });
 });

@@ -17,10 +17,12 @@ import { useUnits } from "../../api/units";
 import type { Json, ListedRun } from "../../model/run";
 import { type Column, isUnranked, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
 import { formatMoment, formatNumber, formatTime, formatValue, withUnit } from "../../model/units";
+import type { Word } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
 import { useRowFocus } from "../../ui/row";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { useShortcuts } from "../../ui/shortcut";
+import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
 import type { RunsView } from "./RunsPage";
 
@@ -54,6 +56,33 @@ const FIXED: Column[] = [
     name: "Status",
     numeric: false,
     value: ({ status }) => status,
+  },
+  {
+    id: "verdict",
+    group: "run",
+    title: "Verdict",
+    unit: "",
+    name: "What was decided about it (C: candidate, D: discarded)",
+    numeric: false,
+    value: ({ verdict }) => verdict,
+  },
+  {
+    id: "name",
+    group: "run",
+    title: "Name",
+    unit: "",
+    name: "What it was called",
+    numeric: false,
+    value: ({ name }) => name,
+  },
+  {
+    id: "tags",
+    group: "run",
+    title: "Tags",
+    unit: "",
+    name: "What it is found by",
+    numeric: false,
+    value: ({ tags }) => tags.join(", "),
   },
   {
     id: "parent",
@@ -94,7 +123,7 @@ const FIXED: Column[] = [
 ];
 
 /** These say what a row is, so they stay even when all rows agree. */
-const ALWAYS = new Set(["run", "status", "created"]);
+const ALWAYS = new Set(["run", "status", "verdict", "created"]);
 
 const GROUP_TITLES = { run: "Run", parameters: "Parameters that some run has set", metrics: "Metrics" };
 
@@ -108,9 +137,11 @@ interface Props {
   onView: (view: RunsView) => void;
   selected: readonly number[];
   onToggle: (run: number) => void;
+  /** Somebody wants to decide about a run. */
+  onJudge: (run: ListedRun, word: Word) => void;
 }
 
-export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props) {
+export function RunsTable({ runs, all, view, onView, selected, onToggle, onJudge }: Props) {
   const units = useUnits(all);
   const known = useGlossary().metrics;
   const columns = useMemo(
@@ -145,6 +176,11 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle }: Props
   const keys = useMemo(() => rows.map(({ id }) => id), [rows]);
   const { enter, step } = useRowFocus(scroller, keys, (index) => virtual.scrollToIndex(index));
   useRowKeys(() => enter(virtual.range?.startIndex ?? 0), items.length > 0);
+  const judge = (word: Word) => () => {
+    const run = runs.find((each) => String(each.run) === focusedRun());
+    if (run) onJudge(run, word);
+  };
+  useShortcuts({ c: judge("candidate"), C: judge("candidate"), d: judge("discarded"), D: judge("discarded") });
 
   return (
     <div ref={scroller} className={classes.scroller}>
@@ -207,6 +243,9 @@ function useRowKeys(first: () => void, filled: boolean) {
   }, [filled]);
   useShortcuts({ ArrowDown: first, ArrowUp: first, j: first, k: first, J: first, K: first });
 }
+
+/** The run of the row that has the focus. */
+const focusedRun = () => document.activeElement?.closest<HTMLElement>("tr[data-run]")?.dataset.run;
 
 const byId = (columns: readonly Column[], id: string): Column =>
   columns.find((column) => column.id === id) as Column;
@@ -348,6 +387,8 @@ function Cell({ column, run }: { column: Column; run: ListedRun }) {
       return <b>#{run.run}</b>;
     case "status":
       return <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />;
+    case "verdict":
+      return <VerdictBadge verdict={run.verdict} reason={run.reason} />;
     case "created":
       return formatMoment(run.created);
     case "parent":
