@@ -30,6 +30,7 @@ def test_commands(text, root, tmp_path_factory):
         "run",
         "runs",
         "compare",
+        "verdict",
         "explain",
         "export",
         "queue",
