@@ -9,6 +9,7 @@ The command line, Python, REST and live runs all go through these functions; the
 """
 
 import hashlib
+import json
 import shutil
 import time
 from collections.abc import Callable, Iterator
@@ -116,6 +117,12 @@ def loaded(source: Source, path: Path, changes: dict[str, Any] | None = None) ->
         found = Loaded(path, changes, setup.complete(document, path.name), source, tuple(told))
         check_goals(found)
     return found
+
+
+def loaded_again(runs: Runs, row: Row, path: Path) -> Loaded:
+    """The scenario of a run as it was run, at the place of the file that it stems from. Raises ScenarioError."""
+    text = json.dumps(runs.document(row)).encode()
+    return loaded(file.mapping(text, path.name, "scenario"), path)
 
 
 def check_goals(loaded: Loaded) -> None:

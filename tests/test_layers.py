@@ -21,6 +21,7 @@ FLOORS = [
     {"provenance"},
     {"store"},
     {"job"},
+    {"parcel"},
     {"rig"},
     {"workshop"},
     {"warmup"},

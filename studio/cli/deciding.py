@@ -1,12 +1,16 @@
-"""Commands that say something of runs: verdict, remark."""
+"""Commands that say something of runs, and hand them on: verdict, remark, report, pack, repeat."""
 
+import sys
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from studio.cli.option import DEFAULT_DB, AsJson, Db
+from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, load_kinds
 from studio.cli.output import print_json, print_table
+from studio.cli.progress import compile_first, progress
 from studio.cli.running import existing
+from studio.errors import Problem, StoreError
 
 commands = typer.Typer()
 
@@ -60,3 +64,65 @@ def remark(
         return
     for what, text in (("name", said.name), ("tags", ", ".join(said.tags)), ("note", said.note)):
         print(f"{what}  {text or '-'}")
+
+
+@commands.command()
+def report(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    out: Annotated[Path | None, typer.Option(help="The file; default: run_N.html here.")] = None,
+    db: Db = DEFAULT_DB,
+) -> None:
+    """Writes one page about a run, to be read and printed: verdict, metrics against its parent, charts, events, environment."""
+    from studio.parcel.report import report as page
+
+    target = out or Path(f"run_{run}.html")
+    text = page(existing(db), run)
+    try:
+        target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise StoreError(f"{target} cannot be written.", [Problem("--out", error.strerror or str(error), str(target))]) from None
+    print(target)
+
+
+@commands.command()
+def pack(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    folder: Annotated[Path | None, typer.Argument(help="A new folder; default: run_N here.")] = None,
+    scenarios: Annotated[Path, typer.Option(help="Folder with the scenario that it stems from, for its map.")] = Path("scenarios"),
+    db: Db = DEFAULT_DB,
+    kinds: Kinds = None,
+    as_json: AsJson = False,
+) -> None:
+    """Packs a run with all that it takes to repeat it elsewhere: scenario, map, kinds, row, traces, and a page about it."""
+    from studio.parcel.pack import pack as packed
+
+    load_kinds(kinds)
+    with progress("packing"):
+        parcel = packed(existing(db), run, folder or Path(f"run_{run}"), scenarios)
+    for note in parcel.notes:
+        print(note, file=sys.stderr)
+    print_json({"folder": str(parcel.folder), "files": parcel.files, "notes": parcel.notes}) if as_json else print("\n".join(parcel.files))
+
+
+@commands.command()
+def repeat(
+    folder: Annotated[Path, typer.Argument(help="What `studio pack` has made. Its kinds are loaded, and so is their code.")],
+    as_json: AsJson = False,
+) -> None:
+    """Runs a packed run again and tells whether the bits are the same; ends with 1 when they are not, and says what differs."""
+    from studio.parcel.repeat import repeat as repeated
+
+    compile_first()
+    with progress("running") as share:
+        found = repeated(folder, share)
+    if as_json:
+        print_json(found.as_json())
+    else:
+        print(f"The state at the end has the same bits, {found.found[:16]}." if found.is_same else
+              f"The state at the end is another: {found.found[:16]} and not {found.expected[:16]}.")  # fmt: skip
+        differing = {**found.environment, **found.metrics}
+        print_table(
+            ["what differs", "then", "now"], [[name, str(then), str(now)] for name, (then, now) in differing.items()]
+        ) if differing else None
+    if not found.is_same:
+        raise typer.Exit(1)

@@ -4,7 +4,6 @@ Vehicles that were not recorded are not there; whoever asks is told who. Between
 Lights follow their programmes and the script, and what the script brings is where its line says, as long as its entry acted.
 """
 
-import json
 from dataclasses import dataclass
 from functools import cached_property
 from math import nan
@@ -18,8 +17,6 @@ from studio.execution.brought import Brought, acting_since, turns_of
 from studio.execution.cast import Cast
 from studio.execution.happening import Happening
 from studio.execution.record import Body
-from studio.job import Loaded
-from studio.scenario import file
 from studio.scene import pose
 from studio.server.frame import Frame, blend
 from studio.store import trace
@@ -110,7 +107,7 @@ class Replay:
 def replay(runs: Runs, run: int, path: Path) -> Replay:
     """Of a run that is over; `path` is where its scenario stands. Raises UnknownError where too little was recorded, or ScenarioError."""
     row = runs.find(run)
-    loaded = loaded_of(runs, row, path)
+    loaded = job.loaded_again(runs, row, path)
     setting, parquet = job.prepare(loaded), runs.parquet(run)
     with runs.intact(run, "traces"):
         about, names = trace.about_of(parquet), {each["name"] for each in trace.channels(parquet)}
@@ -134,12 +131,6 @@ def replay(runs: Runs, run: int, path: Path) -> Replay:
         brought=about["brought"],
         notes=tuple(notes),
     )
-
-
-def loaded_of(runs: Runs, row: Row, path: Path) -> Loaded:
-    """The scenario as it was run, beside the file that it stems from."""
-    text = json.dumps(runs.document(row)).encode()
-    return job.loaded(file.mapping(text, path.name, "scenario"), path)
 
 
 def checked(row: Row, vehicles: tuple[str, ...], names: set[str]) -> list[str]:

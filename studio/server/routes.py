@@ -4,13 +4,14 @@ from collections.abc import Iterator
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
 from studio.kind import registry
 from studio.kind.registry import Kind
+from studio.parcel.report import report
 from studio.scenario.schema import Scenario, json_schema
 from studio.scenario.text.document import digest
 from studio.scenario.text.patch import Operation, operations
@@ -34,6 +35,7 @@ from studio.world import channel
 YAML: dict[int | str, dict[str, Any]] = {
     200: {"description": "YAML (RFC 9512)", "content": {"application/yaml": {"schema": {"type": "string"}}}}
 }
+PAGE: dict[int | str, dict[str, Any]] = {200: {"description": "HTML", "content": {"text/html": {"schema": {"type": "string"}}}}}
 TRAJECTORIES: dict[int | str, dict[str, Any]] = {
     200: {"description": "piece by piece", "content": {each: {"schema": {"type": "string"}} for each in MEDIA.values()}}
 }
@@ -234,6 +236,12 @@ def run_trajectories(
 ) -> StreamingResponse:
     """The trajectories of the recorded vehicles for other programs."""
     return StreamingResponse(export(kept, run, form, as_degrees=degrees), media_type=MEDIA[form])
+
+
+@router.get("/runs/{run}/report", response_class=HTMLResponse, responses=PAGE)
+def run_report(run: int, kept: KeptRuns) -> HTMLResponse:
+    """One page about a run, to be kept, read and printed."""
+    return HTMLResponse(report(kept, run), headers={"Content-Disposition": f'attachment; filename="run_{run}.html"'})
 
 
 @router.get("/runs/{run}/explanation")

@@ -101,6 +101,9 @@ function Ways({ run }: { run: RunDetail }) {
           Compare with its parent #{run.parent}
         </Button>
       )}
+      <Button size="xs" variant="default" component="a" href={`/api/runs/${run.run}/report`} download>
+        Report
+      </Button>
       <Button
         size="xs"
         variant="default"
