@@ -55,3 +55,11 @@ def test_what_is_no_verdict_is_refused(studio, body, where):
     assert refused.status_code == 422 and any(where in each["where"] for each in refused.json()["problems"]), refused.text
     assert client.get(f"/api/runs/{run}").json()["verdicts"] == before
     assert client.post("/api/runs/999/verdicts", json={"verdict": "open", "reason": "x"}).status_code == 404
+
+
+def test_the_page_about_a_run_is_kept_as_a_file(studio):
+    client, run = studio
+    answer = client.get(f"/api/runs/{run}/report")
+    assert answer.headers["content-disposition"] == f'attachment; filename="run_{run}.html"' and answer.text.startswith("<!doctype html>")
+    assert client.get(f"/api/runs/{run}").json()["state_hash"] in answer.text
+    assert client.get("/api/runs/999/report").status_code == 404
