@@ -284,8 +284,8 @@ function Control({ id, field, invalid, onChange }: ControlProps) {
         <NativeSelect
           {...shared}
           value={String(field.value ?? "")}
-          data={field.value === null ? ["", ...field.choices] : field.choices}
-          onChange={(event) => onChange(event.currentTarget.value)}
+          data={field.value === null || field.nullable ? ["", ...field.choices] : field.choices}
+          onChange={({ currentTarget: { value } }) => onChange(value === "" && field.nullable ? null : value)}
         />
       );
     case "number":
