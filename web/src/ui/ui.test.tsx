@@ -3,8 +3,9 @@ import { act, type ReactNode } from "react";
 import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { sections } from "../model/form";
-import { source } from "../test/scenario";
+import { metric, source } from "../test/scenario";
 import { ExplanationList } from "./ExplanationList";
+import { MetricList } from "./MetricList";
 import { QuantitySelect } from "./QuantitySelect";
 import { SchemaForm } from "./SchemaForm";
 import { Failure } from "./State";
@@ -65,6 +66,28 @@ describe("why it happened", () => {
       "car 2 knew car 1 by front, 0.10 s old",
       "car 2: platoon had brake",
     ]);
+  });
+});
+
+describe("the metrics of a run", () => {
+  const gap = { ...metric(0.4, "m", "higher"), time: 48.14, kind: "min_gap", about: "follower_2 behind follower_1 at 48.14 s" };
+  const run = { metrics: { tight: gap }, unmet: [], document: { measures: { tight: { kind: "min_gap", begin: { at: 20 } } } } };
+  const known = [{ name: "min_gap", title: "Least gap", unit: "m", goal: "higher" as const, explanation: "Bumper to bumper." }];
+
+  it("say of whom, when, in which window, and what they are; a click on the time goes there", () => {
+    const onSeek = vi.fn();
+    render(<MetricList run={run} known={known} kinds={[]} onSeek={onSeek} />);
+    const text = host.textContent ?? "";
+    for (const told of ["0.4", "follower_2 behind follower_1 at 48.14 s", "Bumper to bumper.", "from 20 s to the end", "min_gap"])
+      expect(text).toContain(told);
+    act(() => host.querySelector("button")?.click());
+    expect(onSeek).toHaveBeenCalledWith(48.14);
+  });
+
+  it("have a time without a button where there is nothing to go to", () => {
+    render(<MetricList run={run} known={known} kinds={[]} />);
+    expect(host.querySelector("button")).toBeNull();
+    expect(host.textContent).toContain("at 48.14 s");
   });
 });
 
