@@ -39,6 +39,17 @@ describe("the form", () => {
     ]);
   });
 
+  it("marks what neither the file nor the user says as a default, with its value", () => {
+    const model = "vehicles.leader.model";
+    expect(field(model)).toMatchObject({ value: "bmw_320i", isDefault: true });
+    expect(field(model, { [model]: "ford_escort" })).toMatchObject({ value: "ford_escort", isDefault: false });
+    expect(field("radio.delay").isDefault).toBe(false);
+    expect(field("applications.platoon.parameters.standstill")).toMatchObject({ value: 2, isDefault: true });
+    const acc = { "applications.platoon.application": "acc" };
+    expect(field("applications.platoon.parameters.standstill", acc)).toMatchObject({ value: 3, isDefault: true });
+    expect(field("applications.platoon.parameters.headway", acc)).toMatchObject({ value: 0.6, isDefault: false });
+  });
+
   it("gives a number its unit, its range and its words", () => {
     expect(field("radio.delay")).toMatchObject({
       label: "Delay",

@@ -29,6 +29,8 @@ export interface Field {
   initial: Json;
   value: Json;
   changed: boolean;
+  /** Neither the file nor the user says it: it is the preset's, or the default. */
+  isDefault: boolean;
 }
 
 /** A kind that may stand in a place. */
@@ -103,7 +105,16 @@ export function sections(source: Source): Section[] {
     : [];
   const place = (path: string) => (ORDER.includes(path) ? ORDER.indexOf(path) : ORDER.length);
   const filled = all.sections.filter((section) => notEmpty(section));
-  return [...filled.sort((a, b) => place(a.path) - place(b.path)), ...general];
+  return marked([...filled.sort((a, b) => place(a.path) - place(b.path)), ...general], source.given);
+}
+
+/** The form with what neither the file nor the user says marked as such. */
+function marked(all: readonly Section[], given: Tree): Section[] {
+  return all.map((section) => ({
+    ...section,
+    fields: section.fields.map((each) => ({ ...each, isDefault: !each.changed && valueAt(given, each.path) === undefined })),
+    sections: marked(section.sections, given),
+  }));
 }
 
 function objectSection(source: Source, path: string, child: Schema, value: Tree): Section {
@@ -207,6 +218,7 @@ function field(path: string, schema: Schema, initial: Json, changes: Changes, em
     initial,
     value,
     changed: !same(value, initial),
+    isDefault: false,
   };
   const minimum = schema.minimum ?? schema.exclusiveMinimum;
   const maximum = schema.maximum ?? schema.exclusiveMaximum;

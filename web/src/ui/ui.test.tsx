@@ -134,6 +134,33 @@ describe("the schema form", () => {
     expect(onChange.mock.lastCall?.[1]).toBe(0.02);
   });
 
+  it("reads a comma as a point and says so, and refuses in words what is no number", () => {
+    show();
+    const input = byTestId("param-radio.delay") as HTMLInputElement;
+    const told = () => host.querySelector('[role="status"]')?.textContent;
+    onChange.mockClear();
+    type(input, "0,9");
+    expect(onChange.mock.lastCall?.[1]).toBe(0.9);
+    show({ "radio.delay": 0.9 });
+    expect(told()).toBe("0,9 is read as 0.9");
+    type(input, "1.234,5");
+    expect(onChange.mock.lastCall?.[1]).toBe(0.02); // as before this was begun
+    show();
+    expect(told()).toContain("“1.234,5” is no number");
+    act(() => input.focus());
+    act(() => input.blur());
+    expect(input.value).toBe("0.02");
+    show({ "radio.delay": 0.3 });
+    expect(told()).toBeUndefined();
+  });
+
+  it("goes up and down by its arrows", () => {
+    show();
+    const input = byTestId("param-radio.delay") as HTMLInputElement;
+    act(() => void input.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true })));
+    expect(onChange.mock.lastCall?.[1]).toBe(0.021);
+  });
+
   it("does not clamp what is out of range, and marks it", () => {
     show({ "radio.delay": 7 });
     expect(byTestId("param-radio.delay")?.value).toBe("7");
