@@ -1223,7 +1223,10 @@ export interface components {
             created: string;
             /** Sim Time S */
             sim_time_s: number | null;
-            /** Wall Time S */
+            /**
+             * Wall Time S
+             * @description [s] of real time that it took, without its pauses
+             */
             wall_time_s: number | null;
             /** Parameters */
             parameters: {
@@ -2276,7 +2279,10 @@ export interface components {
             created: string;
             /** Sim Time S */
             sim_time_s: number | null;
-            /** Wall Time S */
+            /**
+             * Wall Time S
+             * @description [s] of real time that it took, without its pauses
+             */
             wall_time_s: number | null;
             /** Parameters */
             parameters: {
@@ -2319,7 +2325,10 @@ export interface components {
             created: string;
             /** Sim Time S */
             sim_time_s: number | null;
-            /** Wall Time S */
+            /**
+             * Wall Time S
+             * @description [s] of real time that it took, without its pauses
+             */
             wall_time_s: number | null;
             /** Parameters */
             parameters: {

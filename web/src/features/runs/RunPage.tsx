@@ -14,7 +14,7 @@ import { fromSet, unitAt } from "../../model/form";
 import { goalsOf, type Wanted } from "../../model/goal";
 import { explained, titleOf } from "../../model/measure";
 import { carColors, paintsOf } from "../../model/palette";
-import { isLive, type RunDetail } from "../../model/run";
+import { isLive, type RunDetail, untraced } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { EventList } from "../../ui/EventList";
@@ -75,7 +75,9 @@ function Detail({ run }: { run: RunDetail }) {
             <EventList events={run.events} onSeek={isLive(run.status) ? undefined : seek} />
           ) : (
             <Text size="sm" c="dimmed">
-              Nothing noteworthy happened.
+              {isLive(run.status)
+                ? "They are listed here when the run is over; the studio shows them as they come."
+                : "Nothing noteworthy happened."}
             </Text>
           )}
         </Card>
@@ -280,7 +282,7 @@ function Charts({ run }: { run: RunDetail }) {
   if (names.length === 0)
     return (
       <Empty icon="chart" title="No traces">
-        This run recorded nothing.
+        {untraced(run.status)}
       </Empty>
     );
   return chosen.map((name, place) => (

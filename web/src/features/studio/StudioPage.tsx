@@ -38,14 +38,14 @@ interface Props {
 }
 
 export function StudioPage({ scenario: id, run, from, time, active }: Props) {
-  const [draft, update] = useDraft(id);
+  const [draft, update, isFresh] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
   const [charted, chart] = useState(["speed", "gap"]);
   const zoom = useZoom(run);
   const shown = useShownRun(run, charted, zoom.span);
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
-  useTakeOver(id, from, update);
+  useTakeOver(id, from, isFresh ? run : undefined, update);
   useFarewell(shown.live, run);
   const status = shown.progress?.status;
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
