@@ -244,7 +244,7 @@ def recorded(prepared: Setting, runs: Runs, number: int) -> Simulation:
 
 def outcome(loaded: Loaded, finished: Simulation, number: int = 0) -> Run:
     """What a finished simulation brought for one of its worlds."""
-    wall = time.perf_counter() - finished.started
+    wall = time.perf_counter() - finished.started - finished.rested
     case, scenario = finished.cases[number], loaded.scenario
     with readable():
         record = finished.record(number)

@@ -82,6 +82,7 @@ class Simulation:
     heeded: float = field(default_factory=time.monotonic)  # [s] when it was last looked
     counts: list[np.ndarray] = field(default_factory=list)  # what was counted, [row, event]
     started: float = field(default_factory=time.perf_counter)
+    rested: float = 0.0  # [s] of real time that it stood still because somebody wanted it to
     running: int = field(init=False)  # worlds that are not over
     may_end: bool = field(init=False)  # whether the script may end some world
 

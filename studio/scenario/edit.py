@@ -66,10 +66,17 @@ def assignment(document: Any, full: dict, path: str, value: Any) -> list[Operati
         part = ".".join(parts[:depth])
         if is_left_out(document, full, part):
             whole = get(full, part)
-            if parts[depth:] == [FIELD]:
-                whole = {"kind": whole["kind"], FIELD: None}  # values that are laid out would hide those of the preset
+            if parts[-1] == FIELD:
+                whole = bare(whole, parts[depth:-1])
             return [operation("add", parts[:depth], value=whole), operation("replace", parts, value=value)]
     return [operation("replace" if has(document, path) else "add", parts, value=value)]
+
+
+def bare(whole: Any, parts: list[str]) -> Any:
+    """What is laid out, but at one place no more than the kind: values that are laid out there would hide those of its preset."""
+    if not parts:
+        return {"kind": whole["kind"], FIELD: None}
+    return whole | {parts[0]: bare(whole[parts[0]], parts[1:])}
 
 
 def is_left_out(document: Any, full: dict, path: str) -> bool:

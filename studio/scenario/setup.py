@@ -55,9 +55,19 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
                 document = patched(document, edit.assignment(document, full, around, rest.pop(around)))
             document = exchanged(document, full, sort, path, rest)
     full = full if len(rest) == len(changes) else laid_out(document, where)
-    for path, value in rest.items():
+    for path, value in presets_first(rest).items():
         document = patched(document, edit.assignment(document, full, path, value))
     return document
+
+
+def presets_first(changes: dict[str, Any]) -> dict[str, Any]:
+    """The changes with each preset before the settings beside it: they are set on top of it, whichever somebody has chosen first."""
+    paths = list(changes)
+    for path in [each for each in paths if each.rpartition(".")[2] == preset.FIELD]:
+        place, now = f"{path.rpartition('.')[0]}.", paths.index(path)
+        beside = next((i for i, each in enumerate(paths[:now]) if each.startswith(place)), now)
+        paths.insert(beside, paths.pop(now))
+    return {path: changes[path] for path in paths}
 
 
 def check_text(path: str, value: Any, where: str) -> None:

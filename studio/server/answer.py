@@ -248,7 +248,7 @@ class Run(BaseModel):
     code_version: str
     created: str
     sim_time_s: float | None
-    wall_time_s: float | None
+    wall_time_s: float | None = Field(description="[s] of real time that it took, without its pauses")
     parameters: dict[str, Any]
     unmet: list[str]
     metrics: dict[str, Metric]

@@ -100,10 +100,13 @@ class Live:
 
     def orders(self) -> None:
         """Takes the orders that have come; waits for one while there is nothing to do."""
-        wait = IDLE if self.paused else min(self.pace.wait(self.due), FRAME_PERIOD)
+        is_resting, began = self.paused, time.perf_counter()
+        wait = IDLE if is_resting else min(self.pace.wait(self.due), FRAME_PERIOD)
         while self.pipe.poll(wait):
             self.obey(*self.pipe.recv())
             wait = 0.0
+        if is_resting:
+            self.simulation.rested += time.perf_counter() - began
 
     @property
     def due(self) -> float:

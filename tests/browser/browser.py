@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 from tests.patience import PATIENCE_MS
 
@@ -37,7 +37,7 @@ def browser() -> Iterator[Browser]:
         yield playwright.chromium.launch(executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS)
 
 
-def watched(opened: Browser, **options: Any) -> tuple[Page, list[str]]:
+def watched(opened: Browser | BrowserContext, **options: Any) -> tuple[Page, list[str]]:
     """A new page that waits as long as a busy machine needs, and what its console will have complained about."""
     page = opened.new_page(**options)
     page.set_default_timeout(PATIENCE_MS)

@@ -163,3 +163,19 @@ def test_what_no_file_can_hold(sample, changes):
     """A command line hands over bytes that are no text as half characters."""
     with pytest.raises(ScenarioError, match="cannot be changed so"):
         job.load(sample, changes)
+
+
+def test_a_preset_of_what_the_file_leaves_out(sample):
+    """Sensors that no file names have the preset's values, not their defaults; what is set beside it counts, in whatever order."""
+    front, preset = "vehicles.leader.sensors.front", {"vehicles.leader.sensors.front.preset": "short_range_radar"}
+    noise = {f"{front}.rate_noise": 0.22}
+    for changes in (preset | noise, noise | preset):
+        sensor = job.load(sample, changes).document["vehicles"]["leader"]["sensors"]["front"]
+        assert (sensor["preset"], sensor["range"], sensor["rate_noise"]) == ("short_range_radar", 80.0, 0.22)
+    alone = job.load(sample, preset).document["vehicles"]["leader"]["sensors"]
+    before = job.load(sample).document["vehicles"]["leader"]["sensors"]
+    assert alone["front"]["rate_noise"] == 0.1 and alone.keys() == before.keys()
+    radio = job.load(sample, {"radio.loss": 0.3, "radio.preset": "LTE"}).document["radio"]
+    assert (radio["loss"], radio["delay"], radio["range"]) == (0.3, 0.04, 5000.0)
+    whole = {"radio": {"kind": "ad_hoc", "loss": 0.2}, "radio.preset": "LTE"}
+    assert job.load(sample, whole).document["radio"]["preset"] == "LTE"

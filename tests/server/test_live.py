@@ -77,6 +77,18 @@ def test_pause_step_pace_stop(client):
     assert client.post(f"/api/live/{run}/pause").status_code == 409
 
 
+def test_pauses_are_no_part_of_how_long_it_took(client):
+    began = time.monotonic()
+    run = start(client, set={"clock.duration": 1}, paused=True, pace="fast")
+    with news(client, run) as socket:
+        until(socket, is_state("paused"))
+        time.sleep(3.0)
+        client.post(f"/api/live/{run}/resume")
+        until(socket, lambda m: m["type"] == "end")
+    row = client.get(f"/api/runs/{run}").json()
+    assert row["status"] == "done" and 0.0 < row["wall_time_s"] < time.monotonic() - began - 2.9
+
+
 def test_pace_is_kept(client):
     """At pace 2 nothing happens earlier than at twice the real time, and it goes on; how late depends on the machine."""
     began = time.monotonic()

@@ -6,7 +6,7 @@ import { createRoot } from "react-dom/client";
 import "./app/styles";
 import { Refusal } from "./api/client";
 import { router } from "./app/router";
-import { theme } from "./app/theme";
+import { legible, theme } from "./app/theme";
 
 const client = new QueryClient({
   // A refusal of the server stays one; only a missing answer is worth asking again.
@@ -17,7 +17,7 @@ const client = new QueryClient({
 
 createRoot(document.getElementById("root") as HTMLElement).render(
   <StrictMode>
-    <MantineProvider theme={theme} defaultColorScheme="auto">
+    <MantineProvider theme={theme} cssVariablesResolver={legible} defaultColorScheme="auto">
       <QueryClientProvider client={client}>
         <RouterProvider router={router} />
       </QueryClientProvider>

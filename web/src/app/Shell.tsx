@@ -60,6 +60,7 @@ interface StudioPlace {
   scenario: string;
   run: number | undefined;
   from: number | undefined;
+  time: number | undefined;
 }
 
 /** The studio stays under the other places, so that its scene need not be loaded again. */
@@ -67,13 +68,13 @@ function Places() {
   const match = useMatch({ from: "/studio/$scenario", shouldThrow: false });
   const [last, setLast] = useState<StudioPlace>();
   const scenario = match?.params.scenario;
-  const { run, from } = match?.search ?? {};
+  const { run, from, time } = match?.search ?? {};
   useEffect(() => {
     if (scenario === undefined) return;
-    setLast({ scenario, run, from });
+    setLast({ scenario, run, from, time: undefined });
     rememberScenario(scenario);
   }, [scenario, run, from]);
-  const shown = scenario === undefined ? last : { scenario, run, from };
+  const shown = scenario === undefined ? last : { scenario, run, from, time };
   return (
     <>
       {shown ? <StudioPage {...shown} active={scenario !== undefined} /> : null}

@@ -15,6 +15,7 @@ const number = (value: unknown): number | undefined =>
   Number.isInteger(Number(value)) && value !== "" && value !== null && value !== undefined
     ? Number(value)
     : undefined;
+const real = (value: unknown): number | undefined => (typeof value === "number" && Number.isFinite(value) ? value : undefined);
 const text = (value: unknown): string | undefined =>
   typeof value === "string" || typeof value === "number" ? String(value) : undefined;
 
@@ -28,9 +29,10 @@ export const studioRoute = createRoute({
   path: "/studio/$scenario",
   validateSearch: (
     search: Record<string, unknown>,
-  ): { run?: number | undefined; from?: number | undefined } => ({
+  ): { run?: number | undefined; from?: number | undefined; time?: number | undefined } => ({
     run: number(search.run),
     from: number(search.from),
+    time: real(search.time),
   }),
   component: () => null,
 });

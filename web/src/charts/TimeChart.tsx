@@ -41,6 +41,7 @@ interface Props {
 /** A time that moves [s], who wants to hear of it, and how to go to another. */
 export interface Head {
   readonly time: number;
+  readonly playing: boolean;
   readonly subscribe: (listener: () => void) => () => void;
   readonly seek: (time: number) => void;
 }
@@ -83,8 +84,14 @@ interface Memory {
 /** [px] Who moves the pointer farther between down and up has drawn a range, and not clicked. */
 const CLICK = 4;
 
-/** [s] Between two values of the legend while a playback goes on. */
-const GRAIN = 0.1;
+/** [s] Between two values of the legend while a playback goes on, and while it stands. */
+const GRAIN = { playing: 0.1, standing: 0.001 };
+
+/** The time of a playback for the legend: not every picture is worth a rendering. */
+function shownTime({ time, playing }: Head): number {
+  const grain = playing ? GRAIN.playing : GRAIN.standing;
+  return Math.round(time / grain) * grain;
+}
 
 /** A line over the plot at the time of a playback, moved without drawing the chart again; a click goes there. */
 function follow(chart: uPlot, head: Head, memory: Memory): () => void {
@@ -271,7 +278,7 @@ export function TimeChart(props: Props) {
   useEffect(() => chart.current?.setData(data as uPlot.AlignedData), [data, version, zoom.span, limits]);
 
   const played = useSyncExternalStore(head?.subscribe ?? still, () =>
-    head ? Math.round(head.time / GRAIN) * GRAIN : null,
+    head ? shownTime(head) : null,
   );
   const wanted = cursor ?? played;
   const index = wanted === null ? newest(data) : nearest(data[0], wanted);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { document, source } from "../test/scenario";
+import { document, kinds, source } from "../test/scenario";
 import {
   changedIn,
   exchanged,
@@ -7,9 +7,11 @@ import {
   type Field,
   fieldsOf,
   fromSet,
+  type KnownKind,
   matching,
   placed,
   refusal,
+  type Source,
   sameChanges,
   sections,
   suggesting,
@@ -18,6 +20,7 @@ import {
   valueAt,
   withChange,
 } from "./form";
+import type { Changes, Tree } from "./run";
 
 const field = (path: string, changes = {}): Field => {
   const found = fieldsOf(sections(source(changes))).find((one) => one.path === path);
@@ -34,6 +37,17 @@ describe("the form", () => {
       "vehicles",
       "script",
     ]);
+  });
+
+  it("marks what neither the file nor the user says as a default, with its value", () => {
+    const model = "vehicles.leader.model";
+    expect(field(model)).toMatchObject({ value: "bmw_320i", isDefault: true });
+    expect(field(model, { [model]: "ford_escort" })).toMatchObject({ value: "ford_escort", isDefault: false });
+    expect(field("radio.delay").isDefault).toBe(false);
+    expect(field("applications.platoon.parameters.standstill")).toMatchObject({ value: 2, isDefault: true });
+    const acc = { "applications.platoon.application": "acc" };
+    expect(field("applications.platoon.parameters.standstill", acc)).toMatchObject({ value: 3, isDefault: true });
+    expect(field("applications.platoon.parameters.headway", acc)).toMatchObject({ value: 0.6, isDefault: false });
   });
 
   it("gives a number its unit, its range and its words", () => {
@@ -262,5 +276,56 @@ describe("units and values by path", () => {
   it("reads through objects and lists", () => {
     expect(valueAt(document, "script.0.width")).toBe(2);
     expect(valueAt(document, "radio.nothing.deeper")).toBeUndefined();
+  });
+});
+
+describe("a preset", () => {
+  const preset = (name: string, values: Tree) => ({ name, title: name, source: "measured", values });
+  const presets: Record<string, KnownKind["presets"]> = {
+    acc: [preset("series", { headway: 1.3, gap_gain: 0.55 })],
+    radar: [preset("short", { range: 80, rate_noise: 0.2 })],
+    lidar: [preset("roof", { beams: 64 })],
+  };
+  const nothing = { preset: null };
+  const leader = document.vehicles as { leader: Tree };
+  const filled = (changes: Changes): Source => ({
+    ...source(changes),
+    kinds: kinds.map((kind) => ({ ...kind, presets: presets[kind.name] ?? [] })),
+    document: {
+      ...document,
+      applications: { platoon: { ...(document.applications as { platoon: Tree }).platoon, ...nothing } },
+      vehicles: { leader: { ...leader.leader, sensors: { front: { kind: "radar", ...nothing, range: 120, rate_noise: 0.3 } } } },
+    },
+  });
+  const platoon = "applications.platoon";
+  const front = "vehicles.leader.sensors.front";
+  const shown = (changes: Changes) =>
+    Object.fromEntries(fieldsOf(sections(filled(changes))).map(({ path, value }) => [path, value]));
+
+  it("shows its values of what the file does not give, as the run has them", () => {
+    // The file gives the noise of the sensor, and no reach.
+    expect(shown({ [`${front}.preset`]: "short" })).toMatchObject({ [`${front}.range`]: 80, [`${front}.rate_noise`]: 0.3 });
+    const acc = { [`${platoon}.application`]: "acc", [`${platoon}.preset`]: "series" };
+    expect(shown(acc)).toMatchObject({
+      [`${platoon}.parameters.headway`]: 0.6,
+      [`${platoon}.parameters.gap_gain`]: 0.55,
+      [`${platoon}.parameters.standstill`]: 3,
+    });
+    expect(shown({ ...acc, [`${platoon}.parameters.gap_gain`]: 0.7 })).toMatchObject({ [`${platoon}.parameters.gap_gain`]: 0.7 });
+  });
+
+  it("can be chosen where the kind has some, also of a kind that was exchanged, and is let go with it", () => {
+    const choices = (changes: Changes) =>
+      fieldsOf(sections(filled(changes)))
+        .filter(({ path }) => path.endsWith(".preset"))
+        .map(({ path, choices: names, nullable }) => [path, names, nullable]);
+    expect(choices({})).toEqual([[`${front}.preset`, ["short"], true]]);
+    expect(choices({ [`${platoon}.application`]: "acc", [`${front}.kind`]: "lidar" })).toEqual([
+      [`${platoon}.preset`, ["series"], true],
+      [`${front}.preset`, ["roof"], true],
+    ]);
+    const [exchange] = exchangesOf(sections(filled({}))).filter(({ sort }) => sort === "application");
+    if (!exchange) throw new Error("the platoon's application can be exchanged");
+    expect(exchanged({ [`${platoon}.preset`]: "series" }, exchange, "cacc")).toEqual({});
   });
 });

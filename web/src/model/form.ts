@@ -29,6 +29,8 @@ export interface Field {
   initial: Json;
   value: Json;
   changed: boolean;
+  /** Neither the file nor the user says it: it is the preset's, or the default. */
+  isDefault: boolean;
 }
 
 /** A kind that may stand in a place. */
@@ -103,7 +105,16 @@ export function sections(source: Source): Section[] {
     : [];
   const place = (path: string) => (ORDER.includes(path) ? ORDER.indexOf(path) : ORDER.length);
   const filled = all.sections.filter((section) => notEmpty(section));
-  return [...filled.sort((a, b) => place(a.path) - place(b.path)), ...general];
+  return marked([...filled.sort((a, b) => place(a.path) - place(b.path)), ...general], source.given);
+}
+
+/** The form with what neither the file nor the user says marked as such. */
+function marked(all: readonly Section[], given: Tree): Section[] {
+  return all.map((section) => ({
+    ...section,
+    fields: section.fields.map((each) => ({ ...each, isDefault: !each.changed && valueAt(given, each.path) === undefined })),
+    sections: marked(section.sections, given),
+  }));
 }
 
 function objectSection(source: Source, path: string, child: Schema, value: Tree): Section {
@@ -115,7 +126,8 @@ function objectSection(source: Source, path: string, child: Schema, value: Tree)
   for (const key of keysOf(schema, shown)) {
     const below = path ? `${path}.${key}` : key;
     if (below === exchange?.path || (path === "" && ELSEWHERE.has(key))) continue;
-    if (below === exchange?.base) section.fields.push(...applicationFields(source, exchange, shown[key] as Tree));
+    if (exchange && key === PRESET) section.fields.push(...presetField(source, path, exchange, childSchema(schema, key), shown[key] ?? null));
+    else if (below === exchange?.base) section.fields.push(...applicationFields(source, exchange, shown[key] as Tree));
     else add(section, source, below, childSchema(schema, key), shown[key] ?? null);
     // A title given to a property names the section; that of a class of entries does not tell them apart.
     const inner = section.sections.at(-1);
@@ -206,6 +218,7 @@ function field(path: string, schema: Schema, initial: Json, changes: Changes, em
     initial,
     value,
     changed: !same(value, initial),
+    isDefault: false,
   };
   const minimum = schema.minimum ?? schema.exclusiveMinimum;
   const maximum = schema.maximum ?? schema.exclusiveMaximum;
@@ -272,18 +285,46 @@ const firstParagraph = (text: string): string => text.split(/\n\s*\n/)[0]?.trim(
 const chosen = ({ kinds }: Source, { sort, value }: Exchange): Schema =>
   kinds.find((kind) => kind.sort === sort && kind.name === value)?.settings ?? {};
 
-/** The object with the kind that is chosen: of another one what the file gives is kept, as far as both have it. */
+/**
+ * The object with the kind and the preset that are chosen: of another one what the file gives is kept, as far as both have it; the rest
+ * is the preset's, and what that does not say the default.
+ */
 function inPlace(source: Source, path: string, exchange: Exchange, before: Tree): Tree {
   const { initial, value, base } = exchange;
-  if (value === initial) return before;
+  const place = `${path}.${PRESET}`;
+  if (value === initial && !(place in source.changes)) return before;
+  const named = presetsOf(source, exchange);
+  const kept = named.some(({ name }) => name === before[PRESET]) ? (before[PRESET] as Json) : null;
+  const preset = place in source.changes ? source.changes[place] : kept;
+  const values = named.find(({ name }) => name === preset)?.values ?? {};
   const given = valueAt(source.given, base);
-  const settings = settingsOf(chosen(source, exchange), isTree(given) ? given : {});
-  return base === path ? { kind: value, ...settings } : { ...before, [leaf(base)]: settings };
+  const settings = settingsOf(chosen(source, exchange), isTree(given) ? given : {}, values as Tree);
+  if (base !== path) return { ...before, [PRESET]: kept, [leaf(base)]: settings };
+  return { kind: value, ...(named.length ? { [PRESET]: kept } : {}), ...settings };
 }
 
-/** What a kind is set to: as the file gives it, else its defaults. */
-const settingsOf = ({ properties = {} }: Schema, given: Tree): Tree =>
-  Object.fromEntries(Object.entries(properties).map(([key, property]) => [key, given[key] ?? property.default ?? null]));
+/** What a kind is set to: as the file gives it, else as its preset does, else its defaults. */
+const settingsOf = ({ properties = {} }: Schema, given: Tree, preset: Tree = {}): Tree =>
+  Object.fromEntries(
+    Object.entries(properties).map(([key, property]) => [key, given[key] ?? preset[key] ?? property.default ?? null]),
+  );
+
+/** Beside the settings of a kind: a named set of them. */
+const PRESET = "preset";
+
+/** The presets of the kind that is chosen. */
+const presetsOf = ({ kinds }: Source, { sort, value }: Exchange): KnownKind["presets"] =>
+  kinds.find((kind) => kind.sort === sort && kind.name === value)?.presets ?? [];
+
+/** The choice among them; none where there are none. */
+function presetField(source: Source, path: string, exchange: Exchange, schema: Schema, initial: Json): Field[] {
+  const named = presetsOf(source, exchange);
+  if (named.length === 0) return [];
+  const told = named.map(({ name, title, source: from }) => `${name}: ${title} (${from})`).join("; ");
+  const plain = resolve(schema, source.schema, "");
+  const choice = { ...plain, enum: named.map(({ name }) => name), description: `what is not given has its value. ${told}` };
+  return [field(`${path}.${PRESET}`, choice, initial, source.changes, true)];
+}
 
 /** The parameters of the application in place, by that application's own schema. */
 const applicationFields = (source: Source, exchange: Exchange, parameters: Tree): Field[] =>
@@ -305,7 +346,8 @@ export function exchanged(changes: Changes, { path: place, base, initial, choice
   const settings = choices.find((choice) => choice.name === name)?.settings ?? [];
   const first = (path: string) => path.slice(base.length + 1).split(".", 1)[0] as string;
   const stays = (path: string) => !path.startsWith(`${base}.`) || settings.includes(first(path));
-  const kept = Object.entries(changes).filter(([path]) => path !== place && stays(path));
+  const preset = `${place.slice(0, place.lastIndexOf("."))}.${PRESET}`;
+  const kept = Object.entries(changes).filter(([path]) => path !== place && path !== preset && stays(path));
   return Object.fromEntries(name === initial ? kept : [...kept, [place, name]]);
 }
 

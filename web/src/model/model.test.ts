@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { finished } from "../test/scenario";
 import { channelsOf, drawn, parts, quantitiesOf, quantity, recorded, vehiclesOf } from "./channel";
 import { lineColor } from "./palette";
-import { countByStatus, isLive, shortNames } from "./run";
+import { countByStatus, isLive, shortNames, untraced } from "./run";
 import { append, noSamples } from "./samples";
 import { resolve } from "./schema";
 import {
@@ -78,6 +78,13 @@ describe("words", () => {
       "cacc",
       '["a"]',
     ]);
+  });
+});
+
+describe("a run without traces", () => {
+  it("recorded nothing only when it is over", () => {
+    expect(untraced("done")).toBe("This run recorded nothing.");
+    for (const status of ["waiting", "starting", "running", "paused"] as const) expect(untraced(status)).not.toContain("nothing");
   });
 });
 

@@ -44,6 +44,12 @@ const LIVE: ReadonlySet<Status> = new Set<Status>(["waiting", "starting", "runni
 /** Whether a run of this status can still change. */
 export const isLive = (status: Status | undefined): boolean => status !== undefined && LIVE.has(status);
 
+/** Why a run has no traces, in words. */
+export function untraced(status: Status): string {
+  if (status === "waiting") return "The run waits for its turn: its traces are drawn here as soon as it goes on.";
+  return isLive(status) ? "The run has just begun: its traces are drawn here as it goes on." : "This run recorded nothing.";
+}
+
 /** Whether a run came to its end: whatever else was measured of less, and is not ranked with those that did. */
 export const isWhole = ({ status }: Pick<Run, "status">): boolean => status === "done";
 

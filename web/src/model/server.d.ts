@@ -1283,7 +1283,10 @@ export interface components {
             created: string;
             /** Sim Time S */
             sim_time_s: number | null;
-            /** Wall Time S */
+            /**
+             * Wall Time S
+             * @description [s] of real time that it took, without its pauses
+             */
             wall_time_s: number | null;
             /** Parameters */
             parameters: {
@@ -2397,7 +2400,10 @@ export interface components {
             created: string;
             /** Sim Time S */
             sim_time_s: number | null;
-            /** Wall Time S */
+            /**
+             * Wall Time S
+             * @description [s] of real time that it took, without its pauses
+             */
             wall_time_s: number | null;
             /** Parameters */
             parameters: {
@@ -2458,7 +2464,10 @@ export interface components {
             created: string;
             /** Sim Time S */
             sim_time_s: number | null;
-            /** Wall Time S */
+            /**
+             * Wall Time S
+             * @description [s] of real time that it took, without its pauses
+             */
             wall_time_s: number | null;
             /** Parameters */
             parameters: {

@@ -4,12 +4,24 @@ import type { Explanation } from "../model/run";
 import { formatTime, words } from "../model/units";
 import classes from "./EventList.module.css";
 
-export function ExplanationList({ explanations }: { explanations: readonly Explanation[] }) {
+interface Props {
+  explanations: readonly Explanation[];
+  /** Go to the time of an event [s]. */
+  onSeek?: (time: number) => void;
+}
+
+export function ExplanationList({ explanations, onSeek }: Props) {
   return (
     <ol className={classes.events} data-testid="explanations">
       {explanations.map(({ time, text, units, lines }, index) => (
         <li key={index}>
-          <span className={classes.time}>{formatTime(time)} s</span>
+          {onSeek ? (
+            <button type="button" className={classes.time} onClick={() => onSeek(time)} title="Go there">
+              {formatTime(time)} s
+            </button>
+          ) : (
+            <span className={classes.time}>{formatTime(time)} s</span>
+          )}
           <details>
             <summary>
               <b>{units.map(words).join(" and ")}: </b>

@@ -11,6 +11,7 @@ import {
   TextInput,
   Tooltip,
   UnstyledButton,
+  VisuallyHidden,
 } from "@mantine/core";
 import { useId, useState } from "react";
 import {
@@ -173,13 +174,19 @@ function FieldRow({ field, problems, onChange }: RowProps) {
   const long = String(field.initial ?? "").length > 12 || field.suggestions.length > 0;
   const wide = field.kind === "list" || (field.kind === "text" && long);
   return (
-    <div className={classes.row} data-wide={wide || undefined} data-changed={field.changed || undefined}>
+    <div
+      className={classes.row}
+      data-wide={wide || undefined}
+      data-changed={field.changed || undefined}
+      data-default={field.isDefault || undefined}
+    >
       <Label
         id={id}
         text={field.label}
         description={field.description}
         path={field.path}
         limits={field.allowed}
+        isDefault={field.isDefault}
       />
       <Control
         id={id}
@@ -215,13 +222,15 @@ interface LabelProps {
   description: string;
   path: string;
   limits?: string;
+  isDefault?: boolean;
 }
 
-function Label({ id, text, description, path, limits: allowed = "" }: LabelProps) {
+function Label({ id, text, description, path, limits: allowed = "", isDefault = false }: LabelProps) {
   const help = (
     <>
       {description ? <Text size="xs">{description}</Text> : null}
       {allowed ? <Text size="xs">Allowed: {allowed}</Text> : null}
+      {isDefault ? <Text size="xs">Default: the scenario's file does not set it.</Text> : null}
       <Text size="xs" opacity={0.7}>
         {path}
       </Text>
@@ -231,6 +240,7 @@ function Label({ id, text, description, path, limits: allowed = "" }: LabelProps
     <Tooltip label={help} multiline maw={300} position="right" openDelay={250}>
       <label htmlFor={id} className={classes.label} data-described={description !== "" || undefined}>
         {text}
+        {isDefault ? <VisuallyHidden> (default)</VisuallyHidden> : null}
       </label>
     </Tooltip>
   );
@@ -284,8 +294,8 @@ function Control({ id, field, invalid, onChange }: ControlProps) {
         <NativeSelect
           {...shared}
           value={String(field.value ?? "")}
-          data={field.value === null ? ["", ...field.choices] : field.choices}
-          onChange={(event) => onChange(event.currentTarget.value)}
+          data={field.value === null || field.nullable ? ["", ...field.choices] : field.choices}
+          onChange={({ currentTarget: { value } }) => onChange(value === "" && field.nullable ? null : value)}
         />
       );
     case "number":
@@ -329,8 +339,7 @@ function NumberControl({ shared, field, onChange }: TypedControl) {
       {...shared}
       error={shared.error || outside}
       value={typeof value === "number" ? value : ""}
-      allowDecimal={kind === "number"}
-      clampBehavior="none"
+      whole={kind === "integer"}
       step={stepFor(field)}
       onNumber={onChange}
       onEmpty={() => onChange(field.nullable ? null : initial)}
@@ -353,6 +362,13 @@ function stepFor({ kind, initial }: Field): number {
 function ListControl({ shared, field, onChange }: TypedControl) {
   const items = Array.isArray(field.value) ? field.value : [];
   const numeric = items.length > 0 && items.every((item) => typeof item === "number");
+  const [doubt, setDoubt] = useState("");
+  const take = (text: string) => {
+    // One number, or two?
+    const [unclear] = numeric ? (text.match(/\d,\d+/) ?? []) : [];
+    setDoubt(unclear ? `${unclear} is not read: write decimals with a point, and a blank behind the comma between two numbers` : "");
+    if (!unclear) onChange(read(text));
+  };
   const read = (text: string): Json => {
     const words = text
       .split(",")
@@ -364,11 +380,12 @@ function ListControl({ shared, field, onChange }: TypedControl) {
     <TextInput
       {...shared}
       key={JSON.stringify(items)}
+      error={doubt || shared.error}
       title={items.map(String).join(", ")}
       defaultValue={items
         .map((item) => (typeof item === "object" ? JSON.stringify(item) : String(item)))
         .join(", ")}
-      onBlur={(event) => onChange(read(event.currentTarget.value))}
+      onBlur={(event) => take(event.currentTarget.value)}
     />
   );
 }

@@ -3,8 +3,9 @@ import { act, type ReactNode } from "react";
 import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { sections } from "../model/form";
-import { source } from "../test/scenario";
+import { metric, source } from "../test/scenario";
 import { ExplanationList } from "./ExplanationList";
+import { MetricList } from "./MetricList";
 import { QuantitySelect } from "./QuantitySelect";
 import { SchemaForm } from "./SchemaForm";
 import { Failure } from "./State";
@@ -68,6 +69,28 @@ describe("why it happened", () => {
   });
 });
 
+describe("the metrics of a run", () => {
+  const gap = { ...metric(0.4, "m", "higher"), time: 48.14, kind: "min_gap", about: "follower_2 behind follower_1 at 48.14 s" };
+  const run = { metrics: { tight: gap }, unmet: [], document: { measures: { tight: { kind: "min_gap", begin: { at: 20 } } } } };
+  const known = [{ name: "min_gap", title: "Least gap", unit: "m", goal: "higher" as const, explanation: "Bumper to bumper." }];
+
+  it("say of whom, when, in which window, and what they are; a click on the time goes there", () => {
+    const onSeek = vi.fn();
+    render(<MetricList run={run} known={known} kinds={[]} onSeek={onSeek} />);
+    const text = host.textContent ?? "";
+    for (const told of ["0.4", "follower_2 behind follower_1 at 48.14 s", "Bumper to bumper.", "from 20 s to the end", "min_gap"])
+      expect(text).toContain(told);
+    act(() => host.querySelector("button")?.click());
+    expect(onSeek).toHaveBeenCalledWith(48.14);
+  });
+
+  it("have a time without a button where there is nothing to go to", () => {
+    render(<MetricList run={run} known={known} kinds={[]} />);
+    expect(host.querySelector("button")).toBeNull();
+    expect(host.textContent).toContain("at 48.14 s");
+  });
+});
+
 describe("the schema form", () => {
   const onChange = vi.fn();
   const onExchange = vi.fn();
@@ -109,6 +132,33 @@ describe("the schema form", () => {
     expect([input.value, onChange.mock.calls.length]).toEqual(["", 0]);
     act(() => input.blur());
     expect(onChange.mock.lastCall?.[1]).toBe(0.02);
+  });
+
+  it("reads a comma as a point and says so, and refuses in words what is no number", () => {
+    show();
+    const input = byTestId("param-radio.delay") as HTMLInputElement;
+    const told = () => host.querySelector('[role="status"]')?.textContent;
+    onChange.mockClear();
+    type(input, "0,9");
+    expect(onChange.mock.lastCall?.[1]).toBe(0.9);
+    show({ "radio.delay": 0.9 });
+    expect(told()).toBe("0,9 is read as 0.9");
+    type(input, "1.234,5");
+    expect(onChange.mock.lastCall?.[1]).toBe(0.02); // as before this was begun
+    show();
+    expect(told()).toContain("“1.234,5” is no number");
+    act(() => input.focus());
+    act(() => input.blur());
+    expect(input.value).toBe("0.02");
+    show({ "radio.delay": 0.3 });
+    expect(told()).toBeUndefined();
+  });
+
+  it("goes up and down by its arrows", () => {
+    show();
+    const input = byTestId("param-radio.delay") as HTMLInputElement;
+    act(() => void input.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true })));
+    expect(onChange.mock.lastCall?.[1]).toBe(0.021);
   });
 
   it("does not clamp what is out of range, and marks it", () => {

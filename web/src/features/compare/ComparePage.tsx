@@ -18,10 +18,12 @@ import {
 import { unitAt } from "../../model/form";
 import { explained, titleOf } from "../../model/measure";
 import type { Run } from "../../model/run";
+import { whom } from "../../model/scope";
 import {
   formatDifference,
   formatNumber,
   formatRelative,
+  formatTime,
   formatValue,
   withUnit,
   words,
@@ -264,7 +266,7 @@ function Metrics({ comparison: found }: { comparison: Comparison }) {
           </Table.Thead>
           <Table.Tbody>
             {metrics.map((metric) => (
-              <MetricRow key={metric.name} metric={metric} unranked={unranked} />
+              <MetricRow key={metric.name} metric={metric} comparison={found} />
             ))}
           </Table.Tbody>
         </Table>
@@ -273,8 +275,8 @@ function Metrics({ comparison: found }: { comparison: Comparison }) {
   );
 }
 
-function MetricRow({ metric, unranked }: { metric: MetricDifference; unranked: string }) {
-  const { name, unit, goal, a, b } = metric;
+function MetricRow({ metric, comparison: { unranked, ...runs } }: { metric: MetricDifference; comparison: Comparison }) {
+  const { name, unit, goal } = metric;
   const { difference, relative } = differing(metric);
   const known = useGlossary().metrics;
   const found = verdict(metric, unranked);
@@ -284,8 +286,8 @@ function MetricRow({ metric, unranked }: { metric: MetricDifference; unranked: s
       <Table.Td title={`${explained(name, known)}\n${goal ? `${words(goal)} is better` : "No goal is set"}`}>
         {withUnit(titleOf(name, known), unit)}
       </Table.Td>
-      <Table.Td ta="right">{a === null ? "–" : formatNumber(a)}</Table.Td>
-      <Table.Td ta="right">{b === null ? "–" : formatNumber(b)}</Table.Td>
+      <MetricCell value={metric.a} run={runs.a} name={name} />
+      <MetricCell value={metric.b} run={runs.b} name={name} />
       <Table.Td ta="right">
         {difference === null ? "–" : formatDifference(Number(difference.toPrecision(4)))}
       </Table.Td>
@@ -302,5 +304,31 @@ function MetricRow({ metric, unranked }: { metric: MetricDifference; unranked: s
         </Badge>
       </Table.Td>
     </Table.Tr>
+  );
+}
+
+/** A value, whom it is about, and when that was; a click goes there. */
+function MetricCell({ value, run, name }: { value: number | null; run: Run; name: string }) {
+  const { about = "", time = null } = run.metrics[name] ?? {};
+  return (
+    <Table.Td ta="right">
+      {value === null ? "–" : formatNumber(value)}
+      {about ? (
+        <Text size="xs" c="dimmed" className={classes.about}>
+          {whom(about, time)}{" "}
+          {time === null ? null : (
+            <Link
+              to="/studio/$scenario"
+              params={{ scenario: run.scenario }}
+              search={{ run: run.run, time }}
+              className={classes.link}
+              title="Go there"
+            >
+              at {formatTime(time)} s
+            </Link>
+          )}
+        </Text>
+      ) : null}
+    </Table.Td>
   );
 }

@@ -1,6 +1,6 @@
 /** A small form that corrects an element of the map; what is sent are its tags. */
 
-import { Button, NumberInput, Switch, Text, TextInput, UnstyledButton } from "@mantine/core";
+import { Button, Switch, Text, TextInput, UnstyledButton } from "@mantine/core";
 import { type FormEvent, type ReactNode, useId, useState } from "react";
 import { type NewCorrection, useCorrect } from "../../api/maps";
 import {
@@ -28,6 +28,7 @@ import type { Finding } from "../../model/finding";
 import type { Plan, PlanRoad } from "../../model/map";
 import type { Problem } from "../../model/run";
 import { words } from "../../model/units";
+import { NumberEntry } from "../../ui/NumberEntry";
 import { ProblemList } from "../../ui/Problems";
 import { useJobs } from "./imports";
 import classes from "./Maps.module.css";
@@ -160,21 +161,21 @@ function NumberField({ label, unit, least, most, step, value, onChange }: Number
   return (
     <div className={classes.field}>
       <label htmlFor={id}>{label}</label>
-      <NumberInput
+      <NumberEntry
         id={id}
         size="xs"
         w={92}
         min={least}
         max={most}
         step={step}
-        clampBehavior="none"
-        allowNegative={false}
-        decimalScale={2}
-        allowDecimal={!Number.isInteger(step)}
+        decimals={2}
+        whole={Number.isInteger(step)}
         data-testid={`edit-${label.toLowerCase().replaceAll(" ", "-")}`}
         error={!(value >= least && value <= most)}
         value={Number.isNaN(value) ? "" : value}
-        onChange={(next) => onChange(next === "" ? Number.NaN : Number(next))}
+        onNumber={onChange}
+        onEmpty={() => onChange(Number.NaN)}
+        onNothing={() => onChange(Number.NaN)}
       />
       <span className={classes.unit}>{unit}</span>
     </div>

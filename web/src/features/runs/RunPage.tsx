@@ -1,11 +1,11 @@
 /** Everything about one run, and the way on from it. */
 
-import { Anchor, Badge, Button, Code, Group, Table, Text, Title, Tooltip } from "@mantine/core";
+import { Anchor, Badge, Button, Code, Group, Table, Text, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
-import { explanations, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
+import { explanations, kinds as kindsQuery, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
@@ -14,12 +14,13 @@ import { fromSet, unitAt } from "../../model/form";
 import { goalsOf, type Wanted } from "../../model/goal";
 import { explained, titleOf } from "../../model/measure";
 import { carColors, paintsOf } from "../../model/palette";
-import { isLive, type Metric, type RunDetail } from "../../model/run";
+import { isLive, type RunDetail, untraced } from "../../model/run";
 import { formatDuration, formatMoment, formatNumber, formatValue, unitText, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { EventList } from "../../ui/EventList";
 import { ExplanationList } from "../../ui/ExplanationList";
 import { Icon } from "../../ui/Icon";
+import { MetricList } from "../../ui/MetricList";
 import { Path } from "../../ui/Path";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
@@ -36,6 +37,9 @@ export function RunPage({ run }: { run: number }) {
 }
 
 function Detail({ run }: { run: RunDetail }) {
+  const navigate = useNavigate();
+  const seek = (time: number) =>
+    navigate({ to: "/studio/$scenario", params: { scenario: run.scenario }, search: { run: run.run, time } });
   return (
     <article className={classes.detail} data-testid="run-detail">
       <header className={classes.detailHead}>
@@ -59,7 +63,7 @@ function Detail({ run }: { run: RunDetail }) {
           <VerdictCard run={run} />
         </Card>
         <Card title="Metrics">
-          <Metrics metrics={run.metrics} unmet={run.unmet} />
+          <Metrics run={run} onSeek={seek} />
         </Card>
         <Goals run={run} />
         <Card title="Parameters that were set">
@@ -71,13 +75,15 @@ function Detail({ run }: { run: RunDetail }) {
       </div>
       <div className={classes.column}>
         <Charts run={run} />
-        <Explanations run={run} />
+        <Explanations run={run} onSeek={seek} />
         <Card title="Events">
           {run.events.length ? (
-            <EventList events={run.events} />
+            <EventList events={run.events} onSeek={isLive(run.status) ? undefined : seek} />
           ) : (
             <Text size="sm" c="dimmed">
-              Nothing noteworthy happened.
+              {isLive(run.status)
+                ? "They are listed here when the run is over; the studio shows them as they come."
+                : "Nothing noteworthy happened."}
             </Text>
           )}
         </Card>
@@ -137,53 +143,21 @@ function Card({ title, children }: { title: string; children: ReactNode }) {
   );
 }
 
-const GOALS = { higher: "higher is better", lower: "lower is better" };
-
-function Metrics({ metrics, unmet }: { metrics: Record<string, Metric>; unmet: readonly string[] }) {
+/** Its times lead into the studio, where the run is played back. */
+function Metrics({ run, onSeek }: { run: RunDetail; onSeek: (time: number) => void }) {
   const known = useGlossary().metrics;
-  const rows = Object.entries(metrics);
-  if (rows.length === 0)
-    return (
-      <Text size="sm" c="dimmed">
-        No metrics: they are computed when a run ends.
-      </Text>
-    );
-  return (
-    <Table verticalSpacing={3} horizontalSpacing={6} fz="sm" data-testid="metrics">
-      <Table.Tbody>
-        {rows.map(([name, { value, unit, goal, kind, about }]) => (
-          <Table.Tr key={name}>
-            <Table.Td>
-              <span title={explained(kind || name, known)}>{titleOf(name, known)}</span>
-              <Unmet sentence={unmet.find((sentence) => sentence.startsWith(`${name} `))} />
-              {goal ? (
-                <Text size="xs" c="dimmed">
-                  {GOALS[goal]}
-                </Text>
-              ) : null}
-              {about ? <Text size="xs">{about}</Text> : null}
-            </Table.Td>
-            <Table.Td ta="right" style={{ fontVariantNumeric: "tabular-nums", whiteSpace: "nowrap" }}>
-              <b>{value === null ? "–" : formatNumber(value)}</b>
-            </Table.Td>
-            <Table.Td c="dimmed" style={{ whiteSpace: "nowrap" }}>
-              {unitText(unit)}
-            </Table.Td>
-          </Table.Tr>
-        ))}
-      </Table.Tbody>
-    </Table>
-  );
+  const { data } = useQuery(kindsQuery);
+  return <MetricList run={run} known={known} kinds={data?.kinds ?? []} onSeek={onSeek} />;
 }
 
 /** Why somebody collided, nearly did, or braked hard: what was known, what was lost, who commanded, which tyre was at its limit. */
-function Explanations({ run }: { run: RunDetail }) {
+function Explanations({ run, onSeek }: { run: RunDetail; onSeek: (time: number) => void }) {
   const { data, error } = useQuery(explanations(run));
   if (error) return <Failure error={error} />;
   if (!data?.length) return null;
   return (
     <Card title="Why it happened">
-      <ExplanationList explanations={data} />
+      <ExplanationList explanations={data} onSeek={onSeek} />
     </Card>
   );
 }
@@ -236,25 +210,6 @@ function GoalRow({ goal: { metric, bound, wanted, value, unit, margin } }: { goa
         )}
       </Table.Td>
     </Table.Tr>
-  );
-}
-
-function Unmet({ sentence }: { sentence: string | undefined }) {
-  if (!sentence) return null;
-  return (
-    <Tooltip label={sentence}>
-      <Badge
-        size="xs"
-        color="orange"
-        variant="light"
-        tt="none"
-        ml={6}
-        tabIndex={0}
-        aria-label={`Goal not met: ${sentence}`}
-      >
-        goal not met
-      </Badge>
-    </Tooltip>
   );
 }
 
@@ -336,7 +291,7 @@ function Charts({ run }: { run: RunDetail }) {
   if (names.length === 0)
     return (
       <Empty icon="chart" title="No traces">
-        This run recorded nothing.
+        {untraced(run.status)}
       </Empty>
     );
   return chosen.map((name, place) => (

@@ -86,8 +86,8 @@ export function RunBar(props: Props) {
           id="seed"
           data-testid="seed"
           min={0}
-          allowDecimal={false}
-          allowNegative={false}
+          step={1}
+          whole
           disabled={live}
           value={seed}
           onNumber={onSeed}

@@ -4,12 +4,14 @@ import { Badge, Button, Checkbox, ScrollArea, Tabs, Text, Tooltip } from "@manti
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { memo, useState } from "react";
-import { runs } from "../../api/queries";
+import { useGlossary } from "../../api/glossary";
+import { kinds as kindsQuery, runs } from "../../api/queries";
 import { fromSet } from "../../model/form";
-import { isLive, leaf, type Run, type RunEvent, type Status } from "../../model/run";
+import { isLive, leaf, type Run, type RunDetail, type RunEvent, type Status } from "../../model/run";
 import { formatMoment, formatValue, words } from "../../model/units";
 import { EventList } from "../../ui/EventList";
 import { Icon } from "../../ui/Icon";
+import { MetricList } from "../../ui/MetricList";
 import { Empty, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { type Playhead, useMoment } from "./playhead";
@@ -18,6 +20,8 @@ import classes from "./Studio.module.css";
 interface Props {
   scenario: string;
   run: number | undefined;
+  /** That run, as soon as it is known. */
+  detail: RunDetail | undefined;
   /** How that run stands now, which the list of runs learns only later. */
   status: Status | undefined;
   events: readonly RunEvent[];
@@ -25,7 +29,7 @@ interface Props {
   head: Playhead | undefined;
 }
 
-export const SidePanel = memo(function SidePanel({ scenario, run, status, events, head }: Props) {
+export const SidePanel = memo(function SidePanel({ scenario, run, detail, status, events, head }: Props) {
   return (
     <Tabs defaultValue="runs" className={classes.side} keepMounted={false}>
       <Tabs.List>
@@ -42,12 +46,16 @@ export const SidePanel = memo(function SidePanel({ scenario, run, status, events
         >
           Events
         </Tabs.Tab>
+        <Tabs.Tab value="metrics">Metrics</Tabs.Tab>
       </Tabs.List>
       <Tabs.Panel value="runs" className={classes.sideBody}>
         <History scenario={scenario} shown={run} status={status} />
       </Tabs.Panel>
       <Tabs.Panel value="events" className={classes.sideBody}>
         <Events events={events} head={head} />
+      </Tabs.Panel>
+      <Tabs.Panel value="metrics" className={classes.sideBody}>
+        <Metrics run={detail} head={head} />
       </Tabs.Panel>
     </Tabs>
   );
@@ -172,6 +180,23 @@ function Setting({ run }: { run: Run }) {
         </Text>
       ))}
     </>
+  );
+}
+
+function Metrics({ run, head }: { run: RunDetail | undefined; head: Playhead | undefined }) {
+  const known = useGlossary().metrics;
+  const { data } = useQuery(kindsQuery);
+  if (!run || Object.keys(run.metrics).length === 0) {
+    return (
+      <Empty icon="table" title="No metrics yet">
+        They are computed when the run that is shown ends.
+      </Empty>
+    );
+  }
+  return (
+    <ScrollArea className={classes.history} classNames={{ content: classes.historyContent ?? "" }} type="auto">
+      <MetricList run={run} known={known} kinds={data?.kinds ?? []} onSeek={head?.seek} />
+    </ScrollArea>
   );
 }
 

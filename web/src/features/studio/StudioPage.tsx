@@ -3,7 +3,7 @@
 import { Button, NativeSelect, Text } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
-import { memo, useState } from "react";
+import { memo, useEffect, useState } from "react";
 import * as queries from "../../api/queries";
 import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
@@ -15,7 +15,7 @@ import { type Draft, useDraft } from "./draft";
 import { useFarewell } from "./farewell";
 import { type Form, useForm } from "./form";
 import { LiveCharts } from "./LiveCharts";
-import { usePlayhead } from "./playhead";
+import { type Playhead, usePlayhead } from "./playhead";
 import { ParameterPanel } from "./ParameterPanel";
 import { RunBar } from "./RunBar";
 import { SceneView } from "./SceneView";
@@ -31,25 +31,28 @@ interface Props {
   run: number | undefined;
   /** A run whose setting is to be taken over, as the parent of the next one. */
   from: number | undefined;
+  /** The time [s] to go to as soon as the run is played back. */
+  time: number | undefined;
   /** False while another page covers this one; the scene and the run go on. */
   active: boolean;
 }
 
-export function StudioPage({ scenario: id, run, from, active }: Props) {
-  const [draft, update] = useDraft(id);
+export function StudioPage({ scenario: id, run, from, time, active }: Props) {
+  const [draft, update, isFresh] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
   const [charted, chart] = useState(["speed", "gap"]);
   const zoom = useZoom(run);
   const shown = useShownRun(run, charted, zoom.span);
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
-  useTakeOver(id, from, update);
+  useTakeOver(id, from, isFresh ? run : undefined, update);
   useFarewell(shown.live, run);
   const status = shown.progress?.status;
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
   const playable = over && shown.channels.length > 0;
   const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable);
   const head = usePlayhead(playable && !scene.settling ? run : undefined, scene);
+  useSeekOnce(id, run, head, time);
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
   useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
   const duration = shown.progress?.duration || form.duration;
@@ -94,11 +97,21 @@ export function StudioPage({ scenario: id, run, from, active }: Props) {
             head={head}
             zoom={zoom}
           />
-          <SidePanel scenario={id} run={run} status={status} events={shown.events} head={head} />
+          <SidePanel scenario={id} run={run} detail={shown.detail} status={status} events={shown.events} head={head} />
         </div>
       ) : null}
     </div>
   );
+}
+
+/** A link may name a time: the playback goes there, once, and then to wherever one likes. */
+function useSeekOnce(id: string, run: number | undefined, head: Playhead | undefined, time: number | undefined) {
+  const navigate = useNavigate();
+  useEffect(() => {
+    if (!head || time === undefined) return;
+    head.seek(time);
+    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run }, replace: true });
+  }, [id, run, head, time, navigate]);
 }
 
 interface ParametersProps {

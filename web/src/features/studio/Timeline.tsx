@@ -130,12 +130,9 @@ function Moment({ head }: { head: Playhead }) {
         w={92}
         aria-label="Time"
         data-testid="playhead"
-        hideControls
-        suffix=" s"
-        min={head.begin}
-        max={head.end}
-        decimalScale={3}
-        value={Number(time.toFixed(3))}
+        unit="s"
+        decimals={3}
+        value={time}
         onNumber={(value) => {
           if (Math.abs(value - head.time) > 5e-4) head.seek(value);
         }}

@@ -83,13 +83,15 @@ function ofForm(error: Error & { problems?: Problem[] }): Error {
   return text ? new Error(text) : error;
 }
 
-/** "Tune from here": take over the setting of a run, once. */
-export function useTakeOver(id: string, from: number | undefined, update: (part: Partial<Draft>) => void) {
+/** "Tune from here": take over the setting of a run, once. A form that nobody has touched takes over that of the run in the address. */
+export function useTakeOver(id: string, from: number | undefined, run: number | undefined, update: (part: Partial<Draft>) => void) {
   const navigate = useNavigate();
-  const { data } = useQuery({ ...queries.run(from ?? 0), enabled: from !== undefined });
+  const wanted = from ?? run;
+  const { data } = useQuery({ ...queries.run(wanted ?? 0), enabled: wanted !== undefined });
   useEffect(() => {
-    if (from === undefined || data?.run !== from) return;
-    update({ changes: fromSet(data.parameters), seed: data.seed, parent: from });
-    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run: from }, replace: true });
-  }, [from, data, id, navigate, update]);
+    if (wanted === undefined || data?.run !== wanted) return;
+    if (data.scenario === id) update({ changes: fromSet(data.parameters), seed: data.seed, parent: wanted });
+    if (from !== undefined)
+      navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run: from }, replace: true });
+  }, [wanted, from, data, id, navigate, update]);
 }

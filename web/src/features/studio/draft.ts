@@ -15,11 +15,13 @@ export interface Draft {
 
 const FRESH: Draft = { changes: {}, seed: null, pace: 1, parent: null };
 
-/** The draft of a scenario, and how to change parts of it. */
-export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => void] {
+const NOTHING: Partial<Draft> = {};
+
+/** The draft of a scenario, how to change parts of it, and whether nobody has done so yet. */
+export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => void, boolean] {
   const [stored, store] = useSessionStorage<Partial<Draft>>({
     key: `draft ${scenario}`,
-    defaultValue: FRESH,
+    defaultValue: NOTHING,
     getInitialValueInEffect: false,
   });
   const update = useCallback(
@@ -27,5 +29,5 @@ export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => vo
     [store],
   );
   const draft = useMemo(() => ({ ...FRESH, ...stored }), [stored]);
-  return [draft, update];
+  return [draft, update, Object.keys(stored).length === 0];
 }
