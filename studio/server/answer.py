@@ -104,6 +104,7 @@ class ScenarioDetail(BaseModel):
     description: str
     attribution: str
     scenario_hash: str
+    digest: str = Field(description="of the file's text, as in its ETag")
     document: dict[str, Any] = Field(description="with all defaults")
     given: dict[str, Any] = Field(description="as it stands in the file, in the present version of the format: without defaults")
     form: dict[str, Any] = Field(alias="schema")

@@ -99,6 +99,7 @@ def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
         description=loaded.scenario.description.strip(),
         attribution=prepared.network.attribution,
         scenario_hash=job.scenario_hash(loaded, prepared),
+        digest=digest(loaded.source.text),
         document=loaded.document,
         given=loaded.given,
         schema=json_schema(Scenario),

@@ -21,7 +21,7 @@ RESERVED = re.compile(r"(con|prn|aux|nul|com[0-9]|lpt[0-9])(\..*)?", re.IGNORECA
 def checked(text: str) -> str:
     """The name without its ending; raises ScenarioError when no file may be called so."""
     name = unicodedata.normalize("NFC", text).strip()
-    name = name[: -len(ENDING)].rstrip() if name.lower().endswith(ENDING) else name
+    name = re.sub(r"\.ya?ml$", "", name, flags=re.IGNORECASE).rstrip()
     if what := wrong(name):
         problem = Problem("name", what, ascii(text[:80]), f"{ALLOWED}; at most {LONGEST} characters", "choose another name")
         raise ScenarioError("A scenario cannot be called so.", [problem])

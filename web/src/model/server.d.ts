@@ -2624,6 +2624,11 @@ export interface components {
             /** Scenario Hash */
             scenario_hash: string;
             /**
+             * Digest
+             * @description of the file's text, as in its ETag
+             */
+            digest: string;
+            /**
              * Document
              * @description with all defaults
              */

@@ -4,6 +4,7 @@ import { useSessionStorage } from "@mantine/hooks";
 import { useCallback, useMemo } from "react";
 import type { Pace } from "../../api/types";
 import type { Changes } from "../../model/run";
+import { draftKey } from "../../ui/memory";
 
 export interface Draft {
   changes: Changes;
@@ -18,7 +19,7 @@ const FRESH: Draft = { changes: {}, seed: null, pace: 1, parent: null };
 /** The draft of a scenario, and how to change parts of it. */
 export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => void] {
   const [stored, store] = useSessionStorage<Partial<Draft>>({
-    key: `draft ${scenario}`,
+    key: draftKey(scenario),
     defaultValue: FRESH,
     getInitialValueInEffect: false,
   });
