@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import secrets
 import tempfile
 from collections.abc import Generator, Iterable
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from studio.errors import Problem, ScenarioError, StudioError, nearest
+from studio.errors import ConflictError, Problem, ScenarioError, StudioError, nearest
 from studio.scenario.finding import problems
 from studio.scenario.schema import Scenario
 from studio.scenario.text import source
@@ -80,7 +81,47 @@ def write(path: Path, text: str) -> None:
             os.unlink(beside)
             raise
     except OSError as error:
-        raise ScenarioError(f"{path} cannot be written.", [Problem(str(path), error.strerror or str(error))]) from None
+        raise unwritten(path, error) from None
+
+
+def write_new(path: Path, text: str) -> None:
+    """Puts a text where there is no file yet, at once. Raises ConflictError when there is one, or ScenarioError."""
+    beside = path.with_name(f".{path.name}-{secrets.token_hex(4)}")
+    try:
+        try:
+            with beside.open("x", encoding="utf-8", newline="") as file:
+                file.write(text)
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise unwritten(path, error) from None
+        move_new(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def move_new(path: Path, target: Path) -> None:
+    """Gives a file another name, which must be free: nothing is ever overwritten. Raises ConflictError or ScenarioError."""
+    try:
+        try:
+            os.link(path, target, follow_symlinks=False)
+        except FileExistsError:
+            raise
+        except OSError:  # a file system without hard links: the name is taken first
+            target.touch(exist_ok=False)
+            os.replace(path, target)
+        else:
+            path.unlink()
+    except FileExistsError:
+        problem = Problem("name", "is taken", target.name, remedy="choose another name")
+        raise ConflictError(f"There is a file {target.name} already.", [problem]) from None
+    except OSError as error:
+        raise unwritten(target, error) from None
+
+
+def unwritten(path: Path, error: OSError) -> ScenarioError:
+    """A refusal of the disk."""
+    return ScenarioError(f"{path} cannot be written.", [Problem(str(path), error.strerror or str(error))])
 
 
 def validate(document: dict[str, Any], where: str) -> Scenario:

@@ -10,7 +10,7 @@ from studio.errors import Problem, ScenarioError, UnknownError, short
 from studio.kind import preset, registry
 from studio.scenario import edit, file, finding
 from studio.scenario.schema import Application, Scenario, json_schema, sort_at
-from studio.scenario.text.patch import is_text, operation, patched
+from studio.scenario.text.patch import Operation, is_text, operation, patched
 
 
 def complete(document: dict[str, Any], where: str) -> Scenario:
@@ -46,18 +46,26 @@ def change(document: dict[str, Any], changes: dict[str, Any], where: str) -> dic
 
     Raises ScenarioError for a path that does not exist, or text that no file can hold.
     """
+    return patched(document, patch_of(document, changes, where))
+
+
+def patch_of(document: dict[str, Any], changes: dict[str, Any], where: str) -> list[Operation]:
+    """The patch that changes come to. Raises ScenarioError as `change` does."""
     for path, value in changes.items():
         check_text(path, value, where)
-    full, rest = laid_out(document, where), dict(changes)
+    full, rest, done = laid_out(document, where), dict(changes), []
     for i, path in enumerate(changes):
         if sort := exchanged_sort(full, path):
             for around in whole([each for each in list(changes)[:i] if each in rest], path):
-                document = patched(document, edit.assignment(document, full, around, rest.pop(around)))
-            document = exchanged(document, full, sort, path, rest)
+                done += (step := edit.assignment(document, full, around, rest.pop(around)))
+                document = patched(document, step)
+            done += (step := exchanged(document, full, sort, path, rest))
+            document = patched(document, step)
     full = full if len(rest) == len(changes) else laid_out(document, where)
     for path, value in presets_first(rest).items():
-        document = patched(document, edit.assignment(document, full, path, value))
-    return document
+        done += (step := edit.assignment(document, full, path, value))
+        document = patched(document, step)
+    return done
 
 
 def presets_first(changes: dict[str, Any]) -> dict[str, Any]:
@@ -98,8 +106,8 @@ def exchanged_sort(full: dict[str, Any], path: str) -> str:
     return sort_at(json_schema(Scenario), place) if last == "kind" and place else ""
 
 
-def exchanged(document: dict[str, Any], full: dict[str, Any], sort: str, path: str, rest: dict[str, Any]) -> dict[str, Any]:
-    """The document with another kind in a place; what both kinds have and the document gives is kept, the rest is dropped.
+def exchanged(document: dict[str, Any], full: dict[str, Any], sort: str, path: str, rest: dict[str, Any]) -> list[Operation]:
+    """The patch that puts another kind in a place; what both kinds have and the document gives is kept, the rest is dropped.
 
     What is set of the new kind at the same time is set with it, because it may need it: name and settings are taken out of `rest`.
     """
@@ -110,8 +118,8 @@ def exchanged(document: dict[str, Any], full: dict[str, Any], sort: str, path: s
     kept = {key: value for key, value in given.items() if key in fields} if isinstance(given, dict) else {}
     settings = kept | {key: rest.pop(f"{at}.{key}") for key in fields if f"{at}.{key}" in rest}
     if sort == "application":
-        return patched(document, [operation("replace", path.split("."), value=name), operation("add", at.split("."), value=settings)])
-    return patched(document, edit.assignment(document, full, place, {"kind": name} | settings))
+        return [operation("replace", path.split("."), value=name), operation("add", at.split("."), value=settings)]
+    return edit.assignment(document, full, place, {"kind": name} | settings)
 
 
 def settings_of(sort: str, name: Any) -> list[str]:

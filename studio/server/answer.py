@@ -81,6 +81,12 @@ class ScenarioRow(BaseModel):
     """A scenario in the list; `problem` says why it cannot be run."""
 
     id: str
+    file: str = Field(description="name of its file in the folder of scenarios")
+    map: str = Field(description="the map file that it names; empty when it cannot be read")
+    changed: str = Field(description="when the file was changed last (ISO 8601, UTC)")
+    digest: str = Field(description="of its text, as in its ETag; empty when it cannot be read")
+    sealed: bool = Field(description="whether it may be read only")
+    runs: int | None = Field(description="how many runs of it are in the database; null when that cannot be read")
     title: str
     description: str
     vehicles: int
@@ -99,6 +105,7 @@ class ScenarioDetail(BaseModel):
     description: str
     attribution: str
     scenario_hash: str
+    digest: str = Field(description="of the file's text, as in its ETag")
     document: dict[str, Any] = Field(description="with all defaults")
     given: dict[str, Any] = Field(description="as it stands in the file, in the present version of the format: without defaults")
     form: dict[str, Any] = Field(alias="schema")
@@ -126,6 +133,86 @@ class Patched(BaseModel):
     inverse: list[Operation]
     digest: str
     document: dict[str, Any]
+
+
+class Template(BaseModel):
+    """A scenario to begin with, which is laid on a way through a map."""
+
+    name: str
+    title: str
+    description: str
+
+
+FileName = Annotated[str, Field(description="name of its file, with or without .yaml", max_length=300, examples=["my drive"])]
+Title = Annotated[str, Field(min_length=1, max_length=120)]
+
+
+class NewScenario(BaseModel):
+    """A scenario to make from a template."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: FileName
+    title: Title | None = Field(None, description="left out, that of the template")
+    template: str = "one_car"
+    map: str = Field(description="id of the map, as in the list of maps")
+
+
+class NewCopy(BaseModel):
+    """A scenario to make from another one, with changes by path."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: FileName
+    title: Title | None = Field(None, description="left out, that of the other one")
+    set: ChangesByPath = {}
+
+
+class NewName(BaseModel):
+    """What a scenario is to be called from now on."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: FileName
+    title: Title | None = Field(None, description="left out, it stays")
+
+
+class KeptScenario(BaseModel):
+    """A scenario that was written, and the digest of its text (its ETag)."""
+
+    scenario: str
+    digest: str
+
+
+class DeletedScenario(BaseModel):
+    """A scenario file in the trash."""
+
+    id: str = Field(description="its name in the trash")
+    scenario: str = Field(description="what it was called")
+    deleted: str = Field(description="when (ISO 8601, UTC)")
+    bytes: int
+
+
+class Return(BaseModel):
+    """How a scenario comes back from the trash."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    name: FileName | None = Field(None, description="left out, the one that it had")
+
+
+class TextProblem(Problem):
+    """A problem of a text, with its place if it has one, counted from 1."""
+
+    line: int | None
+    column: int | None
+
+
+class TextCheck(BaseModel):
+    """Whether a text is a scenario."""
+
+    ok: bool
+    problems: list[TextProblem]
 
 
 class Given(BaseModel):

@@ -30,6 +30,7 @@ from studio.scenario.finding import MOST_TOLD, allowed
 from studio.server import relay, routes
 from studio.server.desk import Desk
 from studio.server.maps import routes as map_routes
+from studio.server.scenarios import routes as scenario_routes
 
 TITLE = "Cooperative ADAS Studio"
 METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
@@ -49,6 +50,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.exception_handler(Exception)(mistaken)
     app.include_router(routes.router)
     app.include_router(map_routes.router)
+    app.include_router(scenario_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.door))
     app.add_route(
         "/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE"], include_in_schema=False

@@ -1,12 +1,14 @@
 """What the routes work with: where scenarios, maps and runs are, the live runs, the imports, the stage."""
 
 import threading
+from collections.abc import Iterable, Mapping
+from contextlib import closing
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from studio import job, sample
-from studio.errors import Problem, ServerError, StudioError, UnknownError, nearest, short
+from studio.errors import ConflictError, Problem, ServerError, StoreError, StudioError, UnknownError, nearest, short
 from studio.execution.loop import FASTEST, SLOWEST
 from studio.job import Loaded
 from studio.road.library import place
@@ -17,6 +19,7 @@ from studio.server.live import MOST_LIVE, LiveRun, Lives
 from studio.server.maps import Maps
 from studio.server.maps.job import MapJobs
 from studio.server.replay import Replay, replay
+from studio.server.scenarios import Scenarios
 from studio.server.stage import Stage
 from studio.server.worker import Order, pace_factor
 from studio.store import queue
@@ -37,6 +40,7 @@ class Desk:
         first = next(iter(self.files().values()), None)
         self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
+        self.scenario_files = Scenarios(self.documents)
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
@@ -73,7 +77,7 @@ class Desk:
                     remedy="start the studio in a folder of your own, or name one with --scenarios",
                 )
                 raise ServerError("The samples cannot be copied to a folder of your own.", [problem]) from None
-            self.scenarios = own
+            self.scenarios = self.documents.folder = own
             self.maps = self.map_jobs.maps = Maps(own)
 
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
@@ -88,11 +92,15 @@ class Desk:
         """The file of a scenario; raises UnknownError."""
         files = self.files()
         if scenario not in files:
-            raise UnknownError(
-                f"There is no scenario {short(scenario)}.",
-                [Problem("scenario", "does not exist", short(scenario), remedy=nearest(scenario, files))],
-            )
+            raise UnknownError(f"There is no scenario {short(scenario)}.", [self.gone(scenario, files)])
         return files[scenario]
+
+    def gone(self, scenario: str, files: Iterable[str]) -> Problem:
+        """Why there is no such scenario: it never was, or somebody has deleted it."""
+        for each in self.scenario_files.trash.entries():
+            if each.scenario == scenario:
+                return Problem("scenario", "was deleted", short(scenario), remedy=f"bring it back from the trash, where it is {each.id}")
+        return Problem("scenario", "does not exist", short(scenario), remedy=nearest(scenario, files))
 
     def load(self, scenario: str, changes: dict[str, Any] | None = None) -> Loaded:
         """A scenario with changes, which may name files of its folder only; raises UnknownError or ScenarioError."""
@@ -101,9 +109,10 @@ class Desk:
             check_inside(found, found.source)
         return found
 
-    def row(self, scenario: str) -> dict[str, Any]:
-        """A scenario for the list; one that cannot be read says why."""
-        row = {"id": scenario, "title": scenario, "description": "", "vehicles": 0, "duration_s": 0.0}
+    def row(self, scenario: str, runs: Mapping[str, int] | None = None) -> dict[str, Any]:
+        """A scenario for the list, with the number of its runs; one that cannot be read says why."""
+        row = {"id": scenario, "title": scenario, "description": "", "map": "", "vehicles": 0, "duration_s": 0.0}
+        row |= self.scenario_files.told(self.file(scenario)) | {"runs": None if runs is None else runs.get(scenario, 0)}
         try:
             loaded = self.load(scenario)
             found = loaded.scenario
@@ -113,6 +122,7 @@ class Desk:
         return row | {
             "title": found.title,
             "description": found.description.strip(),
+            "map": found.map.file,
             "vehicles": len(found.vehicles) + found.traffic.count,
             "duration_s": found.clock.duration,
             "attribution": attribution,
@@ -122,6 +132,25 @@ class Desk:
     def runs(self) -> Runs:
         """The run database, for one request."""
         return reopen_runs(self.db)
+
+    def runs_by_scenario(self) -> dict[str, int] | None:
+        """How many runs each scenario has; None when the database cannot be read."""
+        try:
+            with closing(self.runs()) as kept:
+                return kept.by_scenario()
+        except StoreError:
+            return None
+
+    def rename(self, scenario: str, name: str, title: str | None, expected: str | None) -> Path:
+        """Gives a scenario another name, and its runs with it. Raises UnknownError, ConflictError, SealedError or ScenarioError."""
+        path = self.file(scenario)
+        with closing(self.runs()) as kept:
+            if name != scenario:
+                check_at_rest(kept, scenario)
+            renamed = self.scenario_files.rename(path, name, title, expected)
+            if renamed.stem != scenario:
+                kept.rename_scenario(scenario, renamed.stem)
+        return renamed
 
     def replay(self, runs: Runs, run: int) -> Replay:
         """A run that is over, for the scene. Raises UnknownError, StudioError for what its map or models do not give any more."""
@@ -143,6 +172,13 @@ class Desk:
         else:
             queue.cancel(runs, run)
         return runs.find(run)
+
+
+def check_at_rest(runs: Runs, scenario: str) -> None:
+    """Raises ConflictError while runs of a scenario go on or wait: they would come to their end under the old name."""
+    if busy := [each.run for each in queue.queue(runs) if each.scenario == scenario]:
+        problems = [Problem(f"run {run}", "is not over", remedy="wait for it, or cancel it") for run in busy]
+        raise ConflictError(f"{scenario} cannot be renamed while runs of it go on.", problems)
 
 
 def check_pace(pace: Pace) -> None:

@@ -1,16 +1,20 @@
 """The scenario files of the folder as documents: their text, and patches that are checked before they are written."""
 
+import hashlib
 import threading
 from collections import OrderedDict
+from collections.abc import Collection
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 import studio
 from studio import job
-from studio.errors import Problem, ScenarioError, SealedError, StaleError, short
+from studio.errors import Problem, ScenarioError, SealedError, SizeError, StaleError, nearest, short
 from studio.job import Loaded
 from studio.scenario import edit, file
 from studio.scenario.schema import VERSION
+from studio.scenario.text import source
 from studio.scenario.text.document import applied, digest
 from studio.scenario.text.migration import version_of
 from studio.scenario.text.patch import Operation
@@ -37,6 +41,26 @@ class Documents:
             self.given.popitem(last=False)
         return found
 
+    def text(self, path: Path) -> str:
+        """The text of a scenario file, be it a scenario or not; raises ScenarioError when it is no text."""
+        data = file.content(path, "scenario", file.SIZE_LIMIT)
+        try:
+            return self.read(path).text
+        except ScenarioError:
+            return source.decoded(data, path.name)
+
+    def put(self, path: Path, text: str, expected: str | None) -> Source:
+        """Writes a text in the place of a file if that is the expected one, given its digest, and the text is a scenario.
+
+        Raises SealedError, StaleError, or ScenarioError with the lines; then nothing was written.
+        """
+        with self.lock:
+            self.check_open(path)
+            self.check_expected(path, expected)
+            check_text(text, path, own=names_in(path))
+            file.write(path, text)
+            return self.read(path)
+
     def patch(self, path: Path, patch: list[Operation], expected: str | None) -> tuple[Source, list[Operation]]:
         """Changes a file if it is the expected one, given its digest, and what comes of it is valid; returns it with the inverse.
 
@@ -47,12 +71,8 @@ class Documents:
             self.check_open(path)
             before = self.read(path)
             check_version(before)
-            if expected is not None and expected != digest(before.text):
-                raise self.stale(path, before, expected)
-            after, inverse = applied(before, patch)
-            found = job.loaded(file.checked(after, "scenario"), path)
-            check_inside(found, before)
-            job.check(found)
+            self.check_expected(path, expected)
+            after, inverse = changed(before, patch, path)
             if after.text != before.text:
                 file.write(path, after.text)
             return self.read(path), inverse
@@ -60,16 +80,90 @@ class Documents:
     def check_open(self, path: Path) -> None:
         """Only files that lie in the folder itself are written, no samples of the program, and none that is write-protected."""
         place, own = path.resolve(), Path(studio.__file__).resolve().parent
-        if place.parent != self.folder.resolve() or own in place.parents or not place.stat().st_mode & 0o200:
+        is_open = place.is_file() and place.stat().st_mode & 0o200
+        if place.parent != self.folder.resolve() or own in place.parents or not is_open:
             problem = Problem(str(path), "may be read only", remedy="copy it under another name, and change that")
             raise SealedError(f"{path.name} cannot be changed.", [problem])
 
-    def stale(self, path: Path, now: Source, expected: str) -> StaleError:
+    def check_expected(self, path: Path, expected: str | None) -> None:
+        """Raises StaleError when a file is not the expected one, given its digest; None is any."""
+        data = file.content(path, "scenario", file.SIZE_LIMIT)
+        if expected is not None and expected != digest_of(data):
+            raise self.stale(path, expected)
+
+    def stale(self, path: Path, expected: str) -> StaleError:
         """A refusal that says what has changed since the expected text was given out, if that is still known."""
-        before = self.given.get(expected)
-        found = differences(before, now) if before else []
+        before, found = self.given.get(expected), []
+        with suppress(ScenarioError):  # what stands there now may be no YAML
+            found = differences(before, self.read(path)) if before else []
         problems = found or [Problem(path.name, "is not as it was when you read it", remedy="read it again, then change it")]
         return StaleError(f"{path.name} has changed meanwhile.", problems)
+
+
+def changed(before: Source, patch: list[Operation], path: Path) -> tuple[Source, list[Operation]]:
+    """A source with a patch that leaves it a valid scenario, and the inverse. Raises ConflictError or ScenarioError."""
+    after, inverse = applied(before, patch)
+    found = job.loaded(file.checked(after, "scenario"), path)
+    check_inside(found, before)
+    job.check(found)
+    return after, inverse
+
+
+def check_text(text: str, path: Path, *, own: Collection[str] = ()) -> Loaded:
+    """What a text would be as that file, which need not be there; `own` are files that may be named, wherever they are.
+
+    Raises ScenarioError with all that is wrong, line by line.
+    """
+    found = job.loaded(file.mapping(encoded(text, path.name), path.name, "scenario"), path)
+    named = {place: name for place, name in named_files(found.scenario).items() if name not in own}
+    with file.placed(found.source, path.name):
+        if wrong := [missing(f"{path.name}: {place}", name, path.parent) for place, name in named.items() if is_missing(name, path.parent)]:
+            raise ScenarioError(f"{path.name} names files that cannot be had.", wrong)
+    job.check(found)
+    return found
+
+
+def names_in(path: Path) -> set[str]:
+    """The files that a scenario file names already; none of one that is no scenario."""
+    try:
+        return set(named_files(job.load(path).scenario).values())
+    except ScenarioError:
+        return set()
+
+
+def encoded(text: str, where: str) -> bytes:
+    """The bytes of a text; raises ScenarioError when they are too many, or it is none."""
+    try:
+        data = text.encode()
+    except UnicodeEncodeError as error:
+        raise ScenarioError(f"{where} is not a text.", [Problem(where, error.reason, allowed="UTF-8")]) from None
+    if len(data) > file.SIZE_LIMIT:
+        raise too_large()
+    return data
+
+
+def too_large() -> SizeError:
+    """The refusal of a scenario that is too large."""
+    return SizeError("The file is too large.", [Problem("body", "is too large for a scenario", allowed=f"at most {file.SIZE_LIMIT} bytes")])
+
+
+def is_missing(name: str, folder: Path) -> bool:
+    """Whether a named file is outside of the folder, or not there."""
+    return leads_out(name) or not (folder / name).exists()
+
+
+def missing(where: str, name: str, folder: Path) -> Problem:
+    """A named file that cannot be had. Of one outside of the folder it is not told whether it is there."""
+    if leads_out(name):
+        return Problem(where, OUTSIDE, short(name), INSIDE)
+    beside = (folder / name).parent
+    known = [each.name for each in beside.iterdir() if not each.name.startswith(".")] if beside.is_dir() else []
+    return Problem(where, "does not exist", short(name), remedy=nearest(PurePosixPath(name).name, known))
+
+
+def digest_of(data: bytes) -> str:
+    """The digest of a file, as that of its text."""
+    return hashlib.sha256(data).hexdigest()
 
 
 def check_inside(found: Loaded, before: Source) -> None:

@@ -32,9 +32,6 @@ from studio.store.setting import settings
 from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
-YAML: dict[int | str, dict[str, Any]] = {
-    200: {"description": "YAML (RFC 9512)", "content": {"application/yaml": {"schema": {"type": "string"}}}}
-}
 PAGE: dict[int | str, dict[str, Any]] = {200: {"description": "HTML", "content": {"text/html": {"schema": {"type": "string"}}}}}
 TRAJECTORIES: dict[int | str, dict[str, Any]] = {
     200: {"description": "piece by piece", "content": {each: {"schema": {"type": "string"}} for each in MEDIA.values()}}
@@ -51,6 +48,16 @@ def desk_of(request: Request) -> Desk:
 
 
 AtDesk = Annotated[Desk, Depends(desk_of)]
+
+
+def own_desk(desk: AtDesk) -> Desk:
+    """The desk, where something may be written."""
+    desk.settle()
+    return desk
+
+
+AtOwnDesk = Annotated[Desk, Depends(own_desk)]
+IfMatch = Annotated[str | None, Header(description="ETag of the text that is expected; without it, any")]
 
 
 def opened_runs(desk: AtDesk) -> Iterator[Runs]:
@@ -81,7 +88,8 @@ def info(desk: AtDesk) -> answer.Info:
 @router.get("/scenarios")
 def scenarios(desk: AtDesk) -> list[answer.ScenarioRow]:
     """The scenario files of the folder."""
-    return [answer.ScenarioRow(**desk.row(each)) for each in desk.files()]
+    runs = desk.runs_by_scenario()
+    return [answer.ScenarioRow(**desk.row(each, runs)) for each in desk.files()]
 
 
 @router.get("/scenarios/{scenario}")
@@ -95,6 +103,7 @@ def scenario(scenario: str, desk: AtDesk) -> answer.ScenarioDetail:
         description=loaded.scenario.description.strip(),
         attribution=prepared.network.attribution,
         scenario_hash=job.scenario_hash(loaded, prepared),
+        digest=digest(loaded.source.text),
         document=loaded.document,
         given=loaded.given,
         schema=json_schema(Scenario),
@@ -113,31 +122,33 @@ def check(scenario: str, changes: answer.Changes, desk: AtDesk) -> answer.Check:
         return answer.Check(ok=False, problems=error.as_json()["problems"], document=document)
 
 
-@router.get("/scenarios/{scenario}/text", response_class=Response, responses=YAML)
-def text(scenario: str, desk: AtDesk) -> Response:
-    """A scenario file as it stands, in the present version of the format; its ETag is the digest of the text."""
-    found = desk.documents.read(desk.file(scenario))
-    return Response(found.text, media_type="application/yaml", headers={"ETag": etag(found)})
-
-
 @router.patch("/scenarios/{scenario}", response_model_exclude_unset=True)
 def patch_scenario(
     scenario: str,
     patch: Annotated[list[Operation], Body(media_type="application/json-patch+json")],
     desk: AtDesk,
     response: Response,
-    if_match: Annotated[str | None, Header(description="ETag of the text that the patch is for; without it, any")] = None,
+    if_match: IfMatch = None,
 ) -> answer.Patched:
     """Changes a scenario file by a JSON patch (RFC 6902): all of it if the result is valid, else nothing. Undo: send the inverse."""
-    expected = None if if_match in (None, "*") else if_match.strip().removeprefix("W/").strip('"')
-    found, inverse = desk.documents.patch(desk.file(scenario), operations(patch), expected)
-    response.headers["ETag"] = etag(found)
+    found, inverse = desk.documents.patch(desk.file(scenario), operations(patch), expected(if_match))
+    return patched(found, inverse, response)
+
+
+def patched(found: Source, inverse: list[Operation], response: Response) -> answer.Patched:
+    """A scenario that was changed."""
+    response.headers["ETag"] = etag(found.text)
     return answer.Patched(inverse=inverse, digest=digest(found.text), document=found.value)
 
 
-def etag(found: Source) -> str:
+def etag(text: str) -> str:
     """The digest of a text as HTTP has it."""
-    return f'"{digest(found.text)}"'
+    return f'"{digest(text)}"'
+
+
+def expected(if_match: str | None) -> str | None:
+    """The digest that a request expects; None for any."""
+    return None if if_match in (None, "*") else if_match.strip().removeprefix("W/").strip('"')
 
 
 @router.get("/kinds")

@@ -368,6 +368,15 @@ class Runs:
             )
             raise StoreError(f"The list of runs is damaged in {self.path}.", [problem]) from None
 
+    def by_scenario(self) -> dict[str, int]:
+        """How many runs each scenario has."""
+        return {row["scenario"]: row["runs"] for row in self.rows("select scenario, count(*) as runs from runs group by scenario")}
+
+    def rename_scenario(self, old: str, new: str) -> None:
+        """Runs of a scenario whose file has another name from now on."""
+        with self.writing():
+            self.database.conn.execute("update runs set scenario = ? where scenario = ?", [new, old])
+
     @contextmanager
     def looking(self) -> Generator[None]:
         """All that is read is of one moment, whoever writes meanwhile."""

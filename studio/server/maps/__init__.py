@@ -304,8 +304,13 @@ def map_of(scenario: Path) -> Path | None:
 
 def scenario_text(name: str, found: Trip, maker: str, terms: str) -> str:
     """A scenario file: one car on a trip, at the limit."""
+    return as_file(a_drive(name, found), maker, terms)
+
+
+def a_drive(name: str, found: Trip) -> dict[str, Any]:
+    """A scenario: one car on a trip, at the limit."""
     duration = min(600.0, 10.0 * np.ceil((1.2 * found.time + RED_LIGHT * len(found.path.stop_lines)) / 10.0) + 10.0)
-    document = {
+    return {
         "version": VERSION,
         "title": f"A drive in {name}"[:120],
         "description": f"One car drives {found.length:.0f} m through the map {name}, a way drawn by lot, and stops at red.",
@@ -315,6 +320,10 @@ def scenario_text(name: str, found: Trip, maker: str, terms: str) -> str:
         "routes": {"trip": {"roads": list(found.roads)}},
         "vehicles": {"ego": {"route": "trip", "position": {"along": found.start}, "speed": round(found.speed, 2)}},
     }
+
+
+def as_file(document: dict[str, Any], maker: str, terms: str) -> str:
+    """A scenario as its file, which names the source of the map."""
     named = " ".join(", ".join(filter(None, (maker, terms))).split())  # a header may hold line breaks
     head = f"# Map data {named}.\n" if named else ""
     return f"{head}{written(document, flow=None)}\n"

@@ -5,26 +5,16 @@ Imports are answered at once with a job; whoever asked looks at it until it is o
 
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Query, Request
 
 from studio.server import answer
-from studio.server.desk import Desk
-from studio.server.routes import AtDesk
+from studio.server.routes import AtDesk, AtOwnDesk
 
 BODY = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
 Name = Annotated[str, Query(description="name of the file; its ending tells the kind: .osm, .osm.gz, .osm.pbf, .json", max_length=300)]
 Box = Annotated[str | None, Query(description="the part to keep, west,south,east,north [deg]")]
 Replace = Annotated[bool, Query(description="replace the import of that name; its corrections are kept")]
 router = APIRouter(prefix="/api", responses=answer.REFUSALS)
-
-
-def own_desk(desk: AtDesk) -> Desk:
-    """The desk, where something may be written."""
-    desk.settle()
-    return desk
-
-
-AtOwnDesk = Annotated[Desk, Depends(own_desk)]
 
 
 @router.get("/maps")

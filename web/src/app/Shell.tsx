@@ -17,11 +17,11 @@ import { useQuery } from "@tanstack/react-query";
 import { Link, Outlet, useLocation, useMatch, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useEffect, useState } from "react";
 import { Unreachable } from "../api/client";
-import { heartbeat, kinds, queue } from "../api/queries";
+import { heartbeat, kinds, queue, scenarios } from "../api/queries";
 import { StudioPage } from "../features/studio/StudioPage";
 import { Icon, type IconName } from "../ui/Icon";
+import { rememberScenario } from "../ui/memory";
 import { useShortcuts } from "../ui/shortcut";
-import { rememberScenario } from "./places";
 import classes from "./Shell.module.css";
 
 export function Shell() {
@@ -31,6 +31,7 @@ export function Shell() {
   useShortcuts({
     "?": () => setHelp(true),
     "g s": () => navigate({ to: "/" }),
+    "g f": () => navigate({ to: "/scenarios", search: {} }),
     "g r": () => navigate({ to: "/runs", search: {} }),
     "g q": () => navigate({ to: "/queue" }),
     "g c": () => navigate({ to: "/compare", search: {} }),
@@ -74,7 +75,10 @@ function Places() {
     setLast({ scenario, run, from, time: undefined });
     rememberScenario(scenario);
   }, [scenario, run, from]);
-  const shown = scenario === undefined ? last : { scenario, run, from, time };
+  // A scenario that was deleted or renamed meanwhile is let go.
+  const { data: known } = useQuery(scenarios);
+  const lost = last !== undefined && known !== undefined && !known.some(({ id }) => id === last.scenario);
+  const shown = scenario !== undefined ? { scenario, run, from, time } : lost ? undefined : last;
   return (
     <>
       {shown ? <StudioPage {...shown} active={scenario !== undefined} /> : null}
@@ -111,7 +115,7 @@ function Navigation() {
   const { pathname } = useLocation();
   const broken = useQuery(kinds).data?.broken.length ?? 0;
   const waiting = useQuery(queue).data?.filter(({ status }) => status === "waiting").length ?? 0;
-  const place = (to: "/" | "/runs" | "/queue" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
+  const place = (to: "/" | "/scenarios" | "/runs" | "/queue" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
     const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
     return (
       <Link
@@ -129,6 +133,7 @@ function Navigation() {
   return (
     <nav className={classes.navigation} aria-label="Places">
       {place("/", "nav-studio", "Studio")}
+      {place("/scenarios", "nav-scenarios", "Scenarios")}
       {place("/runs", "nav-runs", "Runs")}
       {place("/queue", "nav-queue", <>Queue {waiting > 0 ? <WaitingBadge count={waiting} /> : null}</>)}
       {place("/compare", "nav-compare", "Compare")}
@@ -231,8 +236,9 @@ const KEYS: [string[], string][] = [
   [[","], "One sample back in a run that is over"],
   [["<", ">"], "One second back or on in a run that is over"],
   [["[", "]"], "Previous or next event of a run that is over"],
-  [["/"], "Search parameters or kinds, or filter the runs"],
+  [["/"], "Search parameters, scenarios or kinds, or filter the runs"],
   [["g", "s"], "Go to the studio"],
+  [["g", "f"], "Go to the scenario files"],
   [["g", "r"], "Go to the runs"],
   [["g", "q"], "Go to the queue"],
   [["g", "c"], "Go to the comparison"],
@@ -242,6 +248,10 @@ const KEYS: [string[], string][] = [
   [["x"], "Select a row to compare"],
   [["c", "d"], "Make a run a candidate, or discard it, with a reason"],
   [["enter"], "Open the run of a row"],
+  [["n"], "New scenario, among the scenarios"],
+  [["F2"], "Rename the scenario of a row"],
+  [["del"], "Delete the scenario of a row; it can be brought back"],
+  [["ctrl", "S"], "Save the text of a scenario"],
   [["+", "−"], "Enlarge or reduce the plan of a map"],
   [["f"], "Show all of the plan"],
   [["?"], "Show this"],

@@ -2,8 +2,9 @@
 
 import { Button } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
-import { Navigate, useNavigate } from "@tanstack/react-router";
+import { Link, Navigate, useNavigate } from "@tanstack/react-router";
 import { scenarios } from "../api/queries";
+import { lastScenario } from "../ui/memory";
 import { Empty, Failure, Loading } from "../ui/State";
 
 /** `/` is the studio with the scenario that was open last, or else the first sound one. */
@@ -11,20 +12,23 @@ export function FirstScenario() {
   const { data, error, refetch } = useQuery(scenarios);
   if (error) return <Failure error={error} onRetry={() => void refetch()} />;
   if (!data) return <Loading what="scenarios" />;
-  const last = localStorage.getItem(LAST);
+  const last = lastScenario();
   const first = data.find(({ id }) => id === last) ?? data.find(({ problem }) => problem === null) ?? data[0];
   if (first) return <Navigate to="/studio/$scenario" params={{ scenario: first.id }} search={{}} replace />;
   return (
-    <Empty icon="car" title="No scenarios">
-      The scenarios folder holds no scenario file. Put one there and reload this page.
+    <Empty
+      icon="car"
+      title="No scenarios"
+      action={
+        <Button component={Link} to="/scenarios">
+          Make one
+        </Button>
+      }
+    >
+      The scenarios folder holds no scenario file. Make one from a template, or import one.
     </Empty>
   );
 }
-
-const LAST = "last scenario";
-
-/** Remember the scenario for the next visit. */
-export const rememberScenario = (id: string): void => localStorage.setItem(LAST, id);
 
 export function NotFound() {
   const navigate = useNavigate();
@@ -34,7 +38,8 @@ export function NotFound() {
       title="There is no such page"
       action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}
     >
-      The address leads nowhere. The studio, the runs, the queue, the comparison, the maps and the kinds are in the head of the page.
+      The address leads nowhere. The studio, the scenarios, the runs, the queue, the comparison, the maps and the kinds are in the head of
+      the page.
     </Empty>
   );
 }

@@ -4,6 +4,7 @@ import { createRootRoute, createRoute, createRouter, useNavigate } from "@tansta
 import { lazy, Suspense } from "react";
 import { ComparePage } from "../features/compare/ComparePage";
 import type { MapView } from "../features/maps/MapPage";
+import type { ScenariosView } from "../features/scenarios/ScenariosPage";
 import { QueuePage } from "../features/runs/QueuePage";
 import { RunPage } from "../features/runs/RunPage";
 import { RunsPage, type RunsView } from "../features/runs/RunsPage";
@@ -92,9 +93,44 @@ const compareRoute = createRoute({
   },
 });
 
-// Maps and kinds are loaded when somebody goes there: the studio starts sooner without them.
+// Scenario files, maps and kinds are loaded when somebody goes there: the studio starts sooner without them.
 const MapsPage = lazy(async () => ({ default: (await import("../features/maps/MapsPage")).MapsPage }));
 const MapPage = lazy(async () => ({ default: (await import("../features/maps/MapPage")).MapPage }));
+
+const ScenariosPage = lazy(async () => ({
+  default: (await import("../features/scenarios/ScenariosPage")).ScenariosPage,
+}));
+const TextPage = lazy(async () => ({ default: (await import("../features/scenarios/TextPage")).TextPage }));
+
+const scenariosRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/scenarios",
+  validateSearch: ({ q, sort }: Record<string, unknown>): ScenariosView => ({ q: text(q), sort: text(sort) }),
+  component: function Scenarios() {
+    const navigate = useNavigate();
+    return (
+      <Suspense fallback={<Loading what="the scenarios" />}>
+        <ScenariosPage
+          view={scenariosRoute.useSearch()}
+          onView={(view) => navigate({ to: "/scenarios", search: view, replace: true })}
+        />
+      </Suspense>
+    );
+  },
+});
+
+const textRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/scenarios/$scenario/text",
+  component: function Text() {
+    const { scenario } = textRoute.useParams();
+    return (
+      <Suspense fallback={<Loading what="the text" />}>
+        <TextPage key={scenario} id={scenario} />
+      </Suspense>
+    );
+  },
+});
 
 const KindsPage = lazy(async () => ({ default: (await import("../features/kinds/KindsPage")).KindsPage }));
 
@@ -146,7 +182,19 @@ const kindsRoute = createRoute({
 });
 
 export const router = createRouter({
-  routeTree: root.addChildren([index, studioRoute, runsRoute, runRoute, queueRoute, compareRoute, mapsRoute, mapRoute, kindsRoute]),
+  routeTree: root.addChildren([
+    index,
+    studioRoute,
+    scenariosRoute,
+    textRoute,
+    runsRoute,
+    runRoute,
+    queueRoute,
+    compareRoute,
+    mapsRoute,
+    mapRoute,
+    kindsRoute,
+  ]),
 });
 
 declare module "@tanstack/react-router" {

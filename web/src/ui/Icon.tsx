@@ -35,6 +35,12 @@ const PATHS = {
   minus: "M5 12h14",
   fit: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",
   undo: "M9 6L4 11l5 5M4 11h9a6 6 0 0 1 6 6v2",
+  more: "M5 12h.01M12 12h.01M19 12h.01",
+  pen: "M4 20l1-5L16 4l4 4L9 19zM14 6l4 4",
+  copy: "M9 9h11v11H9zM5 15H4V4h11v1",
+  download: "M12 4v11M7 10.5l5 5 5-5M4 17v3h16v-3",
+  text: "M5 4h14v16H5zM8 9h8M8 12.5h8M8 16h5",
+  save: "M4 4h13l3 3v13H4zM8 4v5h7V4M8 20v-6h8v6",
   eye: "M2 12c5-8 15-8 20 0-5 8-15 8-20 0zM12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
 } as const;
 

@@ -47,9 +47,10 @@ export function Loading({ what }: { what: string }) {
 interface FailureProps {
   error: Error & { problems?: Problem[] };
   onRetry?: () => void;
+  onDismiss?: () => void;
 }
 
-export function Failure({ error, onRetry }: FailureProps) {
+export function Failure({ error, onRetry, onDismiss }: FailureProps) {
   return (
     <Alert
       color="red"
@@ -58,6 +59,7 @@ export function Failure({ error, onRetry }: FailureProps) {
       icon={<Icon name="warning" />}
       m="md"
       maw={640}
+      {...(onDismiss ? { withCloseButton: true, closeButtonLabel: "Close this message", onClose: onDismiss } : {})}
     >
       <ProblemList problems={error.problems ?? []} />
       {onRetry ? (

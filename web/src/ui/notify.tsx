@@ -16,7 +16,16 @@ export function notifyError(error: Error & { problems?: Problem[] }): void {
   });
 }
 
-/** Tell that something has happened. */
-export function notify(title: string, message: ReactNode, color = "teal"): void {
-  notifications.show({ color, title, message, autoClose: 6000, withBorder: true });
+interface How {
+  /** By which it can be closed. */
+  id?: string;
+  autoClose?: number;
 }
+
+/** Tell that something has happened. */
+export function notify(title: string, message: ReactNode, color = "teal", how: How = {}): void {
+  notifications.show({ color, title, message, autoClose: 6000, withBorder: true, ...how });
+}
+
+/** Take a notice away that says nothing true any more. */
+export const closeNotice = (id: string): void => void notifications.hide(id);

@@ -8,13 +8,13 @@ import { map as mapQuery, plan as planQuery, useDrive } from "../../api/maps";
 import type { Picked, PlanPicture } from "../../charts/PlanPicture";
 import { again, type Filter, type Finding, findings, type Mark, ordered, type SortKey, shown } from "../../model/finding";
 import type { MapDetail, MapRow, Plan as PlanData } from "../../model/map";
+import { DropAnywhere } from "../../ui/Drop";
 import { Icon } from "../../ui/Icon";
 import { notifyError } from "../../ui/notify";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { DeleteQuestion } from "./DeleteQuestion";
 import { FindingDetails, RoadDetails } from "./Details";
-import { DropAnywhere } from "./Drop";
 import { Filters } from "./Filters";
 import { FindingsTable, type Sort } from "./FindingsTable";
 import { useRefresh, useSend } from "./imports";
@@ -62,7 +62,7 @@ export function MapPage({ id, view, onView }: Props) {
       ) : (
         <Loading what={data ? "the plan" : "the map"} />
       )}
-      <DropAnywhere onFiles={take} />
+      <DropAnywhere onFiles={take}>Drop the map file to import it</DropAnywhere>
     </>
   );
 }

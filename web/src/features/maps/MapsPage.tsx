@@ -7,11 +7,11 @@ import { useRef, useState } from "react";
 import { maps, noteJob } from "../../api/maps";
 import type { MapJob, MapRow } from "../../model/map";
 import { formatBytes, formatNumber } from "../../model/units";
+import { DropAnywhere } from "../../ui/Drop";
 import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { DeleteQuestion } from "./DeleteQuestion";
-import { DropAnywhere } from "./Drop";
 import { ImportPanel, type Wishes } from "./ImportPanel";
 import { useEnds, useRefresh, useSend } from "./imports";
 import { Jobs } from "./Jobs";
@@ -43,7 +43,7 @@ export function MapsPage() {
         </Empty>
       ) : null}
       {data && data.length > 0 ? <MapTable rows={data} /> : null}
-      <DropAnywhere onFiles={take} />
+      <DropAnywhere onFiles={take}>Drop the map file to import it</DropAnywhere>
     </div>
   );
 }

@@ -4,6 +4,7 @@ import { useSessionStorage } from "@mantine/hooks";
 import { useCallback, useMemo } from "react";
 import type { Pace } from "../../api/types";
 import type { Changes } from "../../model/run";
+import { draftKey } from "../../ui/memory";
 
 export interface Draft {
   changes: Changes;
@@ -20,7 +21,7 @@ const NOTHING: Partial<Draft> = {};
 /** The draft of a scenario, how to change parts of it, and whether nobody has done so yet. */
 export function useDraft(scenario: string): [Draft, (part: Partial<Draft>) => void, boolean] {
   const [stored, store] = useSessionStorage<Partial<Draft>>({
-    key: `draft ${scenario}`,
+    key: draftKey(scenario),
     defaultValue: NOTHING,
     getInitialValueInEffect: false,
   });

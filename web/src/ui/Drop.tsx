@@ -1,11 +1,17 @@
 /** A file may be dropped anywhere on the view. */
 
 import { useEffect, useRef, useState } from "react";
-import { Icon } from "../../ui/Icon";
-import classes from "./Maps.module.css";
+import classes from "./Drop.module.css";
+import { Icon } from "./Icon";
+
+interface Props {
+  onFiles: (files: File[]) => void;
+  /** What would be done with a file that is dropped. */
+  children: string;
+}
 
 /** Shows that a file would be taken while it is held over the page, and takes what is dropped. */
-export function DropAnywhere({ onFiles }: { onFiles: (files: File[]) => void }) {
+export function DropAnywhere({ onFiles, children }: Props) {
   const [over, setOver] = useState(false);
   const latest = useRef(onFiles);
   latest.current = onFiles;
@@ -37,7 +43,7 @@ export function DropAnywhere({ onFiles }: { onFiles: (files: File[]) => void }) 
   return over ? (
     <div className={classes.veil} data-testid="drop-veil">
       <Icon name="upload" size={34} />
-      Drop the map file to import it
+      {children}
     </div>
   ) : null;
 }
