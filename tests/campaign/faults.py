@@ -25,14 +25,12 @@ import psutil
 from websockets.sync.client import connect
 
 from tests.campaign.applications import APPLICATIONS
-from tests.campaign.station import ORPHAN_TIME, QUICK, SCENARIO, Station, quick_run
+from tests.campaign.station import NEXT_RUN, ORPHAN_TIME, QUICK, SCENARIO, SERVANTS, Station, quick_run
 from tests.campaign.table import Row
 from tests.patience import PATIENCE, until
 
 ANSWER_TIME = 1.0  # [s] for the server to tell what it knows while something hangs
 END_TIME = 10.0  # [s] for a server to end at SIGTERM
-NEXT_RUN = 2  # processes: a guard and its worker
-SERVANTS = ("multiprocessing.resource_tracker", "multiprocessing.forkserver")  # of the server, for as long as it lives
 OVER = ("done", "failed", "stopped", "killed")
 LONG = {"clock.duration": 60}
 ENDLESS = ("hanging", "deaf", "sleeping", "forking", "stopping")  # have to be stopped
@@ -71,27 +69,7 @@ def at_rest(station: Station) -> None:
     """No more processes of runs are left, in time, than a server has that does nothing."""
     until(lambda: station.client.get("/api/info").json()["compiling"] is None, "everything to be compiled")
     with station.within(ORPHAN_TIME, "processes to end"):
-        until(lambda: len(of_runs(station)) <= NEXT_RUN, "processes to end")
-
-
-def of_runs(station: Station) -> list[psutil.Process]:
-    """The processes that have begun with a run, and that of the next: neither the server nor a servant of it."""
-    return [each for each in station.family() if not is_of_the_server(each, station)]
-
-
-def is_of_the_server(process: psutil.Process, station: Station) -> bool:
-    """Whether a process is the server or one that it has once. Who has ended is as good as one."""
-    server = station.process.pid if station.process else 0
-    try:
-        return process.pid == server or (process.ppid() == server and any(each in str(process.cmdline()) for each in SERVANTS))
-    except psutil.Error:
-        return True
-
-
-def answers(station: Station) -> None:
-    """The server tells what it knows at once."""
-    with station.within(ANSWER_TIME, "an answer"):
-        station.client.get("/api/kinds").raise_for_status()
+        until(lambda: len(station.of_runs()) <= NEXT_RUN, "processes to end")
 
 
 # -- applications --------------------------------------------------------------------------------------
@@ -122,7 +100,7 @@ def workers(station: Station) -> list[psutil.Process]:
     family = station.family()
     parents = {each.ppid() for each in family}
     assert station.process
-    return [each for each in family if each.pid not in parents and not is_of_the_server(each, station)]
+    return [each for each in family if each.pid not in parents and not station.owns(each)]
 
 
 def to_worker(number: int) -> Callable[[Station, random.Random], None]:

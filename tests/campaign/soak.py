@@ -1,5 +1,8 @@
 """Soak: live runs begun and ended one after another, and what the server holds while they come and go.
 
+It is looked when the process of the next run stands ready and no other is left: how soon that is depends on how busy the machine is, and
+so would what is held at any other moment.
+
 Growth is the slope of a straight line through what was held after each run, with the uncertainty of that slope. Neighbouring values
 depend on each other, so the uncertainty is that of the means of blocks, which do not.
 """
@@ -12,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tests.campaign.station import Held, Station
+from tests.campaign.station import NEXT_RUN, Held, Station
 from tests.campaign.table import Row
 from tests.patience import until
 
@@ -62,6 +65,7 @@ def campaign(station: Station, *, seed: int, count: int, seconds: float | None =
     for number in range(1, count + 1):
         with runs.trying("ended as they should"):
             once(station, chance)
+        until(lambda: len(station.of_runs()) == NEXT_RUN, "the process of the next run, and no other")
         held.append(station.held())
         spent = time.monotonic() - began
         if number == count or (seconds and spent > seconds):

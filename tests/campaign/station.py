@@ -25,6 +25,8 @@ from tests.patience import PATIENCE, until
 ROOT = Path(__file__).parent.parent.parent
 SCENARIO = "motorway_platoon"
 QUICK = {"clock.duration": 0.2}
+NEXT_RUN = 2  # processes: a guard and its worker
+SERVANTS = ("multiprocessing.resource_tracker", "multiprocessing.forkserver")  # of the server, for as long as it lives
 ORPHAN_TIME = 5.0  # [s] for everything that a server has started to be gone
 NOBODY = "http://127.0.0.1:9"  # no map server there
 
@@ -171,6 +173,18 @@ class Station:
             return process.environ().get("STUDIO_CAMPAIGN") == self.mark and process.status() != psutil.STATUS_ZOMBIE
         except psutil.Error:
             return False
+
+    def of_runs(self) -> list[psutil.Process]:
+        """The processes that have begun with a run, and those of the next: neither the server nor a servant of it."""
+        return [each for each in self.family() if not self.owns(each)]
+
+    def owns(self, process: psutil.Process) -> bool:
+        """Whether a process is the server or one that it has once. Who has ended is as good as one."""
+        server = self.process.pid if self.process else 0
+        try:
+            return process.pid == server or (process.ppid() == server and any(each in str(process.cmdline()) for each in SERVANTS))
+        except psutil.Error:
+            return True
 
     def leaves_nobody(self) -> None:
         """All that it has started is gone in time."""
