@@ -72,6 +72,12 @@ def at_rest(station: Station) -> None:
         until(lambda: len(station.of_runs()) <= NEXT_RUN, "processes to end")
 
 
+def answers(station: Station) -> None:
+    """The server tells what it knows at once."""
+    with station.within(ANSWER_TIME, "an answer"):
+        station.client.get("/api/kinds").raise_for_status()
+
+
 # -- applications --------------------------------------------------------------------------------------
 
 
