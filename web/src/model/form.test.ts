@@ -17,6 +17,7 @@ import {
   unitsOf,
   valueAt,
   withChange,
+  withoutSaved,
 } from "./form";
 
 const field = (path: string, changes = {}): Field => {
@@ -263,4 +264,8 @@ describe("units and values by path", () => {
     expect(valueAt(document, "script.0.width")).toBe(2);
     expect(valueAt(document, "radio.nothing.deeper")).toBeUndefined();
   });
+});
+
+it("keeps what was changed while the rest was saved", () => {
+  expect(withoutSaved({ a: 1, b: [2], c: 3 }, { a: 1, b: [2], c: 4 })).toEqual({ c: 3 });
 });
