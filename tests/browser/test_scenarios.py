@@ -295,5 +295,33 @@ def test_a_somebody_else_has_written(page, files, complaints):
     excused(complaints, "412", "404")
 
 
-def test_b_the_console_is_clean(complaints):
+def test_b_the_form_over_its_file_and_as_another(page, files, sample):
+    """What is saved is taken back by the notice; saved as another file the old one stays as it was, and the new one is shown."""
+    path, before = files / "town platoon.yaml", (files / "town platoon.yaml").read_text()
+    page.get_by_role("link", name="Scenarios", exact=True).click()
+    row(page, "Town platoon").get_by_role("link", name="Town platoon").click()
+    page.get_by_label("Search parameters").fill("parameters.headway")
+    headway = page.get_by_test_id("param-applications.platoon.parameters.headway")
+    headway.fill("0.9")
+    headway.press("Control+s")
+    expect(page.get_by_text("Nothing is changed from the scenario's file.")).to_be_visible()
+    assert "headway: 0.9" in path.read_text() and path.read_text().startswith("# mine\n")
+    expect(headway).to_have_value("0.9")
+    page.get_by_role("alert").filter(has_text="Saved in town platoon.yaml").get_by_role("button", name="Undo").click()
+    expect(page.get_by_test_id("changes")).to_contain_text("1 changed")
+    expect(headway).to_have_value("0.9")
+    assert path.read_text() == before
+    page.get_by_role("button", name="Save as …").click()
+    asked = dialog(page, "Save as another scenario")
+    asked.get_by_label("Title").fill("Town platoon, wider")
+    asked.get_by_label("File name").fill("wider")
+    asked.get_by_role("button", name="Save").click()
+    expect(page).to_have_url(re.compile("/studio/wider$"))
+    page.get_by_label("Search parameters").fill("parameters.headway")
+    expect(headway).to_have_value("0.9")
+    expect(page.get_by_text("Nothing is changed from the scenario's file.")).to_be_visible()
+    assert path.read_text() == before and "title: Town platoon, wider" in (files / "wider.yaml").read_text()
+
+
+def test_c_the_console_is_clean(complaints):
     assert complaints == []

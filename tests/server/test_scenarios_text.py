@@ -83,6 +83,7 @@ def test_a_file_is_taken_in_to_the_letter(client, folder, sample):
     data = sample.read_bytes().replace(b"\n", b"\r\n")
     made = client.post("/api/scenarios/import", params={"name": "Taken in.yaml"}, content=data)
     assert made.status_code == 201 and made.json()["scenario"] == "Taken in"
+    assert client.post("/api/scenarios/import", params={"name": "short.YML"}, content=data).json()["scenario"] == "short"
     assert (folder / "Taken in.yaml").read_bytes() == data and row(client, "Taken in")["problem"] is None
 
 

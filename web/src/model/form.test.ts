@@ -19,6 +19,7 @@ import {
   unitsOf,
   valueAt,
   withChange,
+  withoutSaved,
 } from "./form";
 import type { Changes, Tree } from "./run";
 
@@ -328,4 +329,8 @@ describe("a preset", () => {
     if (!exchange) throw new Error("the platoon's application can be exchanged");
     expect(exchanged({ [`${platoon}.preset`]: "series" }, exchange, "cacc")).toEqual({});
   });
+});
+
+it("keeps what was changed while the rest was saved", () => {
+  expect(withoutSaved({ a: 1, b: [2], c: 3 }, { a: 1, b: [2], c: 4 })).toEqual({ c: 3 });
 });

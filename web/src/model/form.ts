@@ -368,6 +368,12 @@ export function sameChanges(a: Changes, b: Changes): boolean {
   );
 }
 
+/** The changes that are left when some have been saved: what was set otherwise meanwhile stays. */
+export const withoutSaved = (changes: Changes, saved: Changes): Changes =>
+  Object.fromEntries(
+    Object.entries(changes).filter(([path, value]) => !(path in saved && same(value, saved[path] as Json))),
+  );
+
 /** All fields of the form, in the order in which they stand. */
 export function fieldsOf(all: readonly Section[]): Field[] {
   return all.flatMap((section) => [...section.fields, ...fieldsOf(section.sections)]);

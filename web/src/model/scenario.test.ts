@@ -128,7 +128,8 @@ describe("problems of a text", () => {
     expect(pathOf({ where: "my.yaml, line 3, column 5: clock.duration" })).toBe("clock.duration");
     expect(pathOf({ where: "my.yaml, line 3, column 5" })).toBe("");
     expect(pathOf({ where: "my.yaml" })).toBe("");
-    expect(pathOf({ where: "my.yaml: title" })).toBe("my.yaml: title");
+    expect(pathOf({ where: "my.yaml: map.file" })).toBe("map.file");
+    expect(pathOf({ where: "body" })).toBe("body");
   });
 });
 

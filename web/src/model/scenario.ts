@@ -87,7 +87,7 @@ export const byLine = (problems: readonly TextProblem[]): TextProblem[] =>
 export function pathOf({ where }: Pick<TextProblem, "where">): string {
   const placed = /, line \d+, column \d+(?:: (.*))?$/s.exec(where);
   if (placed) return placed[1] ?? "";
-  return /\.ya?ml$/i.test(where) ? "" : where;
+  return where.replace(/^[^:]*\.ya?ml(: |$)/i, "");
 }
 
 /** Whether every line of a text ends as on Windows; such a file stays so. */

@@ -35,7 +35,7 @@ const PATHS = {
   minus: "M5 12h14",
   fit: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",
   undo: "M9 6L4 11l5 5M4 11h9a6 6 0 0 1 6 6v2",
-  more: "M5 12h.01M12 12h.01M19 12h.01",
+  more: "M4.5 12h1M11.5 12h1M18.5 12h1",
   pen: "M4 20l1-5L16 4l4 4L9 19zM14 6l4 4",
   copy: "M9 9h11v11H9zM5 15H4V4h11v1",
   download: "M12 4v11M7 10.5l5 5 5-5M4 17v3h16v-3",

@@ -77,3 +77,19 @@ export function useShortcuts(handlers: Record<string, () => void>, enabled = tru
     return () => window.removeEventListener("keydown", listen);
   }, [enabled]);
 }
+
+/** Ctrl+S saves what is edited and not the page, wherever the focus is; while a dialog is open it belongs to that. */
+export function useSaveKey(save: () => void): void {
+  const latest = useRef(save);
+  latest.current = save;
+  useEffect(() => {
+    const listen = (event: KeyboardEvent) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey || event.key.toLowerCase() !== "s") return;
+      event.preventDefault();
+      const asks = event.target instanceof HTMLElement && event.target.closest("[role=dialog]");
+      if (!event.repeat && !asks) latest.current();
+    };
+    window.addEventListener("keydown", listen);
+    return () => window.removeEventListener("keydown", listen);
+  }, []);
+}

@@ -291,11 +291,12 @@ function Row({ row, onMenu, onDeed }: { row: ScenarioRow } & Pick<TableProps, "o
             size="sm"
             variant="subtle"
             color="gray"
+            c="var(--mantine-color-text)"
             aria-label={`What to do with ${row.title}`}
             aria-haspopup="menu"
             onClick={button}
           >
-            <Icon name="more" size={16} />
+            <Icon name="more" size={18} />
           </ActionIcon>
         </Tooltip>
       </Table.Td>

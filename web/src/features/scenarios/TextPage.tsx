@@ -24,6 +24,7 @@ import { NameDialog } from "../../ui/NameDialog";
 import { notify, notifyError } from "../../ui/notify";
 import { ProblemList, ProblemText } from "../../ui/Problems";
 import { Failure, Loading } from "../../ui/State";
+import { useSaveKey } from "../../ui/shortcut";
 import { goTo, mark, openEditor, replaceAll } from "./editor";
 import classes from "./Scenarios.module.css";
 
@@ -216,21 +217,6 @@ function useSaving(id: string, now: string, digest: string, onSaved: (read: Read
     pending: put.isPending || add.isPending,
     forget: put.reset,
   };
-}
-
-/** Ctrl+S saves the text and not the page, wherever the focus is. */
-function useSaveKey(save: () => void) {
-  const latest = useRef(save);
-  latest.current = save;
-  useEffect(() => {
-    const listen = (event: KeyboardEvent) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "s") return;
-      event.preventDefault();
-      if (!event.repeat) latest.current();
-    };
-    window.addEventListener("keydown", listen);
-    return () => window.removeEventListener("keydown", listen);
-  }, []);
 }
 
 interface SaveAsProps {

@@ -12,7 +12,7 @@ import {
   Tooltip,
   UnstyledButton,
 } from "@mantine/core";
-import { useMemo, useRef, useState } from "react";
+import { type ReactNode, useMemo, useRef, useState } from "react";
 import {
   type Exchange,
   exchangesOf,
@@ -39,9 +39,12 @@ interface Props {
   onExchange: (exchange: Exchange, name: string) => void;
   onResetAll: () => void;
   onForgetParent: () => void;
+  /** Writes the changes into a file. */
+  save: ReactNode;
 }
 
 export function ParameterPanel({
+  save,
   sections,
   problems,
   parent,
@@ -93,7 +96,7 @@ export function ParameterPanel({
           />
         )}
       </ScrollArea>
-      <Changed sections={sections} onChange={onChange} onExchange={onExchange} onResetAll={onResetAll} />
+      <Changed sections={sections} onChange={onChange} onExchange={onExchange} onResetAll={onResetAll} save={save} />
       <Parent parent={parent} onForget={onForgetParent} />
     </>
   );
@@ -124,10 +127,10 @@ function General({ problems }: { problems: readonly Problem[] }) {
   );
 }
 
-type ChangedProps = Pick<Props, "sections" | "onChange" | "onExchange" | "onResetAll">;
+type ChangedProps = Pick<Props, "sections" | "onChange" | "onExchange" | "onResetAll" | "save">;
 
 /** The list of everything that differs from the scenario's file. */
-function Changed({ sections, onChange, onExchange, onResetAll }: ChangedProps) {
+function Changed({ sections, onChange, onExchange, onResetAll, save }: ChangedProps) {
   const [open, setOpen] = useState(false);
   const fields = fieldsOf(sections).filter(({ changed }) => changed);
   const exchanges = exchangesOf(sections).filter(({ initial, value }) => initial !== value);
@@ -148,6 +151,7 @@ function Changed({ sections, onChange, onExchange, onResetAll }: ChangedProps) {
             {count} changed
           </Badge>
         </UnstyledButton>
+        {save}
         <Button size="compact-xs" variant="subtle" onClick={onResetAll}>
           Reset all
         </Button>

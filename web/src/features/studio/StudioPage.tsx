@@ -1,13 +1,14 @@
 /** The studio: the scene, the parameters, the run and its charts. */
 
-import { Button, NativeSelect, Text } from "@mantine/core";
+import { Button, NativeSelect, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
-import { useNavigate } from "@tanstack/react-router";
+import { Link, useNavigate } from "@tanstack/react-router";
 import { memo, useEffect, useState } from "react";
 import * as queries from "../../api/queries";
 import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
 import { isLive, type RunDetail } from "../../model/run";
+import { Icon } from "../../ui/Icon";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { useControl, useTakeOver } from "./control";
@@ -18,6 +19,7 @@ import { LiveCharts } from "./LiveCharts";
 import { type Playhead, usePlayhead } from "./playhead";
 import { ParameterPanel } from "./ParameterPanel";
 import { RunBar } from "./RunBar";
+import { SaveForm, useSaving } from "./SaveForm";
 import { SceneView } from "./SceneView";
 import { SidePanel } from "./SidePanel";
 import classes from "./Studio.module.css";
@@ -126,6 +128,7 @@ interface ParametersProps {
 /** The left side. Its parts change only with the form, not ten times a second with the run. */
 const Parameters = memo(function Parameters({ id, form, draft, update, other }: ParametersProps) {
   const { changes } = draft;
+  const saving = useSaving({ id, form, draft, update });
   return (
     <aside className={classes.panel} aria-label="Parameters">
       <ScenarioHead id={id} />
@@ -140,6 +143,7 @@ const Parameters = memo(function Parameters({ id, form, draft, update, other }: 
           onExchange={(exchange, name) => update({ changes: exchanged(changes, exchange, name) })}
           onResetAll={() => update({ changes: {} })}
           onForgetParent={() => update({ parent: null })}
+          save={<SaveForm id={id} form={form} draft={draft} update={update} saving={saving} />}
         />
       ) : form.error ? null : (
         <Loading what="the scenario" />
@@ -187,16 +191,29 @@ function ScenarioHead({ id }: { id: string }) {
   }));
   return (
     <header className={classes.head}>
-      <NativeSelect
-        size="sm"
-        aria-label="Scenario"
-        data-testid="scenario"
-        value={id}
-        data={choices.length ? choices : [{ value: id, label: id }]}
-        onChange={(event) =>
-          navigate({ to: "/studio/$scenario", params: { scenario: event.currentTarget.value }, search: {} })
-        }
-      />
+      <div className={classes.choice}>
+        <NativeSelect
+          size="sm"
+          flex={1}
+          aria-label="Scenario"
+          data-testid="scenario"
+          value={id}
+          data={choices.length ? choices : [{ value: id, label: id }]}
+          onChange={(event) =>
+            navigate({ to: "/studio/$scenario", params: { scenario: event.currentTarget.value }, search: {} })
+          }
+        />
+        <Tooltip label="Edit its file as text">
+          <Link
+            to="/scenarios/$scenario/text"
+            params={{ scenario: id }}
+            className={classes.asText}
+            aria-label="Edit this scenario as text"
+          >
+            <Icon name="text" />
+          </Link>
+        </Tooltip>
+      </div>
       {current?.description ? (
         <Text size="xs" c="dimmed" lineClamp={2} title={current.description}>
           {current.description}

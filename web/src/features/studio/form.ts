@@ -42,12 +42,15 @@ export function useForm(id: string, changes: Changes) {
       sections: form,
       ok,
       problems,
+      /** Of the file that the form stands for. */
+      digest: scenario.data?.digest,
+      title: scenario.data?.title,
       duration: durationOf(checked?.document ?? document),
       seed: typeof document?.seed === "number" ? document.seed : 1,
       error,
       retry,
     }),
-    [form, ok, checked, problems, blocked, document, error, retry],
+    [form, ok, checked, problems, blocked, document, scenario.data, error, retry],
   );
 }
 
