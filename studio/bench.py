@@ -12,7 +12,7 @@
                 close to each other
     scene       one update of the sample's vehicles in the 3D picture, which at 60 Hz has 16.7 ms for everything
 
-Medians of several repeats; machine and versions stand beside the figures.
+Medians of several repeats, but for the parts of a tick, which are means; machine and versions stand beside the figures.
 """
 
 import multiprocessing
@@ -169,12 +169,12 @@ def integration(running: Simulation, ticks: int) -> Callable[[], None]:
 
 
 def parts(running: Simulation, ticks: int) -> dict[str, float]:
-    """Seconds that each part of a tick takes: medians over some ticks."""
+    """Seconds that each part of a tick takes: means over some ticks, as there is more to do at some of them than at others."""
     spent: dict[str, list[float]] = {}
     for _ in range(ticks):
         for name, action in parts_of_tick(running):
             spent.setdefault(name, []).append(seconds(action))
-    return {name: statistics.median(each) for name, each in spent.items()}
+    return {name: statistics.fmean(each) for name, each in spent.items()}
 
 
 def parts_of_tick(running: Simulation) -> Iterator[tuple[str, Callable[[], Any]]]:
