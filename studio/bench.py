@@ -171,6 +171,8 @@ def integration(running: Simulation, ticks: int) -> Callable[[], None]:
 def parts(running: Simulation, ticks: int) -> dict[str, float]:
     """Seconds that each part of a tick takes: means over some ticks, as there is more to do at some of them than at others."""
     spent: dict[str, list[float]] = {}
+    for _, action in parts_of_tick(running):  # at the first tick parts by themselves get their arrays
+        action()
     for _ in range(ticks):
         for name, action in parts_of_tick(running):
             spent.setdefault(name, []).append(seconds(action))

@@ -96,6 +96,8 @@ def part(world: World) -> None:
 class Passes:
     """Passes of a tick in a row: `links` tell of a world which, and with which arrays, that stay where they are; they are bound once."""
 
+    __name__: str
+
     def __init__(self, *links: Callable[[World], Iterator[Link]]) -> None:
         self.links = links
         update_wrapper(self, links[0])
