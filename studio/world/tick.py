@@ -22,7 +22,7 @@ from studio.world.board.own import carry
 from studio.world.board.post import Post, draw_lots, taking_turns
 from studio.world.board.post import lay as lay_open
 from studio.world.board.sensing import Mounted
-from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic
+from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic, zebra
 from studio.world.seat import Seats
 from studio.world.table.mind import STATION
 from studio.world.world import Units, World
@@ -188,6 +188,8 @@ def look(world: World) -> Iterator[Link]:
         yield mind_obstacles(world)
     if world.obstacles.movers.object.size:
         yield mind_movers(world)
+    if world.obstacles.movers.zebra.size:
+        yield let_cross(world)
 
 
 def orient(world: World) -> Link:
@@ -228,6 +230,15 @@ def mind_movers(world: World) -> Link:
     v, r, o, w = world.vehicles, world.roads, world.obstacles, world.worlds
     paths, objects = (r.points, r.path_first, r.path_count), (o.movers.object, o.table, o.standing, o.first, o.count)
     return link(traffic.movers, v.state, v.parameter, *paths, *objects, w.of, v.drivers, v.mind)
+
+
+def let_cross(world: World) -> Link:
+    """Who crosses on stripes, or is about to."""
+    v, r, o, w, m = world.vehicles, world.roads, world.obstacles, world.worlds, world.obstacles.movers
+    paths, objects = (r.points, r.path_first, r.path_count), (o.table, o.standing, o.first, o.count, world.script.turned)
+    walking, view = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra), (world.neighbours.places, r.place_of, r.shadow)
+    own = (v.state, v.parameter, *paths, *objects, *walking, w.of, *view, v.drivers, v.mind)
+    return link(zebra.let_cross, *own, takes=("time",))
 
 
 @Passes

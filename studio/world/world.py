@@ -247,6 +247,9 @@ class Movers:
     corner: np.ndarray  # [row, corner], as obstacle.py names the rows
     speed: np.ndarray
     stays: np.ndarray  # 1 for one who stays at the end of his line
+    zebra: np.ndarray  # [row, zebra crossing on somebody's line]
+    zebra_first: np.ndarray
+    zebra_count: np.ndarray  # 0 of one who does not walk
 
 
 @dataclass
