@@ -24,6 +24,7 @@ class Car:
     intervention: Intervention
     colour: str
     gps: Gps
+    is_light: bool = False  # whether it moves with the light dynamics
     returns: bool = False  # whether it comes in again when it has arrived
     source: int | None = None  # the number of the source that lets it in when one is due
     is_outside: bool = False  # whether it is not on the road yet

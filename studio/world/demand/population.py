@@ -170,4 +170,5 @@ def name_of(i: int) -> str:
 def car(i: int, who: Who, scenario: Scenario, of: Manned, models: Models, way: Path, station: float, speed: float) -> Car:
     """Traffic car i."""
     driver, paint = driver_of(who, scenario, of), PAINTS[i % len(PAINTS)]
-    return Car(name_of(i), models[of.model], way, station, speed, driver, Intervention(), paint, Gps(drift=0.0, noise=0.0))
+    place, gps = (way, station, speed), Gps(drift=0.0, noise=0.0)
+    return Car(name_of(i), models[of.model], *place, driver, Intervention(), paint, gps, is_light=of.dynamics == "light")
