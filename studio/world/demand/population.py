@@ -39,6 +39,7 @@ SLOW = 3.0  # times as long as in free traffic a car may need, until cars of its
 
 through_ways = once(all_routes)  # from every arm to every other
 _paths: dict[tuple[str, int], Path] = {}
+_junctions: dict[tuple[str, int], np.ndarray] = {}
 Models = dict[str, VehicleModel]
 
 
@@ -131,7 +132,8 @@ def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodie
     """A way and a station for traffic car i that keeps the spacing to all that is placed, and overlaps nobody."""
     count = len(through_ways(network))
     for attempt in range(TRIES if count else 0):
-        way = through_path(network, int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count))
+        number = int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count)
+        way = through_path(network, number)
         if not is_long_enough(way, works):
             continue
         station = uniform(scenario.seed_of("traffic"), i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
@@ -139,7 +141,7 @@ def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodie
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
         if near_light or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken.near(x, y)):
             continue
-        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(network, way, station):
+        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(junctions(network, number), station):
             continue
         own = footprint("", model, way, station)
         if all(depth(own, other) <= 0.0 for other in bodies.near(own.x, own.y) if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
@@ -147,15 +149,18 @@ def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodie
     return None
 
 
-def junctions(network: Network, way: Path) -> np.ndarray:
-    """From where to where a path leads through junctions, float64[2, n] [m]."""
-    lanes = strands_of(network).lanes
-    return np.array([(each.enter, each.leave) for each in driven(network, way) if each.strand >= lanes]).reshape(-1, 2).T
+def junctions(network: Network, number: int) -> np.ndarray:
+    """From where to where the path of one of the ways leads through junctions, float64[2, n] [m]; found when it is needed, once."""
+    if (network.digest, number) not in _junctions:
+        lanes, there = strands_of(network).lanes, driven(network, through_path(network, number))
+        found = [(each.enter, each.leave) for each in there if each.strand >= lanes]
+        _junctions[network.digest, number] = np.array(found).reshape(-1, 2).T
+    return _junctions[network.digest, number]
 
 
-def in_junction(network: Network, way: Path, station: float) -> bool:
-    """Whether a car at a station [m] would start in a junction, or so near before it that it could not let others go first."""
-    enter, leave = junctions(network, way)
+def in_junction(through: np.ndarray, station: float) -> bool:
+    """Whether a car at a station [m] would start in one of the junctions, or so near before it that it could not let others go first."""
+    enter, leave = through
     return bool(((station > enter - CAR_LENGTH - BRAKING) & (station < leave + CAR_LENGTH)).any())
 
 
