@@ -30,7 +30,7 @@ FOUR_SENSORS = {
     "lane": {"kind": "lane_markings", "preset": "camera"},
     "place": {"kind": "satellite_receiver", "preset": "gnss"},
 }
-DENSITY = 25.0  # cars of the traffic per kilometre of a direction, which all keep to one of its lanes
+DENSITY = 30.0  # cars of the traffic per kilometre of a direction, which all keep to one of its lanes
 SHORTEST, LONGEST = 300.0, 1500.0  # [m] ways through a town that are taken
 APART, BEGIN, END = 20.0, 20.0, 130.0  # [m] from car to car at least; from the ends of a way
 STRIDE, PLACES = 911, 97  # primes: ways and places along them are gone through in leaps, so that they lie all over the town
@@ -91,7 +91,7 @@ def traffic_crowd(count: int, dynamics: str) -> Setting:
         "clock": {"duration": 60},
         "routes": {"eastbound": {"roads": [ROADS["eastbound"]]}},
         "vehicles": {"car": vehicle},
-        "traffic": {"count": count - 1, "dynamics": dynamics, "speed": 25},
+        "traffic": {"count": count - 1, "dynamics": dynamics, "speed": 25, "spacing": 15},
     }
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "motorway.xodr").write_text(motorway(length=length, lanes=LANES), encoding="utf-8")
