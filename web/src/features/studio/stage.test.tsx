@@ -2,10 +2,11 @@ import { QueryClient, QueryClientProvider } from "@tanstack/react-query";
 import { act } from "react";
 import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Changes } from "../../model/run";
 import { useScene } from "./stage";
 
 interface Asked {
-  set: Record<string, unknown>;
+  set: Changes;
   run?: number;
 }
 
@@ -34,13 +35,13 @@ interface Wanted {
   run?: number;
 }
 
-function Page({ set, run, ok }: { set: Record<string, unknown>; run: number | undefined; ok: boolean }) {
+function Page({ set, run, ok }: { set: Changes; run: number | undefined; ok: boolean }) {
   useScene("a", set, run, true, ok);
   return null;
 }
 
 /** The page with a form that says so, and what has come of it so many milliseconds later. */
-async function after(milliseconds: number, { range, ok, run }: Wanted, set: Record<string, unknown> = form(range)) {
+async function after(milliseconds: number, { range, ok, run }: Wanted, set: Changes = form(range)) {
   await act(async () => {
     root.render(
       <QueryClientProvider client={client}>
