@@ -230,12 +230,18 @@ def control(option: int, value: int) -> None:
 
 def watch(worker: int, lifeline: Connection) -> NoReturn:
     """Until the worker has ended; then ends what is left of it, and ends like it."""
-    threading.Thread(target=cut_off, args=(lifeline, lambda: os.kill(worker, signal.SIGKILL)), daemon=True).start()
+    threading.Thread(target=cut_off, args=(lifeline, lambda: end_at_once(worker)), daemon=True).start()
     ended, status = 0, 0
     while ended != worker:
         ended, status = os.wait()
     end_others(worker)
     end_like(os.waitstatus_to_exitcode(status))
+
+
+def end_at_once(worker: int) -> None:
+    """Ends a process that may have ended already."""
+    with suppress(ProcessLookupError):
+        os.kill(worker, signal.SIGKILL)
 
 
 def cut_off(lifeline: Connection, end: Callable[[], None]) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from studio.process import MOST_ORDERS, Busy, Child, Gone
+from studio.process import MOST_ORDERS, Busy, Child, Gone, end_at_once
 from tests.patience import PATIENCE, until
 
 
@@ -129,6 +129,13 @@ def told(**options):
         return child.hear()
     finally:
         child.end()
+
+
+def test_who_is_to_be_ended_may_have_ended_by_himself():
+    process = subprocess.Popen([sys.executable, "-c", IDLE])
+    end_at_once(process.pid)
+    assert process.wait(PATIENCE) == -signal.SIGKILL
+    end_at_once(process.pid)
 
 
 def test_prepared_processes_are_split_off_one_that_stays(monkeypatch):

@@ -497,7 +497,7 @@ def refused(station: Station, *words: str, says: str, **how: Any) -> None:
 
 
 @contextmanager
-def small_disk(folder: Path, options: str = "size=4m") -> Iterator[dict[str, Any]]:
+def small_disk(folder: Path, options: str = "size=40m") -> Iterator[dict[str, Any]]:
     """A small disk of its own for the database."""
     disk = folder / "disk"
     disk.mkdir()
