@@ -13,7 +13,7 @@ from studio.execution.about import about, of_about
 from studio.execution.happening import Happening, Number
 from studio.execution.message import Messages, joined, of_book
 from studio.execution.record import Record, Traced, renumber
-from studio.execution.shelf import Folder
+from studio.execution.shelf import FileRoll, Folder
 from studio.execution.simulation import Simulation
 from studio.world.board.log import Logged, book_of
 from studio.world.channel import CHANNELS
@@ -81,9 +81,15 @@ def probes(folder: Folder, known: dict[str, Any], count: int) -> dict[str, Trace
     places, numbers = known["trail"]
     rolls = folder.roll("places", tuple(places), np.int32), folder.roll("numbers", tuple(numbers))
     beginnings = folder.roll("beginnings", (1,), np.int64)
-    parts = trail.Parts(piece, within, slot, *rolls, beginnings, [int(beginnings[i][0]) for i in range(beginnings.count)])
+    parts = trail.Parts(piece, within, slot, *rolls, beginnings, begun(beginnings))
     found = parts.series(np.arange(count), slice(None), folder)
     return {name: Traced(found[i], unit, label) for i, (name, unit, label) in enumerate(known["probes"])}
+
+
+def begun(beginnings: FileRoll) -> list[int]:
+    """The first samples of all parts; of one that is about to begin it is not put down yet, and it has none."""
+    found = [int(beginnings[i][0]) for i in range(beginnings.count)]
+    return [first for i, first in enumerate(found) if first or not i]
 
 
 def messages(folder: Folder, known: dict[str, Any]) -> Messages:

@@ -13,7 +13,7 @@ import pytest
 from studio import job
 from studio.errors import ScenarioError, StoreError
 from studio.execution import shelf
-from studio.execution.salvage import recorded
+from studio.execution.salvage import begun, lay_down, recorded, salvaged
 from studio.execution.simulation import simulation
 from studio.store import recording
 from studio.store.runs import open_runs, read_runs
@@ -217,6 +217,20 @@ def test_no_more_samples_are_read_than_there_are_times(tmp_path, last):
     kept.roll("progress", (2,)).begin()[:] = 1e15, last
     assert recorded(kept, [{"room": 10}]) == 10
     assert recording.until(tmp_path) == (last if np.isfinite(last) else 0.0)
+
+
+def test_a_part_that_is_about_to_begin_has_no_sample_yet(sample, tmp_path):
+    """Its place is in the file before it is told which sample is its first; who reads in that moment finds what was there before."""
+    kept = shelf.Folder(tmp_path)
+    running = simulation(job.prepare(job.load(sample, {"clock.duration": 100})), shelf=kept)
+    lay_down(running, kept)
+    running.advance(3200)
+    before = salvaged(kept).probes
+    assert begun(kept.roll("beginnings", (1,), np.int64)) == [0, 1024, 2048, 3072]
+    kept.roll("beginnings", (1,), np.int64).begin()
+    assert begun(kept.roll("beginnings", (1,), np.int64)) == [0, 1024, 2048, 3072]
+    after = salvaged(kept).probes
+    assert {name: each.values.tobytes() for name, each in after.items()} == {name: each.values.tobytes() for name, each in before.items()}
 
 
 def test_what_was_not_written_whole_is_not_there(tmp_path):
