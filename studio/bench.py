@@ -8,11 +8,12 @@
     equipped    the same with four sensors on every car that look late and not through others, and IEEE 802.11p with shadows, fading,
                 bursts and a busy channel, over which everybody hears everybody; every message is recorded
     town        the same once more in a town: cars on ways of their own, which tell each other of themselves by the standard's rules
+    traffic     by itself: cars with the full and with light dynamics that go round on a motorway, up to 3000 at the same density
     place       the sample's map imported from its file, with nothing kept from before; where the ways of its vehicles run
                 close to each other
     scene       one update of the sample's vehicles in the 3D picture, which at 60 Hz has 16.7 ms for everything
 
-Medians of several repeats; machine and versions stand beside the figures.
+Medians of several repeats, but for the parts of a tick, which are means; machine and versions stand beside the figures.
 """
 
 import multiprocessing
@@ -32,7 +33,7 @@ import numpy as np
 
 from studio import job
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
-from studio.crowd import equipped, motorway_crowd, town_crowd
+from studio.crowd import equipped, motorway_crowd, town_crowd, traffic_crowd
 from studio.errors import Problem, ServerError
 from studio.execution.simulation import Simulation, simulation
 from studio.road.assembly.plan import Wish
@@ -71,6 +72,7 @@ from studio.world.tick import (
 FLEETS = (1, 8, 100, 1000, 10_000)
 CROWDS = (25, 100, 300, 1000)
 TOWN = 100  # cars
+TRAFFIC = (300, 1000, 2000, 3000)  # cars
 MEASURED, LEAST_TICKS, MOST_TICKS = 20_000, 10, 60  # vehicle ticks that one repeat takes; ticks at least and at most
 WARM = 100  # ticks before the first repeat: until then everything that is compiled has been loaded, and the first car brakes
 OFTEN = 25  # repeats of an advance, which are short
@@ -169,12 +171,14 @@ def integration(running: Simulation, ticks: int) -> Callable[[], None]:
 
 
 def parts(running: Simulation, ticks: int) -> dict[str, float]:
-    """Seconds that each part of a tick takes: medians over some ticks."""
+    """Seconds that each part of a tick takes: means over some ticks, as there is more to do at some of them than at others."""
     spent: dict[str, list[float]] = {}
+    for _, action in parts_of_tick(running):  # at the first tick parts by themselves get their arrays
+        action()
     for _ in range(ticks):
         for name, action in parts_of_tick(running):
             spent.setdefault(name, []).append(seconds(action))
-    return {name: statistics.median(each) for name, each in spent.items()}
+    return {name: statistics.fmean(each) for name, each in spent.items()}
 
 
 def parts_of_tick(running: Simulation) -> Iterator[tuple[str, Callable[[], Any]]]:
@@ -276,6 +280,18 @@ def run(sample: Path, town: Path, progress: Callable[[float], None] = lambda sha
         "place": place,
         "scene": scene,
     }
+
+
+def run_traffic(progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:
+    """What traffic costs with full and with light dynamics, on one core; `real_time` is how many times faster than real time it is."""
+    found: dict[str, dict[str, Any]] = {"light": {}, "full": {}}
+    with one_core_only():
+        for i, (dynamics, count) in enumerate((dynamics, count) for dynamics in found for count in TRAFFIC):
+            each = advance(traffic_crowd(count, dynamics))
+            found[dynamics][str(count)] = each | {"real_time": each["rate"] * DEFAULT_TICK / count}
+            progress((i + 1) / (2 * len(TRAFFIC)))
+    unit = {"rate": "vehicle ticks/s", "ratio": "1", "real_time": "1"}
+    return {"machine": machine(), "versions": versions(), "unit": unit, "dynamics": {}, "traffic": found}
 
 
 def run_device(progress: Callable[[float], None] = lambda share: None) -> dict[str, Any]:

@@ -4,13 +4,17 @@ numba looks at the types of all arguments at every call, and takes every array a
 the work of a few units. So all of an array that compiled code wants of it is written down once, as words of a block, and what is called
 afterwards is a small compiled function that lays these words before the real one. It depends on nothing but how many words there are.
 
-bound(function, *arguments, then)   →  a function of what follows
+bound(function, *arguments, then)            →  a function of what follows
+Chain([Link(step(function, ...), tell), ...])   several of them, one after another, in one call
+
+Between two calls of compiled code Python takes as long as the work of a few units, too, and longer when that work has driven it out of the
+processor's caches. A chain goes from function to function by itself, and comes back only when one has something to tell.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import groupby, pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -29,14 +33,77 @@ def bound(function: Any, *arguments: Any, then: tuple = ()) -> Callable:
     """A function with its first arguments given once and for all; `then` are numbers like those that will follow, for a compiled one."""
     if not hasattr(function, "py_func"):
         return partial(function, *arguments)
+    block, kinds = laid(function, arguments, then)
+    return partial(compiled_for(CALLS[len(then)], (block.kind, *kinds)).entry_point, block)
+
+
+def laid(function: Any, arguments: tuple, then: tuple) -> tuple["Block", tuple]:
+    """The block of a function with its first arguments, and the types of what follows."""
     kinds = tuple(numba.typeof(each) for each in (*arguments, *then))
+    made = compiled_for(function, kinds)
+    return block_of(address_of(made), arguments, made.signature.return_type), kinds[len(arguments) :]
+
+
+def compiled_for(function: Any, kinds: tuple) -> Any:
+    """The machine code of a function for some types."""
     if kinds not in function.overloads:
         function.compile(kinds)
-    made = function.overloads[kinds]
-    block = block_of(made.library.get_pointer_to_function(made.fndesc.llvm_func_name), arguments, made.signature.return_type)
-    call = CALLS[len(then)]
-    of_call = (block.kind, *kinds[len(arguments) :])
-    return partial(call.overloads[of_call].entry_point if of_call in call.overloads else call.compile(of_call), block)
+    return function.overloads[kinds]
+
+
+def address_of(made: Any) -> int:
+    """Where machine code is."""
+    return made.library.get_pointer_to_function(made.fndesc.llvm_func_name)
+
+
+# -- a chain ---------------------------------------------------------------------------------------------
+
+
+class Step(NamedTuple):
+    """A function with its first arguments in a chain: the machine code that goes into it, and its block."""
+
+    entry: int
+    block: "Block"
+
+
+class Link(NamedTuple):
+    """A step; `tell` is given what it has returned when that is not 0 or nothing, or what it has raised, and what the chain was given."""
+
+    step: Step
+    tell: Callable[..., None]
+
+
+def step(function: Any, *arguments: Any, takes: tuple[str, ...] = ()) -> Step:
+    """A compiled function that is given, behind its arguments, what it takes of "k" and "time", the two numbers of a chain."""
+    block, _ = laid(function, arguments, tuple(NUMBERS[name] for name in takes))
+    return Step(address_of(compiled_for(ENTRIES[takes], (block.kind, types.int64, types.float64))), block)
+
+
+class Chain:
+    """Links in a row: a function of tick k, a time [s] and what is handed to `tell` besides."""
+
+    def __init__(self, links: Sequence[Link]) -> None:
+        self.links = links
+        self.at = np.zeros(1, np.int64)  # the link that had something to tell
+        self.run = bound(go, np.array([each.step for each in links], np.int64).reshape(-1, 2), self.at, then=(0, 0, 0.0))
+
+    def __call__(self, k: int, time: float, *told: Any) -> None:
+        """All of them; who tells something is heard before the next one."""
+        first = 0
+        while first < len(self.links):
+            try:
+                found = self.run(first, k, time)
+            except (Exception, SystemExit) as error:
+                self.heard(error, told)
+            else:
+                if not found:
+                    return
+                self.heard(found, told)
+            first = int(self.at[0]) + 1
+
+    def heard(self, what: Any, told: tuple) -> None:
+        """Hands on what the last link has to tell."""
+        self.links[int(self.at[0])].tell(what, *told)
 
 
 # -- a block ---------------------------------------------------------------------------------------------
@@ -126,6 +193,33 @@ def through(typing_context, block, then):
     return block.result(block, then), generate
 
 
+@intrinsic
+def number(typing_context, value):
+    """What a function has returned as a whole number; 0 for nothing."""
+
+    def generate(context, builder, signature, arguments):
+        if value == types.none:
+            return context.get_constant(types.int64, 0)
+        return context.cast(builder, arguments[0], value, types.int64)
+
+    return types.int64(value), generate
+
+
+@intrinsic
+def entered(typing_context, entry, block, k, time):
+    """Goes into a step."""
+    kinds = [types.int64, types.int64, types.float64]
+
+    def generate(context, builder, signature, arguments):
+        function = builder.inttoptr(arguments[0], context.call_conv.get_function_type(types.int64, kinds).as_pointer())
+        status, result = context.call_conv.call_function(builder, function, types.int64, kinds, arguments[1:])
+        with cgutils.if_unlikely(builder, status.is_error):
+            context.call_conv.return_status_propagate(builder, status)
+        return result
+
+    return types.int64(types.int64, *kinds), generate
+
+
 def word_at(context, builder, at, i, kind):
     """The address of a word."""
     return builder.bitcast(cgutils.gep(builder, at, i), context.get_value_type(kind).as_pointer())
@@ -149,4 +243,47 @@ def call_with_two(block, a, b):
     return through(block, (a, b))
 
 
-CALLS: tuple[Any, ...] = (call, call_with_one, call_with_two)
+@compiled
+def call_with_three(block, a, b, c):
+    """Three numbers follow."""
+    return through(block, (a, b, c))
+
+
+@compiled
+def enter(block, k, time):
+    """A step that takes nothing."""
+    return number(through(block, ()))
+
+
+@compiled
+def enter_at_tick(block, k, time):
+    """A step that takes the tick."""
+    return number(through(block, (k,)))
+
+
+@compiled
+def enter_at_time(block, k, time):
+    """A step that takes the time."""
+    return number(through(block, (time,)))
+
+
+@compiled
+def enter_at_both(block, k, time):
+    """A step that takes both."""
+    return number(through(block, (k, time)))
+
+
+@compiled
+def go(steps, at, first, k, time):
+    """Steps from one on, until one has something to tell, which is returned; it is number at[0]."""
+    for i in range(first, steps.shape[0]):
+        at[0] = i
+        found = entered(steps[i, 0], steps[i, 1], k, time)
+        if found != 0:
+            return found
+    return 0
+
+
+CALLS: tuple[Any, ...] = (call, call_with_one, call_with_two, call_with_three)
+NUMBERS = {"k": 0, "time": 0.0}
+ENTRIES: dict[tuple[str, ...], Any] = {(): enter, ("k",): enter_at_tick, ("time",): enter_at_time, ("k", "time"): enter_at_both}

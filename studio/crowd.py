@@ -1,6 +1,7 @@
 """Crowds: scenarios with any number of cars, whose cost is measured.
 
 motorway_crowd(count)          platoons on a motorway that is as long as their number asks, so that the density is always the same
+traffic_crowd(count, dynamics) traffic that goes round on a motorway, at the same density whatever its number
 town_crowd(map, count)         cars on ways of their own through a town
 """
 
@@ -29,6 +30,7 @@ FOUR_SENSORS = {
     "lane": {"kind": "lane_markings", "preset": "camera"},
     "place": {"kind": "satellite_receiver", "preset": "gnss"},
 }
+DENSITY = 30.0  # cars of the traffic per kilometre of a direction, which all keep to one of its lanes
 SHORTEST, LONGEST = 300.0, 1500.0  # [m] ways through a town that are taken
 APART, BEGIN, END = 20.0, 20.0, 130.0  # [m] from car to car at least; from the ends of a way
 STRIDE, PLACES = 911, 97  # primes: ways and places along them are gone through in leaps, so that they lie all over the town
@@ -77,6 +79,23 @@ def equipped(document: dict[str, Any]) -> dict[str, Any]:
     vehicles = {name: each | {"sensors": FOUR_SENSORS} for name, each in document["vehicles"].items()}
     groups = {name: {key: part for key, part in each.items() if key != "listens_to"} for name, each in document["applications"].items()}
     return document | {"vehicles": vehicles, "applications": groups, "radio": {"kind": "wlan", "preset": "motorway"}}
+
+
+def traffic_crowd(count: int, dynamics: str) -> Setting:
+    """`count` cars, all but one of them traffic, with full or light dynamics."""
+    length = max(count / (2.0 * DENSITY) * 1000.0, 2.0 * MARGIN)
+    vehicle = {"route": "eastbound", "position": {"along": MARGIN}, "speed": 25, "dynamics": dynamics}
+    document = {
+        "title": f"{count} cars with {dynamics} dynamics",
+        "map": {"file": "motorway.xodr"},
+        "clock": {"duration": 60},
+        "routes": {"eastbound": {"roads": [ROADS["eastbound"]]}},
+        "vehicles": {"car": vehicle},
+        "traffic": {"count": count - 1, "dynamics": dynamics, "speed": 25, "spacing": 15},
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "motorway.xodr").write_text(motorway(length=length, lanes=LANES), encoding="utf-8")
+        return setting(setup.complete(document, "the traffic"), Path(folder), "the traffic")
 
 
 # -- in a town -----------------------------------------------------------------------------------------

@@ -34,12 +34,13 @@ class Ground:
     """Cars that roll east; in neutral, unless `powertrain`. Nothing is commanded at first.
 
     models: one name or a list, one each; n: so many of each. speed [m/s], slope (rise of the road ahead [1]) and friction [1]:
-    one number or one for each car. resistances=False: no air drag, no rolling resistance. changes: of the models, by path.
+    one number or one for each car. resistances=False: no air drag, no rolling resistance. changes: of the models, by path. light: with the
+    light dynamics.
     """
 
     def __init__(
         self, models="bmw_320i", *, n=1, speed=20.0, resistances=True, powertrain=False, slope=0.0, friction=1.0, step=0.005,
-        tick=TICK, changes=None,
+        tick=TICK, changes=None, light=False,
     ):  # fmt: skip
         names = [models] if isinstance(models, str) else list(models)
         found = {name: catalogue.find_vehicle(name, dict(changes or {})) for name in dict.fromkeys(names)}
@@ -48,7 +49,7 @@ class Ground:
         self.n, self.step, self.tick, self.k = len(self.names), step, tick, 0
         ground = fleet.level_ground(self.n)
         ground[MU], ground[SLOPE_X] = np.tile(self.each(friction), 4), np.tile(self.each(slope), 4)
-        starts = [Start(model, 0.0, 0.0, 0.0, v) for model, v in zip(self.models, self.each(speed), strict=True)]
+        starts = [Start(model, 0.0, 0.0, 0.0, v, light) for model, v in zip(self.models, self.each(speed), strict=True)]
         self.fleet = fleet.fleet(starts, ground=ground)
         if not resistances:
             self.parameter[[C_D, C_ROLL]] = 0.0

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from studio import bench
-from studio.crowd import GAP, PLATOON, motorway_crowd, starts_in, town_crowd
+from studio.cli.machine import bench_rows
+from studio.crowd import GAP, PLATOON, motorway_crowd, starts_in, town_crowd, traffic_crowd
 from studio.errors import MapError, ServerError
 from studio.execution.simulation import simulation
 from studio.road import load
@@ -88,3 +89,17 @@ def test_without_a_gpu_the_reason_is_told(monkeypatch):
         bench.run_device()
     (problem,) = caught.value.problems
     assert problem.where == "--device cuda" and "GPU" in problem.what and problem.remedy
+
+
+def test_traffic_is_measured_with_both_dynamics(monkeypatch):
+    """As many cars as are asked for go round; the light ones are light."""
+    monkeypatch.setattr(bench, "TRAFFIC", (30,))
+    monkeypatch.setattr(bench, "WARM", 5)
+    monkeypatch.setattr(bench, "OFTEN", 2)
+    figures = bench.run_traffic()
+    for dynamics in ("full", "light"):
+        each = figures["traffic"][dynamics]["30"]
+        assert each["real_time"] == pytest.approx(each["rate"] * bench.DEFAULT_TICK / 30) and each["ratio"] > 1.0
+        cars = traffic_crowd(30, dynamics).cars
+        assert len(cars) == 30 and {car.is_light for car in cars} == {dynamics == "light"}
+    assert [row[0] for row in bench_rows(figures)][:2] == ["traffic, light, 30 vehicles, one core", "times real time, light, 30 vehicles"]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studio.bound import bound, laid_out
+from studio.bound import Chain, Link, bound, laid_out, step
 from studio.compiled import compiled, lean
 
 
@@ -72,3 +72,13 @@ def test_an_ordinary_function_stays_one():
 
 def test_a_layout_tells_every_word():
     assert [str(each) for each in laid_out("w2r1w1")] == ["int64", "int64", "float64", "int64"] and laid_out("") == []
+
+
+def test_a_chain_comes_back_for_what_is_told_and_goes_on():
+    values, told, (table, pair, scale, number) = np.array([1.0, 2.0]), [], given()
+    first, last = (Link(step(doubled, values), lambda what, to: to.append("nothing")) for _ in range(2))
+    middle = Link(step(mixed, table, pair, scale, number, takes=("k", "time")), lambda what, to: to.append(what))
+    Chain([first, middle, last])(1, 4.0, told)
+    assert values.tolist() == [4.0, 8.0] and told == [int(mixed(*given(), 1, 4.0))]
+    Chain([first, middle, last])(1, -1.0, told)
+    assert values.tolist() == [16.0, 32.0] and isinstance(told[1], ValueError)

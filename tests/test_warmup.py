@@ -23,6 +23,7 @@ FOR_OTHERS = {"world.maneuver.drive_and_steer", "world.view.draw", "model.sensor
 FOR_OTHERS |= {f"world.view.{name}" for name in ("chance", "chance_normal", "chance_of_pair", "normal_of_pair")}
 SELDOM = {
     "passes.ground.rise",
+    "vehicle.light.attempt",
     "passes.notice.notice_shown",
     "board.text.bad_count",
     "board.post.lay",

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from studio.assess.adhesion import CHANNELS, WHEELS, sliding, used
+from studio.assess.adhesion import CHANNELS, WHEELS, light_among, nothing_known, sliding, used
 from studio.assess.danger import HARD, stretches
 from studio.assess.known import PLACES, Known, known
 from studio.execution.happening import Happening
@@ -65,7 +65,7 @@ class Explanation:
     """Why an event happened: what was known by whom, who commanded each vehicle, and which tyres were at their limits.
 
     `not_recorded` are the channels that this would need and the run has not kept, "sensors" among them when it lacks their readings;
-    `unknown` are units of the event of which nothing was recorded.
+    `unknown` are units of the event of which nothing was recorded, `without_tyres` those that are light vehicles.
     """
 
     event: Happening
@@ -75,6 +75,7 @@ class Explanation:
     faults: tuple[Harmed, ...] = ()
     not_recorded: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
+    without_tyres: tuple[str, ...] = ()
 
     def as_json(self) -> dict[str, Any]:
         """Plain data, as scripts read it."""
@@ -89,6 +90,7 @@ class Explanation:
             "faults": [vars(each) for each in self.faults],
             "not_recorded": list(self.not_recorded),
             "unknown": list(self.unknown),
+            "without_tyres": list(self.without_tyres),
         }
 
     @property
@@ -123,6 +125,9 @@ class Explanation:
     def of_tyres(self) -> Iterator[str]:
         """Which tyres were at their limits."""
         yield from (each.text for each in self.tyre_at_limit)
+        yield from (f"{each} is a light vehicle, without tyres" for each in self.without_tyres)
+        if self.without_tyres and set(self.event.units) <= set(self.without_tyres):
+            return
         if set(CHANNELS) & set(self.not_recorded):
             yield "how much of its adhesion every tyre used was not recorded"
         elif not self.tyre_at_limit:
@@ -147,12 +152,13 @@ def explained(record: Record, event: Happening) -> Explanation:
         faults=tuple(each for vehicle in vehicles for each in harmed(record, vehicle, event.time)),
         not_recorded=lacking(record),
         unknown=tuple(each for each in event.units if each not in (*record.vehicles, *record.brought)),
+        without_tyres=tuple(each for each in light_among(record) if each in event.units),
     )
 
 
 def lacking(record: Record) -> tuple[str, ...]:
     """What a run has not kept that would have to be known: channels, and "sensors" when their readings are not there."""
-    channels = (*PLACES, *(f"commands_{part}" for part in PARTS), *CHANNELS) if record.time.size else ()
+    channels = (*PLACES, *(f"commands_{part}" for part in PARTS), *(() if nothing_known(record) else CHANNELS)) if record.time.size else ()
     found = [name for name in channels if np.isnan(record.channel(name)).all()]
     is_blind = any(f"{sensor}.measured" not in record.probes for sensor in record.mounts)
     return (*found, *(["sensors"] if is_blind else []))

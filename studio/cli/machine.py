@@ -35,6 +35,7 @@ def compile_(kinds: Kinds = None) -> None:
 def bench(
     device: Annotated[str, typer.Option(help="cpu, or cuda for a GPU.")] = "cpu",
     town: Annotated[Path | None, typer.Option(help="Map of a town for 100 cars; left out, that of a sample.", exists=True)] = None,
+    traffic: Annotated[bool, typer.Option("--traffic", help="Traffic alone, with full and light dynamics; takes some minutes.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Measures vehicle steps and ticks a second on this machine, an import and the picture; takes about a minute."""
@@ -45,7 +46,10 @@ def bench(
         from studio import bench as measure
         from studio import sample
 
-        figures = measure.run_device(report) if device == "cuda" else measure.run(sample.first(), town or sample.town(), report)
+        if traffic:
+            figures = measure.run_traffic(report)
+        else:
+            figures = measure.run_device(report) if device == "cuda" else measure.run(sample.first(), town or sample.town(), report)
     if as_json:
         print_json(figures)
         return
@@ -73,6 +77,10 @@ def bench_rows(figures: dict[str, Any]) -> list[list[str]]:
             rows.append([f"{words} over integration, {n} vehicles", f"{each['ratio']:.2f}", "1"])
             shares = ", ".join(f"{part} {share:.2f}" for part, share in each["parts"].items())
             rows.append([f"{words}, parts over integration, {n} vehicles", shares, "1"])
+    for dynamics, crowds in figures.get("traffic", {}).items():
+        for n, each in crowds.items():
+            rows.append([f"traffic, {dynamics}, {n} vehicles, one core", f"{each['rate']:,.0f}", "vehicle ticks/s"])
+            rows.append([f"times real time, {dynamics}, {n} vehicles", f"{each['real_time']:.2f}", "1"])
     if "difference" in figures:
         rows.append(["distance to the CPU's result after 10 s", f"{figures['difference']:.1e}", "m"])
     return rows

@@ -277,9 +277,9 @@ def print_events(events) -> None:
 
 
 def print_traffic(prepared) -> None:
-    """The cars of the traffic with what their drivers differ in, and what these have in common, for people."""
+    """The cars of the traffic with what they and their drivers differ in, and what they have in common, for people."""
     cars = [car for car in prepared.cars if car.returns or car.is_outside]
-    told = [(car, {name: text(each) for name, each in car.driver.model_dump().items() if name != "preset"}) for car in cars]
+    told = [(car, {"dynamics": "light" if car.is_light else "full"} | what_driver(car)) for car in cars]
     named = list(dict.fromkeys(name for _, driver in told for name in driver))
     settings = [name for name in named if len({driver.get(name, "") for _, driver in told}) > 1]
     streams = [prepared.sources[car.source].stream.rpartition("/")[0] if car.source is not None else "" for car in cars]
@@ -290,6 +290,11 @@ def print_traffic(prepared) -> None:
     print_table(["vehicle", "model", "flow", *settings], rows)
     alike = ", ".join(f"{name} {told[0][1][name]}" for name in named if name not in settings)
     print(f"alike for all: {alike}" if alike else "")
+
+
+def what_driver(car) -> dict[str, str]:
+    """The settings of a car's driver, for people."""
+    return {name: text(each) for name, each in car.driver.model_dump().items() if name != "preset"}
 
 
 def print_run(row) -> None:

@@ -1,19 +1,21 @@
-"""Cast: of every vehicle its model, what its driver is like, and the way that it takes, as far as somebody has to know it after the run."""
+"""Cast: of every vehicle its model and dynamics, what its driver is like, and its way, as far as somebody has to know it after the run."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from studio.road.network import Network
 from studio.road.ways.path import PATH_SLOPE, Path
+from studio.world.car import Car
 from studio.world.setting import Setting
 
 
 class Manned(NamedTuple):
-    """A vehicle with its driver: the name of its model, the driver's kind and settings, and the number of its way."""
+    """A vehicle with its driver: the name of its model, the driver's kind and settings, the number of its way, and how it moves."""
 
     model: str
     driver: dict[str, Any]
     way: int
+    dynamics: str = "full"  # or light
 
 
 class Leg(NamedTuple):
@@ -54,8 +56,13 @@ def cast(setting: Setting) -> Cast:
     """That of a setting."""
     paths = {id(car.path): car.path for car in setting.cars}
     number = {each: i for i, each in enumerate(paths)}
-    manned = {car.name: Manned(car.model.name, car.driver.model_dump(mode="json"), number[id(car.path)]) for car in setting.cars}
+    manned = {car.name: manned_of(car, number[id(car.path)]) for car in setting.cars}
     return Cast(manned, tuple(way(each, setting.network) for each in paths.values()), setting.network.origin)
+
+
+def manned_of(car: Car, way: int) -> Manned:
+    """One vehicle on the way of this number."""
+    return Manned(car.model.name, car.driver.model_dump(mode="json"), way, "light" if car.is_light else "full")
 
 
 def way(path: Path, network: Network) -> Way:

@@ -10,6 +10,7 @@ sensor has given something since it was looked at last, the time of what it has 
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import nan
 from typing import NamedTuple
 
@@ -106,7 +107,7 @@ class Trail:
         self.longest = int(self.pieces[MOST].max(initial=1)) + 1
         self.parts = parts_of(found, self.shelf, self.room)
 
-    @property
+    @cached_property
     def room(self) -> int:
         """Numbers of a sample at most."""
         return int(self.pieces[MOST].sum()) + self.newest.size

@@ -38,6 +38,15 @@ def to_body(R, x, y, z):
 
 
 @inlined
+def standing(g_x, g_y, c, s):
+    """Orientation of a body that is level with a plane rising by g_x to the east and g_y to the north, c and s of half its heading."""
+    n_z = 1.0 / sqrt(1.0 + g_x * g_x + g_y * g_y)
+    half = 1.0 / sqrt(2.0 * (1.0 + n_z))
+    a, b, d = (1.0 + n_z) * half, g_y * n_z * half, -g_x * n_z * half  # turns the vertical into the normal
+    return a * c, b * c + d * s, d * c - b * s, a * s
+
+
+@inlined
 def cross(a_x, a_y, a_z, b_x, b_y, b_z):
     """a x b."""
     return a_y * b_z - a_z * b_y, a_z * b_x - a_x * b_z, a_x * b_y - a_y * b_x

@@ -15,7 +15,7 @@ from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.kind import registry
 from studio.kind.settings import Name, Part, RouteName, UnitName, number
 from studio.kind.slot import Every, Slot
-from studio.scenario.traffic import MODELS, AnyDriver, CarType, Traffic
+from studio.scenario.traffic import MODELS, AnyDriver, CarType, Dynamics, Traffic, dynamics_field
 
 LONGEST = 3600.0  # [s] a run
 MOST_SENSORS = 16  # of one unit
@@ -163,6 +163,7 @@ class Vehicle(Part, defer_build=True):
         examples=MODELS,
         description="a name of the catalogue, or a vehicle file (YAML) relative to the scenario",
     )
+    dynamics: Dynamics = dynamics_field("full")
     route: RouteName = Field(..., title="Route")
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)

@@ -16,12 +16,19 @@ from studio.kind.slot import OneOf, Slot
 
 MODELS = sorted(path.stem for path in (Path(__file__).parent / "vehicles").glob("*.yaml"))  # suggested; files may be named too
 MOST_CARS = 3000  # that go round, or are about of all flows at once
+Dynamics = Literal["full", "light"]
 AnyDriver = Annotated[Any, Slot("driver", usual="attentive")]
 
 
 def model_field(default: Any, description: str) -> Any:
     """A field that names a model, or a type."""
     return Field(default, max_length=300, title="Model", examples=MODELS, description=description)
+
+
+def dynamics_field(default: Any, more: str = "") -> Any:
+    """A field that says with which dynamics a car moves."""
+    told = "full: the whole model; light: a single track with lags and a bound of adhesion, without engine speed, gears, tyres and springs"
+    return Field(default, title="Dynamics", description=told + more)
 
 
 # -- how drivers differ ----------------------------------------------------------------------------
@@ -107,14 +114,16 @@ class CarType(Part, defer_build=True):
     """A model with its drivers, under a name that stands wherever the traffic names a model."""
 
     model: str = model_field("ford_escort", "a name of the catalogue, or a vehicle file (YAML) relative to the scenario")
+    dynamics: Dynamics | None = dynamics_field(None, "; left out: those of the traffic")
     driver: AnyDriver | None = Field(None, title="Drivers", description="left out: those of the traffic, with their spread")
     spread: Spread = spread_field()
 
 
 class Manned(NamedTuple):
-    """A model with its drivers, whatever says so."""
+    """A model with its dynamics and drivers, whatever says so."""
 
     model: str
+    dynamics: Dynamics
     driver: Driver
     spread: Spread
 
@@ -192,6 +201,7 @@ class Traffic(Part, defer_build=True):
     mix: dict[str, Annotated[float, Field(gt=0, le=1e6)]] = Field(
         {}, title="Mix", description="several models or types with their shares instead of one", max_length=30
     )
+    dynamics: Dynamics = dynamics_field("full")
     speed: float = number(10.0, unit="m/s", title="Initial speed", description="of cars that are about from the start", ge=0, le=40)
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
@@ -209,13 +219,14 @@ class Traffic(Part, defer_build=True):
         return bool(self.count or self.density or self.flows or self.matrices or self.routes)
 
     def manned(self, name: str) -> Manned:
-        """The type of this name, or else the model, with its drivers."""
+        """The type of this name, or else the model, with its dynamics and drivers."""
         found = self.types.get(name)
         if found is None:
-            return Manned(name, self.driver, self.spread)
+            return Manned(name, self.dynamics, self.driver, self.spread)
+        dynamics = found.dynamics or self.dynamics
         if found.driver is None:
-            return Manned(found.model, self.driver, self.spread | found.spread)
-        return Manned(found.model, found.driver, found.spread)
+            return Manned(found.model, dynamics, self.driver, self.spread | found.spread)
+        return Manned(found.model, dynamics, found.driver, found.spread)
 
     def named_models(self) -> dict[str, str]:
         """The models and types that are named, by path."""

@@ -467,6 +467,7 @@ class Explanation(BaseModel):
     faults: list[Harmed]
     not_recorded: list[str] = Field(description='channels that the run has not kept, and "sensors" when it lacks their readings')
     unknown: list[str] = Field(description="units of which nothing was recorded")
+    without_tyres: list[str] = Field(description="units that are light vehicles, of whose tyres nothing is known")
     lines: list[str]
 
 

@@ -4,6 +4,8 @@ A tyre past its peak of slip transmits less than it could: its use of adhesion i
 kept as one number, of a bit for each.
 """
 
+from math import nan
+
 from studio.compiled import inlined, lean
 from studio.model import adhesion, tyre
 from studio.rows import Role, Table
@@ -29,12 +31,18 @@ SLIDING = ADHESION.row(
 def use(columns, n, tyres, tyres_of, wheels, ground, values):
     """Use of adhesion of some of n vehicles, float64[wheel, vehicle]; tyres_of int64[2, n] are those of the front and the rear axle.
 
+    Of light vehicles, which have none, it is not a number.
+
     Vehicles that stand side by side on the same tyres are gone through together, wheel by wheel, in vector registers.
     """
     values[SLIDING] = 0.0
     first = 0
     while first < columns.size:
         end = first + alike(first, columns, tyres_of)
+        if not has_tyres(columns[first], tyres_of):
+            values[:, first:end] = nan
+            first = end
+            continue
         for corner in range(4):
             t, w = tyre_at(tyres, tyres_of[corner // 2, columns[first]]), corner * n + columns[first]
             run = slice(w, w + end - first)
@@ -51,6 +59,12 @@ def alike(first, columns, tyres_of):
     while first + count < columns.size and columns[first + count] == v + count and has_same(v, v + count, tyres_of):
         count += 1
     return count
+
+
+@inlined
+def has_tyres(v, tyres_of):
+    """Whether it is known what the tyres of a vehicle do."""
+    return tyres_of[0, v] >= 0
 
 
 @inlined

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.vehicle import motion
+from studio.vehicle import light, motion
 from studio.vehicle.fleet import Fleet, integrate
 from studio.vehicle.state import (
     A_X,
@@ -59,6 +59,8 @@ def columns(fleet: Fleet) -> np.ndarray:
 
 def first(fleet: Fleet, column: int, *, k: int, tick: float, step: float) -> Found:
     """What broke first of a vehicle in tick k, before which it still stands in the arrays."""
+    if column in fleet.light:
+        return first_of_light(fleet, column, k=k, tick=tick)
     for steps in range(motion.steps_of(tick, step) + 1):
         alone = replace(
             fleet, blocks=block_of(fleet, column), order=np.array([column]), state=fleet.state.copy(), wheels=fleet.wheels.copy(),
@@ -68,6 +70,13 @@ def first(fleet: Fleet, column: int, *, k: int, tick: float, step: float) -> Fou
         if alone.broken[column]:
             return Found(not_finite(alone.tile.reshape(ROWS, LANES)[:, 0]), steps * step)
     raise ValueError(f"vehicle {column} is not broken")
+
+
+def first_of_light(fleet: Fleet, column: int, *, k: int, tick: float) -> Found:
+    """The same of a light one, which has done the whole tick in a step."""
+    j, f = int(np.searchsorted(fleet.light, column)), fleet
+    made = light.attempt(j, f.light, f.state, f.ground, f.parameter, f.lightness, f.commands, k, tick)
+    return Found(next(name for name, value in zip(made._fields, made, strict=True) if not np.isfinite(value)), tick)
 
 
 def block_of(fleet: Fleet, column: int) -> np.ndarray:

@@ -5,7 +5,7 @@
     device.fetch(fleet)                 state and wheels back into the fleet
     ptx()                               the machine code, also where no GPU is
 
-Gearboxes, drivers and applications stay on the CPU. Needs the extra `cuda` of the package.
+Gearboxes, drivers, applications and light vehicles stay on the CPU. Needs the extra `cuda` of the package.
 """
 
 import warnings

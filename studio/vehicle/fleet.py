@@ -15,22 +15,25 @@ from studio.model.tyre import Tyre
 from studio.rows import Moving
 from studio.scenario import catalogue, tir
 from studio.scenario.catalogue import VehicleModel
-from studio.vehicle import motion, shift
+from studio.vehicle import light, motion, shift
 from studio.vehicle.column import gearbox_rows, parameter_rows
 from studio.vehicle.command import COMMAND, RING, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_STEER, U
 from studio.vehicle.contact import GROUND, MU
+from studio.vehicle.envelope import bare_rows, light_rows
+from studio.vehicle.light import LIGHT
 from studio.vehicle.state import VEHICLE, WHEEL
 from studio.vehicle.tile import blocks_of, new_tile
 
 
 class Start(NamedTuple):
-    """A vehicle before it is a column: model, place [m], heading [rad] and speed [m/s]."""
+    """A vehicle before it is a column: model, place [m], heading [rad] and speed [m/s], and whether it is a light one."""
 
     model: VehicleModel
     x: float
     y: float
     heading: float
     speed: float
+    is_light: bool = False
 
 
 @dataclass
@@ -44,8 +47,10 @@ class Fleet:
     gears: np.ndarray  # [row of the gearbox · GEARS + gear + 1, vehicle]
     commands: Moving  # [row, slot · n + vehicle]
     tyres: np.ndarray  # [tyre, coefficient]
-    order: np.ndarray  # columns in the order of the tiles
+    order: np.ndarray  # columns of full vehicles in the order of the tiles
     blocks: np.ndarray  # first place in that order, count, tyres front and rear, per tile
+    light: np.ndarray  # columns of light vehicles
+    lightness: np.ndarray  # what they are, [row, light vehicle]
     broken: np.ndarray  # 1 for a vehicle whose state would not be finite any more; it stays as it was
     tile: np.ndarray
 
@@ -56,8 +61,8 @@ class Fleet:
 
     @cached_property
     def tyres_of(self) -> np.ndarray:
-        """Which of the tyres every vehicle has, int64[2, n], front and rear."""
-        found = np.zeros((2, self.order.size), dtype=np.int64)
+        """Which of the tyres every vehicle has, int64[2, n], front and rear; -1 for light ones, of whose tyres nothing is known."""
+        found = np.full((2, self.size), -1, dtype=np.int64)
         for start, count, front, rear in self.blocks.T:
             found[:, self.order[start : start + count]] = [[front], [rear]]
         return found
@@ -66,18 +71,22 @@ class Fleet:
 def fleet(starts: list[Start], *, ground: np.ndarray | None = None) -> Fleet:
     """Vehicles on the road, the springs at rest, rolling without slip. The ground is level and dry unless given."""
     n = len(starts)
-    tyres, tyres_of = tyre_table([start.model for start in starts])
+    is_light = np.array([start.is_light for start in starts], dtype=bool)
+    tyres, tyres_of = tyre_table([start.model for start in starts if not start.is_light])
     order, blocks = blocks_of(tyres_of)
+    rows = [light_rows_of(start.model) if start.is_light else rows_of(start.model) for start in starts]
     made = Fleet(
         state=np.zeros((len(VEHICLE), n)),
         wheels=np.zeros((len(WHEEL), 4 * n)),
         ground=level_ground(n) if ground is None else ground,
-        parameter=columns([rows_of(start.model)[0] for start in starts]),
-        gears=columns([rows_of(start.model)[1] for start in starts]),
+        parameter=columns([each[0] for each in rows]),
+        gears=columns([each[1] for each in rows]),
         commands=no_commands(n),
         tyres=tyres,
-        order=order,
+        order=np.flatnonzero(~is_light)[order],
         blocks=blocks,
+        light=np.flatnonzero(is_light),
+        lightness=np.array([rows[v][2] for v in np.flatnonzero(is_light)]).reshape(-1, len(LIGHT)).T.copy(),
         broken=np.zeros(n, dtype=np.int64),
         tile=new_tile(),
     )
@@ -121,7 +130,8 @@ def tyre_table(models: list[VehicleModel]) -> tuple[np.ndarray, np.ndarray]:
     sets = [tyres_of(model) for model in models]
     different = list(dict.fromkeys(each for pair in sets for each in pair))
     places = {each: k for k, each in enumerate(different)}
-    return np.array(different), np.array([[places[front], places[rear]] for front, rear in sets], dtype=np.int64).T.copy()
+    found = np.array([[places[front], places[rear]] for front, rear in sets], dtype=np.int64).reshape(-1, 2).T.copy()
+    return np.array(different).reshape(-1, len(Tyre._fields)), found
 
 
 def tyres_of(model: VehicleModel) -> tuple[Tyre, Tyre]:
@@ -142,6 +152,18 @@ def computed_rows(name: str, values: str, folder):
     return parameter_rows(vehicle, front, rear), gearbox_rows(vehicle), (front, rear)
 
 
+def light_rows_of(model: VehicleModel) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Parameter rows, a gearbox without gears, and the rows of LIGHT, of a model as a light vehicle."""
+    return computed_light_rows(model.name, model.values.model_dump_json(), model.folder)
+
+
+@cache
+def computed_light_rows(name: str, values: str, folder):
+    """The same, by content."""
+    parameter, gears, tyres = computed_rows(name, values, folder)
+    return bare_rows(parameter), np.zeros_like(gears), light_rows(parameter, gears, *tyres)
+
+
 def check_step(model: VehicleModel, step: float, where: str) -> None:
     """Refuses a step [s] at which the wheels of a vehicle would not move as they do; raises ScenarioError."""
     limit = catalogue.step_limit(model.values)
@@ -155,13 +177,15 @@ def check_step(model: VehicleModel, step: float, where: str) -> None:
 def advance(moving: Fleet, k: int, tick: float, step: float) -> None:
     """One tick: gearboxes decide, then everybody moves."""
     f = moving
-    shift.shifts(k, tick, f.state, f.wheels, f.parameter, f.gears, f.commands)
+    shift.shifts(f.order, k, tick, f.state, f.wheels, f.parameter, f.gears, f.commands)
     integrate(f, k, tick, step)
 
 
 def integrate(moving: Fleet, k: int, tick: float, step: float, steps: int | None = None) -> None:
-    """Motion alone: all steps of tick k, or only the first ones."""
+    """Motion alone: all steps of tick k, or only the first ones of full vehicles; light ones do it in one."""
     f = moving
+    if f.light.size:
+        light.move(f.light, f.state, f.wheels, f.ground, f.parameter, f.lightness, f.commands, k, tick, f.broken)
     motion.integrate(
         f.blocks, f.order, f.state, f.wheels, f.ground, f.parameter, f.tyres, f.commands, k, tick, step,
         motion.steps_of(tick, step) if steps is None else steps, f.broken, f.tile,

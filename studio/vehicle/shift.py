@@ -191,10 +191,10 @@ def drive(v, w_out, tick, state, parameter, gears):
 
 
 @lean
-def shifts(k, tick, state, wheels, parameter, gears, commands):
-    """Every gearbox decides."""
+def shifts(columns, k, tick, state, wheels, parameter, gears, commands):
+    """Every gearbox decides, of the vehicles that have one."""
     n = state.shape[1]
-    for v in range(n):
+    for v in columns:
         state[PEDAL_KEPT, v] = gearbox.kept(state[PEDAL_KEPT, v], state[ACCELERATOR, v], tick)
         w_out = output_speed(v, n, wheels, parameter)
         if state[NEXT_GEAR, v] != state[GEAR, v]:
@@ -227,10 +227,8 @@ def stand(v, n, x, y, psi, state, ground, parameter):
     """Places a vehicle on the plane under its first wheel, level with it: orientation and height."""
     g_x, g_y = ground[SLOPE_X, v], ground[SLOPE_Y, v]
     n_z = 1.0 / sqrt(1.0 + g_x * g_x + g_y * g_y)
-    half = 1.0 / sqrt(2.0 * (1.0 + n_z))
-    a, b, c = (1.0 + n_z) * half, g_y * n_z * half, -g_x * n_z * half  # turns the vertical into the normal
-    d, e = cos(0.5 * psi), sin(0.5 * psi)
-    state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v] = a * d, b * d + c * e, c * d - b * e, a * e
+    turned = body.standing(g_x, g_y, cos(0.5 * psi), sin(0.5 * psi))
+    state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v] = turned
     state[X, v], state[Y, v], state[PSI, v] = x, y, psi
     state[Z, v] = ground[HEIGHT, v] + g_x * x + g_y * y + parameter[H, v] / n_z
     R = body.rotation(state[Q_W, v], state[Q_X, v], state[Q_Y, v], state[Q_Z, v])

@@ -51,6 +51,8 @@ ROLL = VEHICLE.row("roll", "rad", "about the x axis, right side down positive", 
 PITCH = VEHICLE.row("pitch", "rad", "about the y axis, nose down positive", role=Role.DERIVED, label="Pitch angle")
 V_X = VEHICLE.row("speed", "m/s", "velocity along the body's x axis", role=Role.DERIVED, label="Speed")
 V_Y = VEHICLE.row("lateral_speed", "m/s", "velocity along the body's y axis", role=Role.DERIVED)
+BEND_BEGUN = VEHICLE.row("bend_begun", "1/m", "curvature that a light vehicle has begun to take up; 0 of full ones")
+BEND = VEHICLE.row("bend", "1/m", "curvature of the rear axle's way, which a light vehicle has taken up; 0 of full ones")
 ACTIVE = VEHICLE.row("active", "1", "1 while the vehicle takes part, 0 once it has arrived")
 
 WHEEL = Table("wheel", Role.STATE, per="wheel")

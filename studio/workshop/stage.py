@@ -41,7 +41,10 @@ def stage(**parts: Any) -> Simulation:
 
 
 def everything() -> Simulation:
-    """A stage with every condition, maneuver, sensor, message and radio that comes with the studio; a maneuver at every tick."""
+    """A stage with every condition, maneuver, sensor, message and radio that comes with the studio; a maneuver at every tick.
+
+    The car behind is light.
+    """
     seed = np.random.default_rng(1)
     brake = {"kind": "brake", "vehicle": "far", "deceleration": 1.0, "duration": 0.1}
     script: dict[str, Any] = {"first": {"when": {"kind": "time", "at": 0.0}, "do": brake}}
@@ -55,7 +58,8 @@ def everything() -> Simulation:
             begun.append(kind.name)
     with chatter() as name:
         talks = {"all": {"application": name, "units": ["own", "far"]}}
-        return stage(script=script, vehicles={"own": {"sensors": one_each("sensor")}}, applications=talks, radios=in_turn())
+        vehicles = {"own": {"sensors": one_each("sensor")}, "behind": {"dynamics": "light"}}
+        return stage(script=script, vehicles=vehicles, applications=talks, radios=in_turn())
 
 
 def has_place(kind: Kind) -> bool:

@@ -144,7 +144,7 @@ def entities(each: Setting) -> np.ndarray:
 def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     """State, parameters and minds at the start: on the path, rolling without slip; every car with its weather."""
     n = len(cars)
-    starts = [Start(car.model, *pose(car.path, car.station), car.speed) for car in cars]
+    starts = [Start(car.model, *pose(car.path, car.station), car.speed, car.is_light) for car in cars]
     mind = np.zeros((len(MIND), n))
     mind[STATION] = [car.station for car in cars]
     mind[GAP] = np.nan  # nobody has looked yet

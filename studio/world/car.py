@@ -24,6 +24,7 @@ class Car:
     intervention: Intervention
     colour: str
     gps: Gps
+    is_light: bool = False  # whether it moves with the light dynamics
     returns: bool = False  # whether it comes in again when it has arrived
     source: int | None = None  # the number of the source that lets it in when one is due
     is_outside: bool = False  # whether it is not on the road yet
@@ -31,14 +32,20 @@ class Car:
 
 def pose(path: Path, station: float) -> tuple[float, float, float]:
     """Position [m] and heading [rad] at a station of a path."""
-    stations = np.arange(path.points.shape[1]) * PATH_SPACING
-    x, y, heading = (np.interp(station, stations, path.points[row]) for row in (PATH_X, PATH_Y, PATH_HEADING))
-    return float(x), float(y), float(heading)
+    return at(path, station, PATH_X), at(path, station, PATH_Y), at(path, station, PATH_HEADING)
 
 
 def position(path: Path, station: float) -> tuple[float, float]:
     """Where a station of a path lies [m]."""
-    return pose(path, station)[:2]
+    return at(path, station, PATH_X), at(path, station, PATH_Y)
+
+
+def at(path: Path, station: float, row: int) -> float:
+    """A row of a path's points at a station [m], between its ends."""
+    place = min(max(station / PATH_SPACING, 0.0), path.points.shape[1] - 1.0)
+    before = min(int(place), path.points.shape[1] - 2)
+    here, there = path.points[row, before : before + 2].tolist()
+    return (there - here) * (place - before) + here
 
 
 def footprint(name: str, model: VehicleModel, path: Path, station: float) -> Footprint:

@@ -15,6 +15,7 @@ from studio.rows import Table
 from studio.vehicle import adhesion
 from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND, RING
+from studio.vehicle.light import UNKNOWN
 from studio.vehicle.state import ACTIVE, VEHICLE
 from studio.world.table.mind import MIND
 from studio.world.table.unit import H_NUMBER, H_TIME, PRESENT, SATELLITE
@@ -42,6 +43,7 @@ KEPT = tuple(channel for table in RECORDED for channel in channels_of(table))  #
 CHANNELS = (*KEPT, *channels_of(ADHESION))  # made when they are recorded
 TABLE_OF = np.array([[table.name for table in RECORDED].index(channel.table) for channel in KEPT])
 ROW_OF = np.array([channel.row for channel in KEPT])
+LACKED = tuple(i for i, each in enumerate(KEPT) if each.table == VEHICLE.name and each.row in UNKNOWN)  # by light vehicles
 
 
 @cache
@@ -68,10 +70,14 @@ def sampler(world: World, columns: np.ndarray, values: np.ndarray) -> Callable[[
 
 @lean
 def sample(columns, tyres, tyres_of, wheels, ground, table_of, row_of, state, mind, commands, satellite, values, place, k):
-    """The pass behind it. A vehicle that has arrived has no values any more."""
+    """The pass behind it. A vehicle that has arrived has no values any more, and a light one none of what it does not know."""
     n = state.shape[1]
     adhesion.use(columns, n, tyres, tyres_of, wheels, ground, values[place, row_of.size :])
     gather(columns, (k % RING) * n, table_of, row_of, state, mind, commands, satellite, values[place])
+    for i in range(columns.size):
+        if not adhesion.has_tyres(columns[i], tyres_of):
+            for c in LACKED:
+                values[place, c, i] = nan
 
 
 @lean

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from studio.application import port
-from studio.application.port import ACTUATORS, INBOX, OUTBOX, TARGETS
+from studio.application.port import ACTUATORS, BITS, INBOX, OUTBOX, TARGETS
 from studio.errors import Problem, UnknownError, nearest
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.scenario.schema import Application, Scenario
+
+FULL_ONLY = ("steering_torque", "engine_torque")  # what no light vehicle can be commanded
 
 
 def problems(scenario: Scenario, where: str) -> list[Problem]:
@@ -56,9 +58,19 @@ def unfit(name: str, group: Application, kind: Kind, scenario: Scenario, where: 
         at = f"{where}: applications.{name}.units.{i}"
         if port.commanded(kind.module) and unit in scenario.stations:
             yield Problem(at, f"is a station, and {kind.name!r} commands a car", repr(unit), ", ".join(scenario.vehicles))
+        yield from beyond_light(kind, unit, scenario, at)
         yield from blind(kind, unit, scenario, at)
         yield from namesake(name, kind, unit, scenario, f"{where}: applications.{name}")
         yield from silent(kind, group, i, scenario, f"{where}: applications.{name}.listens_to.{i}")
+
+
+def beyond_light(kind: Kind, unit: str, scenario: Scenario, where: str) -> Iterator[Problem]:
+    """What an application commands of a light vehicle that it has not."""
+    light = unit in scenario.vehicles and scenario.vehicles[unit].dynamics == "light"
+    lacks = [name for name in FULL_ONLY if port.commanded(kind.module) & BITS[name]]
+    if light and lacks:
+        what = f"is light, and {kind.name!r} commands its {' and '.join(lacks)}"
+        yield Problem(where, what, repr(unit), remedy=f"write vehicles.{unit}.dynamics: full")
 
 
 def unknown(one: port.Port, kind: Kind, where: str) -> Iterator[Problem]:

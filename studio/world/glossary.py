@@ -11,6 +11,7 @@ from studio.rows import Row, Table
 from studio.vehicle.adhesion import ADHESION
 from studio.vehicle.command import COMMAND
 from studio.vehicle.contact import CONTACT, GROUND
+from studio.vehicle.light import LIGHT
 from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
 from studio.world.chart import CHART
@@ -20,13 +21,13 @@ from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.passes.sight import SIGHT
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
-from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP
+from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP, ZEBRA
 from studio.world.table.unit import GPS_SET, HEARD, LOGGED, OUTPUT, SATELLITE, SENSOR, SENT, TROUBLE, UNIT, UNIT_SET
 
 TABLES = (
-    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION,
+    VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION, LIGHT,
     MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD, LOGGED,
-    LINE, PIECE, OBSTACLE, SWEEP, COLLISION, NOTICE, CENSUS, PAIR, PLACE, MAIL, SIGHT, CHART,
+    LINE, PIECE, OBSTACLE, SWEEP, ZEBRA, COLLISION, NOTICE, CENSUS, PAIR, PLACE, MAIL, SIGHT, CHART,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 

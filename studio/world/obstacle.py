@@ -5,8 +5,11 @@ from itertools import pairwise
 from math import cos, sin
 
 import numpy as np
+import shapely
 
 from studio.compiled import lean
+from studio.road.network import Crossing
+from studio.road.network.plane import lines
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.world.effect import Walk
 from studio.world.line import Lines, starts
@@ -25,6 +28,7 @@ from studio.world.table.street import (
     O_Y,
     OBSTACLE,
     SWEEP,
+    ZEBRA,
 )
 from studio.world.thing import Thing, headings, names, things
 from studio.world.world import Movers, Obstacles
@@ -36,7 +40,7 @@ WIDEST = 1.6  # [m] half of the widest vehicle, with the distance that drivers k
 
 def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
     """The objects of all worlds, none standing yet."""
-    found = [list(things(each.sites)) for each in settings]
+    found, painted = [list(things(each.sites)) for each in settings], [each.network.scenery.crossings for each in settings]
     counts = np.array([len(each) for each in found])
     first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
@@ -56,24 +60,42 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
         counts=lengths,
         sweep_first=starts(lengths)[lines.base],
         sweep_count=lengths[lines.base],
-        movers=movers_of([each for some in found for each in some]),
+        movers=movers_of([(each, crossings) for some, crossings in zip(found, painted, strict=True) for each in some]),
         names=tuple(name for each, some in zip(settings, found, strict=True) for name in names(each.sites, some)),
     )
 
 
-def movers_of(found: Sequence[Thing]) -> Movers:
-    """Everything that moves, and the corners of all lines."""
-    moving = [(i, each, each.walk) for i, each in enumerate(found) if each.walk is not None]
-    corners = [corner for _, _, walk in moving for corner in corners_of(walk)]
-    counts = np.array([len(walk.line) for _, _, walk in moving], dtype=np.int64)
+def movers_of(found: Sequence[tuple[Thing, tuple[Crossing, ...]]]) -> Movers:
+    """Everything that moves among the crossings of its map: the corners of all lines, and the zebra crossings on them."""
+    moving = [(i, each.walk, crossings) for i, (each, crossings) in enumerate(found) if each.walk is not None]
+    corners = [corner for _, walk, _ in moving for corner in corners_of(walk)]
+    counts = np.array([len(walk.line) for _, walk, _ in moving], dtype=np.int64)
+    zebras = [sorted(zebras_on(walk, crossings)) for _, walk, crossings in moving]
+    crossed = np.array([len(each) for each in zebras], dtype=np.int64)
     return Movers(
         object=np.array([i for i, _, _ in moving], dtype=np.int64),
         first=np.cumsum(counts) - counts,
         count=counts,
         corner=np.array(corners).reshape(-1, 4).T.copy(),
-        speed=np.array([walk.speed for _, _, walk in moving]),
-        stays=np.array([int(walk.stays) for _, _, walk in moving], dtype=np.int64),
+        speed=np.array([walk.speed for _, walk, _ in moving]),
+        stays=np.array([int(walk.stays) for _, walk, _ in moving], dtype=np.int64),
+        zebra=np.array([row for each in zebras for row in each]).reshape(-1, len(ZEBRA)).T.copy(),
+        zebra_first=np.cumsum(crossed) - crossed,
+        zebra_count=crossed,
     )
+
+
+def zebras_on(walk: Walk, crossings: Sequence[Crossing]) -> Iterator[tuple[float, ...]]:
+    """float64[ZEBRA] of every zebra crossing without lights over which the line of somebody on foot leads."""
+    if walk.who != "pedestrian" or len(walk.line) < 2:
+        return
+    line = shapely.LineString(walk.line)
+    for each in (crossing for crossing in crossings if crossing.marking == "zebra" and not crossing.signalled):
+        (x, y), (dx, dy) = each.line.mean(axis=1), np.diff(each.line)[:, 0]
+        ground = shapely.LineString(each.line.T).buffer(0.5 * each.width, cap_style="flat")
+        for piece in lines(shapely.line_merge(line.intersection(ground))):
+            at = shapely.line_locate_point(line, shapely.points(piece[:, [0, -1]].T))
+            yield *map(float, sorted(at)), float(x), float(y), float(np.arctan2(dy, dx)), float(np.hypot(dx, dy)), each.width
 
 
 def corners_of(walk: Walk) -> Iterator[tuple[float, float, float, float]]:

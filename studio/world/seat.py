@@ -5,13 +5,12 @@ seats([driver, ...])   →  Seats, Seats, ...     one for each kind
 
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import ModuleType
 
 import numpy as np
 from pydantic import BaseModel
 
-from studio.bound import bound
 from studio.errors import KindError
 from studio.kind import loop, registry
 from studio.kind.number import numbers, shapes, spelled, tuple_of
@@ -46,19 +45,10 @@ class Seats:
     columns: np.ndarray
     settings: np.ndarray
     run: Callable[..., int]
-    ready: dict[str, Callable[[], int]] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
-    def decide(self, state: np.ndarray, parameter: np.ndarray, mind: np.ndarray) -> int:
-        """All of them decide; how many of the wishes are no numbers. Raises KindError with the traceback.
-
-        All arrays stay where they are.
-        """
-        try:
-            if not self.ready:
-                self.ready["run"] = bound(self.run, self.columns, self.settings, state, parameter, mind)
-            return self.ready["run"]()
-        except (Exception, SystemExit) as error:
-            raise KindError(f"The driver {self.kind.name!r} cannot be asked:\n{traceback.format_exc()}") from error
+    def raised(self) -> KindError:
+        """What is said of one that raises, with the traceback."""
+        return KindError(f"The driver {self.kind.name!r} cannot be asked:\n{traceback.format_exc()}")
 
 
 def seats(drivers: Sequence[BaseModel]) -> list[Seats]:

@@ -300,7 +300,8 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             f"{where} is not a valid scenario.",
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, vehicle.driver, vehicle.intervention, vehicle.colour, vehicle.gps)
+    manned = vehicle.driver, vehicle.intervention, vehicle.colour, vehicle.gps
+    return Car(name, models[vehicle.model], path, station, vehicle.speed, *manned, is_light=vehicle.dynamics == "light")
 
 
 def check_works(cars: list[Car], works: Works, where: str) -> None:

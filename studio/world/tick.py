@@ -5,20 +5,27 @@ applications and drivers decide, commands go out. Between two ticks every vehicl
 faster than that hear, decide and send once or several times before.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
-from functools import cache, wraps
+from functools import cache, partial, update_wrapper, wraps
 from math import nan
 from typing import Any
 
-from studio.bound import bound
+from studio.bound import Chain, Link, bound, step
+from studio.compiled import lean
 from studio.vehicle import fleet
 from studio.world import script
+from studio.world.board.air import Air, turned
 from studio.world.board.host import Fault, Hosted
-from studio.world.board.post import taking_turns
-from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic
+from studio.world.board.log import is_full
+from studio.world.board.own import carry
+from studio.world.board.post import Post, draw_lots, taking_turns
+from studio.world.board.post import lay as lay_open
+from studio.world.board.sensing import Mounted
+from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic, zebra
+from studio.world.seat import Seats
 from studio.world.table.mind import STATION
-from studio.world.world import World
+from studio.world.world import Units, World
 
 Refuse = Callable[[Fault], None]
 
@@ -26,6 +33,12 @@ Refuse = Callable[[Fault], None]
 def let_through(fault: Fault) -> None:
     """A kind that fails ends everything."""
     raise fault.error
+
+
+def let_pass(found: Any, refuse: Refuse) -> None:
+    """What passes of the world itself return says nothing; what they raise ends everything."""
+    if isinstance(found, BaseException):
+        raise found
 
 
 def tick(world: World) -> None:
@@ -40,13 +53,9 @@ def meet(world: World, refuse: Refuse = let_through) -> None:
 
     `refuse` is told of sensors, radios and applications that fail.
     """
-    environment(world)
-    gather(world)
-    look(world)
-    think(world)
-    sense(world, refuse)
-    communicate(world, refuse)
-    applications(world, refuse)
+    world.unfit = 0
+    script.turn(world)
+    MEETING(world, refuse)
     dispatch(world, refuse)
     act(world)
 
@@ -84,6 +93,53 @@ def part(world: World) -> None:
     world.clock.k += 1
 
 
+class Passes:
+    """Passes of a tick in a row: `links` tell of a world which, and with which arrays, that stay where they are; they are bound once."""
+
+    __name__: str
+
+    def __init__(self, *links: Callable[[World], Iterator[Link]]) -> None:
+        self.links = links
+        update_wrapper(self, links[0])
+
+    def __add__(self, other: "Passes") -> "Passes":
+        return Passes(*self.links, *other.links)
+
+    def __call__(self, world: World, refuse: Refuse = let_through) -> None:
+        """All of them at this tick; `refuse` is told of kinds that fail."""
+        chain = world.ready.get(self)
+        if chain is None:
+            chain = world.ready[self] = Chain([link for links in self.links for link in links(world)])
+        chain(world.clock.k, world.clock.time, refuse)
+
+
+def link(function: Any, *arguments: Any, takes: tuple[str, ...] = (), tell: Callable[..., None] = let_pass) -> Link:
+    """A pass with its arrays; `takes` is what it is given besides, "k" and "time". One that cannot be compiled raises that in its turn."""
+    try:
+        return Link(step(function, *arguments, takes=takes), tell)
+    except Exception as error:
+        return stop(partial(raise_to, tell, error))
+
+
+def raise_to(tell: Callable[..., None], error: Exception, found: Any, refuse: Refuse) -> None:
+    """What would be raised if it were called."""
+    try:
+        raise error
+    except Exception as again:
+        tell(again, refuse)
+
+
+def stop(tell: Callable[..., None]) -> Link:
+    """Something that is no compiled code, in its turn."""
+    return Link(step(halt), tell)
+
+
+@lean
+def halt():
+    """Has something to tell."""
+    return True
+
+
 def given(arguments: Callable[[World], tuple]) -> Callable:
     """A pass with arrays that stay where they are: `arguments` tells of a world which pass, and which arrays; they are given to it once."""
 
@@ -100,137 +156,175 @@ def given(arguments: Callable[[World], tuple]) -> Callable:
 def environment(world: World) -> None:
     """The script, lights, and the ground under the wheels."""
     script.turn(world)
-    if world.roads.any_raised:
-        rise(world)
-    lay_ground(world)
-    if world.roads.shown.size:
-        show_lights(world, world.clock.time)
+    surroundings(world)
 
 
-@given
-def rise(world: World) -> tuple:
-    """Height and slope."""
+@Passes
+def surroundings(world: World) -> Iterator[Link]:
+    """Height and slope, friction, what every light shows."""
     v, r = world.vehicles, world.roads
-    return ground.rise, v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground
+    if r.any_raised:
+        yield link(ground.rise, v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
+    yield link(ground.lay, v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
+    if r.shown.size:
+        signals = (r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
+        yield link(traffic.lights, *signals, takes=("time",))
 
 
-@given
-def lay_ground(world: World) -> tuple:
-    """Friction."""
-    v, r = world.vehicles, world.roads
-    return ground.lay, v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground
-
-
-@given
-def show_lights(world: World) -> tuple:
-    """What every light shows at a time [s]."""
-    r = world.roads
-    signals = (r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
-    return traffic.lights, *signals
-
-
-@given
-def gather(world: World) -> tuple:
+@Passes
+def gather(world: World) -> Iterator[Link]:
     """All vehicles are sorted by place, so that everybody finds who is near."""
     v, g = world.vehicles, world.neighbours
-    return neighbour.sort, v.state, v.parameter, world.worlds.of, g.grid, g.places
+    yield link(neighbour.sort, v.state, v.parameter, world.worlds.of, g.grid, g.places)
 
 
-def look(world: World) -> None:
+@Passes
+def look(world: World) -> Iterator[Link]:
     """Drivers find themselves on their path and see who, or what, is ahead."""
-    orient(world)
-    line_up(world)
-    mind_others(world)
+    yield orient(world)
+    yield line_up(world)
+    yield mind_others(world)
     if world.obstacles.standing.size:
-        mind_obstacles(world)
+        yield mind_obstacles(world)
     if world.obstacles.movers.object.size:
-        mind_movers(world)
+        yield mind_movers(world)
+    if world.obstacles.movers.zebra.size:
+        yield let_cross(world)
 
 
-@given
-def orient(world: World) -> tuple:
+def orient(world: World) -> Link:
     """Where they are on their path."""
     v, r = world.vehicles, world.roads
     stops = (r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown)
     places = world.neighbours.places
-    return traffic.orient, world.clock.tick, v.state, v.parameter, places, r.points, r.path_first, r.path_count, *stops, v.drivers, v.mind
+    return link(
+        traffic.orient, world.clock.tick, v.state, v.parameter, places, r.points, r.path_first, r.path_count, *stops, v.drivers, v.mind
+    )
 
 
-@given
-def line_up(world: World) -> tuple:
+def line_up(world: World) -> Link:
     """Who is behind whom on every strand."""
     v, r, q, w = world.vehicles, world.roads, world.queues, world.worlds
     asked = (q.wanted, q.wanted_at, q.there, q.count)
     drives = (r.drive_first, r.drive_count, r.web)
-    return queue.sort, v.state, v.parameter, v.mind, w.of, w.entity, *drives, q.first, q.place, q.at, *asked
+    return link(queue.sort, v.state, v.parameter, v.mind, w.of, w.entity, *drives, q.first, q.place, q.at, *asked)
 
 
-@given
-def mind_others(world: World) -> tuple:
+def mind_others(world: World) -> Link:
     """Who is ahead on one's strands, and who comes where they meet others."""
     v, r, q, w, g = world.vehicles, world.roads, world.queues, world.worlds, world.neighbours
     paths, drives = (r.points, r.path_first, r.path_count), (r.drive_first, r.drive_count, r.web)
     numbers, queues = (w.of, w.number, w.entity), (q.first, q.place, q.at)
-    return traffic.others, v.state, v.parameter, g.places, *paths, *numbers, *drives, *queues, v.drivers, v.mind
+    return link(traffic.others, v.state, v.parameter, g.places, *paths, *numbers, *drives, *queues, v.drivers, v.mind)
 
 
-@given
-def mind_obstacles(world: World) -> tuple:
+def mind_obstacles(world: World) -> Link:
     """What stands in the way."""
     v, o, w = world.vehicles, world.obstacles, world.worlds
     sweep = (o.sweep, o.sweep_first, o.sweep_count)
-    return traffic.obstacles, v.state, v.parameter, *sweep, o.standing, o.first, w.of, v.drivers, v.mind
+    return link(traffic.obstacles, v.state, v.parameter, *sweep, o.standing, o.first, w.of, v.drivers, v.mind)
 
 
-@given
-def mind_movers(world: World) -> tuple:
+def mind_movers(world: World) -> Link:
     """Who walks or rides in the way."""
     v, r, o, w = world.vehicles, world.roads, world.obstacles, world.worlds
     paths, objects = (r.points, r.path_first, r.path_count), (o.movers.object, o.table, o.standing, o.first, o.count)
-    return traffic.movers, v.state, v.parameter, *paths, *objects, w.of, v.drivers, v.mind
+    return link(traffic.movers, v.state, v.parameter, *paths, *objects, w.of, v.drivers, v.mind)
 
 
-def think(world: World) -> None:
+def let_cross(world: World) -> Link:
+    """Who crosses on stripes, or is about to."""
+    v, r, o, w, m = world.vehicles, world.roads, world.obstacles, world.worlds, world.obstacles.movers
+    paths, objects = (r.points, r.path_first, r.path_count), (o.table, o.standing, o.first, o.count, world.script.turned)
+    walking, view = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra), (world.neighbours.places, r.place_of, r.shadow)
+    own = (v.state, v.parameter, *paths, *objects, *walking, w.of, *view, v.drivers, v.mind)
+    return link(zebra.let_cross, *own, takes=("time",))
+
+
+@Passes
+def think(world: World) -> Iterator[Link]:
     """Drivers perceive whom they mind, decide, one kind after the other, and answer in their time."""
-    v, clock = world.vehicles, world.clock
-    perceive(world, clock.k, clock.time)
-    world.unfit = sum([seats.decide(v.state, v.parameter, v.mind) for seats in world.seats])
-    answer(world, clock.k, clock.time)
-
-
-@given
-def perceive(world: World) -> tuple:
-    """What drivers take that to be which they mind, at tick k and a time [s]."""
     v, w, tick = world.vehicles, world.worlds, world.clock.tick
     chance = (w.of, w.entity, w.driver_seed)
-    return percept.perceive, tick, percept.renewal(tick), v.state, v.parameter, *chance, v.drivers, v.mind
+    own = (tick, percept.renewal(tick), v.state, v.parameter, *chance, v.drivers, v.mind)
+    yield link(percept.perceive, *own, takes=("k", "time"))
+    for seats in world.seats:
+        yield link(seats.run, seats.columns, seats.settings, v.state, v.parameter, v.mind, tell=partial(wishes, world, seats))
+    yield link(percept.answer, tick, percept.stride(tick), v.state, v.drivers, v.mind, v.intents, takes=("k", "time"))
 
 
-@given
-def answer(world: World) -> tuple:
-    """What their feet do at tick k and a time [s]."""
-    v, tick = world.vehicles, world.clock.tick
-    return percept.answer, tick, percept.stride(tick), v.state, v.drivers, v.mind, v.intents
+def wishes(world: World, seats: Seats, unfit: Any, refuse: Refuse) -> None:
+    """So many of the wishes of some drivers are no numbers. Raises KindError with the traceback of one that raises."""
+    if isinstance(unfit, BaseException):
+        raise seats.raised() from unfit
+    world.unfit += unfit
 
 
-def sense(world: World, refuse: Refuse = let_through) -> None:
+@Passes
+def sense(world: World) -> Iterator[Link]:
     """Satellites tell where one is; units look at themselves and around."""
-    u, clock = world.units, world.clock
-    world.carry(clock.k, clock.tick)
+    v, u, w, r, g = world.vehicles, world.units, world.worlds, world.roads, world.neighbours
+    cars = (u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
+    yield link(carry, *cars, w.seed, r.place_of, r.shadow, u.satellite, u.now, world.clock.tick, takes=("k",))
     for each in u.mounted:
-        for i, what in each.ask(clock.k, clock.time, world.view).items():
-            refuse(u.blame(each, i, what))
+        yield link(each.run, *world.view, *each.arrays, takes=("k", "time"), tell=partial(blame, u, each))
 
 
-def communicate(world: World, refuse: Refuse = let_through) -> None:
+def blame(u: Units, each: Mounted, faults: Any, refuse: Refuse) -> None:
+    """Sensors of one kind have done something wrong."""
+    for i, what in (each.raised() if isinstance(faults, BaseException) else each.wrong()).items():
+        refuse(u.blame(each, i, what))
+
+
+@Passes
+def communicate(world: World) -> Iterator[Link]:
     """Beacons go out; what has come in is taken, and laid before the applications."""
-    clock, u = world.clock, world.units
+    u = world.units
     for air in u.airs:
-        air.turn(clock.time, u.world)
+        if air.is_loaded:
+            yield link(turned, air.since, air.busy, air.load, takes=("time",), tell=partial(assess, air, u))
+    if draw_lots(u.posts):
+        yield stop(partial(exchange_by_lot, world))
+    else:
+        for post in u.posts:
+            yield from exchange(world, post)
+    for inbox in world.open_inboxes:
+        yield link(lay_open, *inbox.arrays, takes=("time",))
+
+
+def assess(air: Air, units: Units, is_over: Any, refuse: Refuse) -> None:
+    """A window of the load is over: congestion control looks at it."""
+    let_pass(is_over, refuse)
+    if air.assess:
+        air.assess(air.settings, units.world, air.load, air.control, air.gap)
+
+
+def exchange(world: World, post: Post) -> Iterator[Link]:
+    """One kind of message."""
+    air = world.units.airs[post.air]
+    own = (*post.of_exchange(air), *post.given(air, world.air))
+    yield link(is_full, *post.log.filling, tell=partial(put_away, post))
+    yield link(post.exchange, *own, takes=("k", "time"), tell=partial(blame_post, post))
+
+
+def put_away(post: Post, is_full: Any, refuse: Refuse) -> None:
+    """There is no more room to write down what comes of messages."""
+    let_pass(is_full, refuse)
+    post.log.put_away()
+
+
+def blame_post(post: Post, error: Any, refuse: Refuse) -> None:
+    """A message or radio raises."""
+    for fault in post.raised():
+        refuse(fault)
+
+
+def exchange_by_lot(world: World, found: Any, refuse: Refuse) -> None:
+    """All kinds of messages, in an order that is drawn."""
+    clock, u = world.clock, world.units
     for post in taking_turns(u.posts, clock.k):
         for fault in post.exchanged(clock.k, clock.time, u.airs[post.air], world.air):
             refuse(fault)
-    lay(world, clock.time)
 
 
 def lay(world: World, time: float) -> None:
@@ -253,10 +347,35 @@ def dispatch(world: World, refuse: Refuse = let_through) -> None:
             refuse(fault)
 
 
-def applications(world: World, refuse: Refuse = let_through) -> None:
-    """Every application sees and decides."""
-    world.vehicles.app_command[:] = nan
-    decide(world, world.clock.time, list(world.hosted), refuse)
+@Passes
+def applications(world: World) -> Iterator[Link]:
+    """Every application sees and decides, the highest priority last."""
+    around = world.units.fixed, world.units.now, world.vehicles.app_command
+    yield link(clear, world.vehicles.app_command)
+    for hosted in world.hosted:
+        tell = partial(decided if hosted.is_compiled else decide_now, world, hosted)
+        yield link(hosted.run, *around, *hosted.given(world.clock.tick), takes=("time",), tell=tell) if hosted.is_compiled else stop(tell)
+
+
+@lean
+def clear(commands):
+    """Nobody commands anything."""
+    commands[:] = nan
+
+
+def decided(world: World, hosted: Hosted, faults: Any, refuse: Refuse) -> None:
+    """Something went wrong in an application."""
+    is_raised = isinstance(faults, BaseException)
+    for fault in [hosted.raised(faults)] if is_raised else hosted.faults(world.clock.time, world.clock.tick):
+        refuse(fault)
+
+
+def decide_now(world: World, hosted: Hosted, found: Any, refuse: Refuse) -> None:
+    """An application that runs as Python sees and decides."""
+    decide(world, world.clock.time, [hosted], refuse)
+
+
+MEETING = surroundings + gather + look + think + sense + communicate + applications
 
 
 def decide(world: World, time: float, which: list[Hosted], refuse: Refuse) -> None:

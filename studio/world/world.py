@@ -8,7 +8,6 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from studio.bound import bound
 from studio.errors import ApplicationError
 from studio.kind.registry import Kind
 from studio.road.network.shadow import Shadow
@@ -19,7 +18,6 @@ from studio.vehicle.parameter import FRONT, LENGTH, MASS, RADIUS, WIDTH
 from studio.vehicle.state import ACTIVE
 from studio.world.board.air import Air
 from studio.world.board.host import Fault, Group, Hosted
-from studio.world.board.own import carry
 from studio.world.board.post import Open, Post
 from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
@@ -249,6 +247,9 @@ class Movers:
     corner: np.ndarray  # [row, corner], as obstacle.py names the rows
     speed: np.ndarray
     stays: np.ndarray  # 1 for one who stays at the end of his line
+    zebra: np.ndarray  # [row, zebra crossing on somebody's line]
+    zebra_first: np.ndarray
+    zebra_count: np.ndarray  # 0 of one who does not walk
 
 
 @dataclass
@@ -366,13 +367,6 @@ class World:
         u, w, r = self.units, self.worlds, self.roads
         return u.world, u.first, u.entity, w.radio_seed, r.place_of, r.shadow, u.fixed, u.now, u.trouble
 
-    @cached_property
-    def carry(self) -> Callable:
-        """Satellites tell vehicles where they are, and units go with them, at tick k of so many seconds (world/board/own.py)."""
-        v, u, w, r, g = self.vehicles, self.units, self.worlds, self.roads, self.neighbours
-        cars = (u.vehicle, u.fixed, v.state, v.parameter, v.mind, v.commands, g.places, u.gps_set, w.of, w.entity, w.satellite_seed)
-        return bound(carry, *cars, w.seed, r.place_of, r.shadow, u.satellite, u.now, then=(self.clock.k, self.clock.tick))
-
     @property
     def size(self) -> int:
         """Number of vehicles in all worlds."""
@@ -483,4 +477,5 @@ class World:
         self.vehicles.returns[columns] = 0
         mine, d = self.demand.world == number, self.demand
         d.gone[mine] = np.diff(d.first)[mine]  # nobody is due any more
+        self.ready.clear()
         self.hosted = [hosted for hosted in self.hosted if {group.world for group in hosted.groups} != {number}]

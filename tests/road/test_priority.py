@@ -7,6 +7,7 @@ import pytest
 
 from studio.road import load
 from studio.road.network import RIGHTS
+from tests.conftest import ROOT
 
 MAPS = Path(__file__).parents[1] / "reference" / "maps"
 METRE = 1.0 / 111_194.9  # [deg] of latitude on a sphere of 6371 km
@@ -127,6 +128,29 @@ def test_nobody_waits_for_one_who_waits_for_him(name):
             other = network.connections[j]
             same_road = network.lanes[connection.from_lane].road == network.lanes[other.from_lane].road
             assert same_road or i not in other.yields
+
+
+@pytest.mark.parametrize(("minor", "major", "waits"), [(20, 30, False), (30, 100, True), (20, None, True), (None, 30, True)])
+def test_lights_go_before_a_sign_right_behind_them(draft, tmp_path, own_cache, minor, major, waits):
+    """A small street joins a great one, each with a light so far [m] before that. Where one holds whom the other lets go, nobody waits
+    again behind it; he does where one of them has none, or where it is too far to know of the other."""
+    light = {"highway": "traffic_signals"}
+    south, north, west, east, middle = (draft.node(*place_at(BERLIN, x, y)) for x, y in ((0, -150), (0, 150), (-150, 0), (150, 0), (0, 0)))
+    lights = [draft.node(*place_at(BERLIN, 0, -minor), **light)] if minor else []
+    draft.way(1, [south, *lights, middle, north], highway="residential", oneway="yes")
+    lights = [draft.node(*place_at(BERLIN, -major, 0), **light)] if major else []
+    draft.way(2, [west, *lights, middle, east], highway="secondary", oneway="yes")
+    network = load(draft.write(tmp_path / "joined.osm"))
+    small = [c for c in network.connections if {network.lanes[lane].road[0] for lane in (c.from_lane, c.to_lane)} == {"1"}]
+    straight = next(c for c in small if c.link < 0)
+    assert bool(straight.yields) == waits == (straight.right_of_way == "yield")
+
+
+def test_on_a_ring_with_lights_nobody_waits_for_whom_they_hold():
+    """At the Großer Stern every way onto the ring and along it has its light, 5 to 40 m before it meets another."""
+    network = load(ROOT / "scenarios" / "maps" / "berlin_siegessaeule_grosser_stern.osm.gz")
+    assert {c.right_of_way for c in network.connections} == {"signal", "priority"}
+    assert not any(c.yields for c in network.connections)
 
 
 def test_the_ring_goes_first():

@@ -102,7 +102,7 @@ def on_threads(ground, threads, ticks):
 
     with ThreadPoolExecutor(threads) as pool:
         for k in range(ticks):
-            shift.shifts(k, ground.tick, f.state, f.wheels, f.parameter, f.gears, f.commands)
+            shift.shifts(f.order, k, ground.tick, f.state, f.wheels, f.parameter, f.gears, f.commands)
             list(pool.map(some, [k] * threads, parts, tiles))
 
 

@@ -92,6 +92,7 @@ class Pushing:
     commands: dict
     groups: tuple = ()
     cycles: int = 1
+    is_compiled: bool = False
 
     def decide(self, time, tick, around):
         commands = around[-1]

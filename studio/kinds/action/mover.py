@@ -1,8 +1,9 @@
 """Somebody appears, moves along a line and is gone: on foot, on a bicycle, or a box of any size. It may stand, too.
 
-Sensors see it, drivers brake for it once it is in their way, and cars hit it. It does not mind anybody. Its name is that of its entry, and
-`until` takes it away. Sizes: the adult and the bicyclist of the Euro NCAP targets, 0.6 m by 0.5 m and 1.9 m by 0.6 m; 5 km/h is a walking,
-8 km/h a running person, 15 km/h a bicycle (Euro NCAP, AEB VRU test protocol).
+Sensors see it, drivers brake for it once it is in their way, and cars hit it. Who comes on foot to a zebra crossing without lights is let
+cross, from 4 s before his first step onto it. It does not mind anybody. Its name is that of its entry, and `until` takes it away.
+Sizes: the adult and the bicyclist of the Euro NCAP targets, 0.6 m by 0.5 m and 1.9 m by 0.6 m; 5 km/h is a walking, 8 km/h a running
+person, 15 km/h a bicycle (Euro NCAP, AEB VRU test protocol).
 """
 
 from itertools import pairwise

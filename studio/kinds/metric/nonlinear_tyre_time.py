@@ -2,10 +2,10 @@
 
 A tyre's force grows with its slip in proportion up to about 0.4 of what it can transmit: 4 m/s² on a dry road, up to which the linear
 single-track model holds (M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge, 5th edition 2014). Of the wheel that uses most of
-its adhesion at each moment.
+its adhesion at each moment. Light vehicles have no tyres, and do not count.
 """
 
-from studio.assess.adhesion import most_used
+from studio.assess.adhesion import most_used, nothing_known
 from studio.assess.effort import lasting
 from studio.assess.search import worst_vehicle
 from studio.kind.metric import Scope
@@ -25,4 +25,4 @@ class Settings(Scope):
 
 def measure(record, settings):
     """Time [s]."""
-    return worst_vehicle(record, lasting(most_used(record) > settings.share, record.time))
+    return nothing_known(record) or worst_vehicle(record, lasting(most_used(record) > settings.share, record.time))

@@ -1,6 +1,7 @@
 """Right of way: what holds on each way through a junction, and who goes first where two come at once.
 
-    signal              a light decides; while both show green, the rest of the rules
+    signal              a light decides; while both show green, the rest of the rules. Between ways that lights right before them keep
+                        apart it has decided already
     yield, stop         a sign, or a smaller road: the others go first
     all_way_stop        everybody stops; who came first goes first
     right_before_left   no major road: whoever comes from the right goes first, and from ahead before one who turns across
@@ -16,6 +17,7 @@ junctions of equal roads where one drives on the left; they are found here.
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import shapely
@@ -23,7 +25,7 @@ import shapely
 from studio.road.assembly.alignment import direction_at, turned
 from studio.road.formats.osm import Box, Way
 from studio.road.network import Connection, Net, Pair, curve
-from studio.road.network.signals import Signals
+from studio.road.network.signals import SIGHT, Signals
 
 LEFT_FIRST = {"Japan", "Thailand"}  # road traffic acts: Japan art. 36, Thailand sec. 71
 EQUAL = {"residential", "living_street", "unclassified", "tertiary"}  # classes whose crossings have no major road
@@ -82,11 +84,34 @@ def foes_of(net: Net, connections: tuple[Connection, ...], lights: Signals) -> l
     """For each way through a junction those that cross it or end in the same lane, unless lights keep them apart."""
     apart = {(i, j) for a, b in lights.conflicts.T.tolist() for i, j in ((a, b), (b, a))}
     lines = np.array([shapely.LineString(line_of(net, c).T) for c in connections], dtype=object)
-    found = defaultdict(set)
+    links, found = links_of(net, connections), defaultdict(set)
     for i, j in shapely.STRtree(lines).query(lines, predicate="intersects").T.tolist():
-        if connections[i].from_lane != connections[j].from_lane and (connections[i].link, connections[j].link) not in apart:
+        if connections[i].from_lane != connections[j].from_lane and not apart.issuperset(product(links[i], links[j])):
             found[i].add(j)
     return [frozenset(found[i]) for i in range(len(connections))]
+
+
+def links_of(net: Net, connections: tuple[Connection, ...]) -> list[frozenset[int]]:
+    """For each way the lights by which one comes to it: at its own line, or not farther back than conflicts of lights are looked for.
+
+    -1 is among them where one may come without. Lights go before signs (StVO § 37): whom they have let go is not to wait again, at a
+    line right behind, for those whom they hold meanwhile.
+    """
+    onto = defaultdict(list)
+    for connection in connections:
+        onto[connection.to_lane].append(connection)
+    return [frozenset(links_before(net, onto, each, SIGHT)) for each in connections]
+
+
+def links_before(net: Net, onto: dict[int, list[Connection]], connection: Connection, left: float) -> Iterator[int]:
+    """The lights before a way, no more than `left` [m] back."""
+    left -= net.lanes[connection.from_lane].length
+    before = onto.get(connection.from_lane, ())
+    if connection.link >= 0 or left <= 0.0 or not before:
+        yield connection.link
+        return
+    for each in before:
+        yield from links_before(net, onto, each, left - sum(net.lanes[via].length for via in each.via))
 
 
 def line_of(net: Net, connection: Connection) -> np.ndarray:

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 
-from studio.bound import bound
 from studio.compiled import inlined, lean
 from studio.kind.loop import written
 from studio.kind.number import numbers, shapes, spelled, tuple_of
@@ -74,16 +73,6 @@ class Air:
     def state(self) -> list[np.ndarray]:
         """What it goes on from: of every unit, and last of every cell; of the channel only where messages keep it busy."""
         return [*([self.busy, self.load, self.gap] if self.is_loaded else []), self.control, self.cell]
-
-    def turn(self, time: float, world_of: np.ndarray) -> None:
-        """A tick begins at a time [s]: a window may be over."""
-        if self.is_loaded and self.turned(time) and self.assess:
-            self.assess(self.settings, world_of, self.load, self.control, self.gap)
-
-    @cached_property
-    def turned(self) -> Callable[[float], bool]:
-        """`turned` with all arrays given: they stay where they are."""
-        return bound(turned, self.since, self.busy, self.load, then=(0.0,))
 
 
 def air(radio: Kind, worlds: Sequence[int], settings: Sequence[Any], units: int) -> Air:

@@ -92,6 +92,15 @@ class Hosted:
         return [each for one in port.done(self.application.module) if one.what == port.LOG for each in quantities(one.type)]
 
     @property
+    def is_compiled(self) -> bool:
+        """Whether the loop is machine code."""
+        return hasattr(self.run, "py_func")
+
+    def given(self, tick: float) -> tuple:
+        """What the loop is given besides the arrays of the world, with ticks of so many seconds."""
+        return *self.arrays, tick / self.cycles
+
+    @property
     def arrays(self) -> tuple[np.ndarray, ...]:
         """What the loop reads and writes of its own."""
         own = (self.unit, self.column, self.rank, self.stopped, self.parameters, self.memory, self.said, self.shown, self.fault, self.wrong)
@@ -104,8 +113,8 @@ class Hosted:
         """
         try:
             if not self.ready:
-                self.ready["run"] = bound(self.run, *around, *self.arrays, then=(time, tick))
-            faults = self.ready["run"](time, tick / self.cycles)
+                self.ready["run"] = bound(self.run, *around, *self.given(tick), then=(time,))
+            faults = self.ready["run"](time)
         except (Exception, SystemExit) as error:
             return iter([self.raised(error)])
         return self.faults(time, tick) if faults else iter(())

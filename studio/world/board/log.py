@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.compiled import inlined
+from studio.compiled import inlined, lean
 from studio.world.table.unit import L_FIRST, L_NUMBER, L_SAID, L_SENDER, L_SIZE, L_TIME, LOGGED, SENT
 
 SAID = 2  # numbers that a message carries first, which are kept
@@ -75,9 +75,13 @@ class Log:
 
     def make_room(self) -> None:
         """So that all that may come in one call finds room."""
-        messages, entries = self.most
-        if self.count[0] + messages > self.now.message.shape[1] or self.count[1] + entries > self.now.link.size:
+        if is_full(*self.filling):
             self.put_away()
+
+    @property
+    def filling(self) -> tuple:
+        """What `is_full` looks at."""
+        return (*self.most, self.now.message.shape[1], self.now.link.size, self.count)
 
     def put_away(self) -> None:
         """So that nothing stands in `now`."""
@@ -121,6 +125,12 @@ def before(part: Logged, time: float) -> Logged:
     count = int(np.searchsorted(part.message[L_TIME], time))
     last = int(part.message[L_FIRST, count]) if count < part.message.shape[1] else part.link.size
     return Logged(part.message[:, :count], *(each[:last] for each in part[1:]))
+
+
+@lean
+def is_full(messages, entries, message_room, entry_room, count):
+    """Whether all that may come in one call might not find room."""
+    return count[0] + messages > message_room or count[1] + entries > entry_room
 
 
 @inlined

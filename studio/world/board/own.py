@@ -34,7 +34,7 @@ from studio.world.table.unit import (
 
 @lean
 def carry(vehicle, fixed, state, parameter, mind, commands, places, gps_set, world_of, entity, seed, bus_seed, place_of, shadow, satellite,
-          now, k, tick):  # fmt: skip
+          now, tick, k):  # fmt: skip
     """Satellites tell vehicles where they are, and every unit on a vehicle goes with it; stations stay as they are."""
     fix(k, tick, state, gps_set, world_of, entity, seed, place_of, shadow, satellite)
     n = state.shape[1]

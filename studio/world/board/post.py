@@ -224,9 +224,13 @@ class Post:
                 self.ready[name] = bound(getattr(self, name), *own, *self.given(air, around), then=now)
             self.ready[name](*now)
         except (Exception, SystemExit):
-            text = f"The message {self.kind.name!r} on the radio {self.radio.name!r} cannot be sent:\n{traceback.format_exc()}"
-            return (Fault(self.worlds, ApplicationError(text)),)
+            return self.raised()
         return ()
+
+    def raised(self) -> tuple[Fault]:
+        """What is said of a message or radio that raises."""
+        text = f"The message {self.kind.name!r} on the radio {self.radio.name!r} cannot be sent:\n{traceback.format_exc()}"
+        return (Fault(self.worlds, ApplicationError(text)),)
 
     def of_exchange(self, air: Air) -> tuple:
         """What `exchange` is given besides: beacons, and what has come in."""
@@ -286,8 +290,7 @@ class Open:
     def lay(self, time: float) -> None:
         """What has come in since the last time is laid before the members, and what is too old is taken away."""
         if self.ready is None:
-            post = self.post
-            self.ready = bound(lay, post.came, post.came_count, post.link_receiver, post.inbox, *self.given, then=(time,))
+            self.ready = bound(lay, *self.arrays, then=(time,))
         self.ready(time)
 
     def lay_anew(self, time: float) -> None:
@@ -295,6 +298,11 @@ class Open:
         self.heard[self.is_open], self.slots[:, self.is_open] = 0, -1
         came = np.flatnonzero(self.post.inbox[H_NUMBER] >= 0.0)
         lay(*(came, np.array([came.size]), self.post.link_receiver, self.post.inbox, *self.given, time))
+
+    @property
+    def arrays(self) -> tuple:
+        """What `lay` reads and writes."""
+        return self.post.came, self.post.came_count, self.post.link_receiver, self.post.inbox, *self.given
 
     @property
     def given(self) -> tuple:
@@ -512,9 +520,14 @@ def whose_turn(fresh, last, sender, world_of, entity, seed, stream):
     return first
 
 
+def draw_lots(posts: Sequence["Post"]) -> bool:
+    """Whether it is drawn which kind goes first."""
+    return len(posts) > 1 and any(hasattr(post.radio.module, "admit") for post in posts[1:])
+
+
 def taking_turns(posts: Sequence["Post"], instant: int) -> Sequence["Post"]:
     """Posts in the order in which they send at an instant: by lot too where messages wait for a network, so that no kind goes first."""
-    if len(posts) < 2 or not any(hasattr(post.radio.module, "admit") for post in posts[1:]):
+    if not draw_lots(posts):
         return posts
     return sorted(posts, key=lambda post: uniform(0, instant & WORD, post.stream, instant >> WORD.bit_length(), LOT))
 

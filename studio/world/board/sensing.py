@@ -9,13 +9,12 @@ mounted(kind, sensors, tick)   →  Mounted        the sensors of one kind of al
 
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import ceil, inf, isfinite
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from studio.bound import bound
 from studio.compiled import inlined
 from studio.kind.loop import written
 from studio.kind.number import numbers, row_of, shapes, spelled, tuple_of
@@ -180,32 +179,19 @@ class Mounted:
     out: Moving
     fault: np.ndarray  # scratch: what is wrong with the answer of each, as WRONG numbers it
     run: Callable
-    ready: dict[str, Callable] = field(default_factory=dict)  # "run" with all arrays given, once it has been called
 
-    def ask(self, k: int, time: float, view: tuple) -> dict[int, str]:
-        """All of them measure; says what went wrong, by the number of the sensor."""
-        try:
-            if not self.ready:
-                own = (
-                    self.unit,
-                    self.stream,
-                    self.settings,
-                    self.memory,
-                    self.health,
-                    self.first,
-                    self.ring,
-                    self.output,
-                    self.out,
-                    self.fault,
-                )
-                self.ready["run"] = bound(self.run, *view, *own, then=(k, time))
-            faults = self.ready["run"](k, time)
-        except (Exception, SystemExit):
-            return dict.fromkeys(range(self.unit.size), f"cannot be asked:\n{traceback.format_exc()}")
-        return self.wrong() if faults else {}
+    @property
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """What the loop reads and writes besides what they see."""
+        own = self.unit, self.stream, self.settings, self.memory, self.health
+        return *own, self.first, self.ring, self.output, self.out, self.fault
+
+    def raised(self) -> dict[int, str]:
+        """What is said of one that raises, by the number of the sensor, with the traceback."""
+        return dict.fromkeys(range(self.unit.size), f"cannot be asked:\n{traceback.format_exc()}")
 
     def wrong(self) -> dict[int, str]:
-        """What is wrong with the answers of this look."""
+        """What is wrong with the answers of this look, by the number of the sensor."""
         return {i: WRONG[int(self.fault[i])].format(capacity=self.capacity) for i in np.flatnonzero(self.fault).tolist()}
 
     @property

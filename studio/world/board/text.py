@@ -37,7 +37,7 @@ from {module} import Does, Memory, ParametersTuple, Sees, decide
 {parts}
 
 
-{above}def run(fixed, now, commands, unit, column, rank, stopped, parameters, memory, said, shown, fault, wrong{arguments}, time, tick):
+{above}def run(fixed, now, commands, unit, column, rank, stopped, parameters, memory, said, shown, fault, wrong{arguments}, tick, time):
     faults = 0
     for j in range(unit.size):
         u = unit[j]

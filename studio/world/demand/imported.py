@@ -97,7 +97,7 @@ def type_of(vtype: Vtype, scenario: Scenario) -> CarType:
     if factor:
         spread |= {"speed_factor": within(factor, *range_of(type(usual), "speed_factor"))}
     driver = usual.model_copy(update=vtype.settings)
-    return CarType.model_construct(model=model_of(vtype, scenario), driver=driver, spread=spread)
+    return CarType.model_construct(model=model_of(vtype, scenario), dynamics=None, driver=driver, spread=spread)
 
 
 def within(factor: Normal, low: float, high: float) -> Normal:

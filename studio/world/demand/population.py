@@ -6,8 +6,10 @@ The cars of a source come in as soon as there is room when one is due. It has as
 takes, and no more than will ever be due.
 """
 
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +26,7 @@ from studio.scenario.traffic import MOST_CARS, Manned
 from studio.world.car import Car, footprint, position
 from studio.world.demand.source import Source
 from studio.world.demand.style import Who, driver_of, kind_of, who_of
-from studio.world.footprint import depth
+from studio.world.footprint import Footprint, depth
 from studio.world.way import MOST_WORKS, Works
 
 CAR_LENGTH = 4.5  # [m] a car that starts nearer than this to works is about to be in them
@@ -37,6 +39,7 @@ SLOW = 3.0  # times as long as in free traffic a car may need, until cars of its
 
 through_ways = once(all_routes)  # from every arm to every other
 _paths: dict[tuple[str, int], Path] = {}
+_junctions: dict[tuple[str, int], np.ndarray] = {}
 Models = dict[str, VehicleModel]
 
 
@@ -58,18 +61,40 @@ def traffic(scenario: Scenario, network: Network, models: Models, named: list[Ca
 
 def population(scenario: Scenario, network: Network, models: Models, named: list[Car], works: Works) -> Iterator[Car]:
     """Cars at random on the ways, none near another; those that find no place wait where a way begins. Raises ScenarioError."""
-    taken = [position(car.path, car.station) for car in named]
-    bodies = [footprint(car.name, car.model, car.path, car.station) for car in named]
+    taken, bodies = Cells(scenario.traffic.spacing), Cells(FAR)
+    for each in named:
+        take(taken, bodies, footprint(each.name, each.model, each.path, each.station), position(each.path, each.station))
     for i in range(number_of(scenario, network)):
         of = kind_of(Who(i), scenario, None)
         model = models[of.model]
         found = free_place(i, scenario, network, taken, bodies, model, works)
         way, station = found or (outside(i, scenario, network, works), 0.0)
         if found:
-            taken.append(position(way, station))
-            bodies.append(footprint(name_of(i), model, way, station))
+            take(taken, bodies, footprint(name_of(i), model, way, station), position(way, station))
         speed = min(scenario.traffic.speed, float(way.points[PATH_SPEED, int(station)]))
         yield replace(car(i, Who(i), scenario, of, models, way, station, speed), returns=True, is_outside=found is None)
+
+
+class Cells:
+    """Things by the square that they lie in: whoever is nearer than its side lies there or beside it."""
+
+    def __init__(self, side: float):
+        self.side, self.lying = side, defaultdict(list)
+
+    def put(self, x: float, y: float, thing: Any) -> None:
+        """Lays a thing down at a place [m]."""
+        self.lying[int(x // self.side), int(y // self.side)].append(thing)
+
+    def near(self, x: float, y: float) -> Iterator[Any]:
+        """What lies around a place [m]."""
+        column, row = int(x // self.side), int(y // self.side)
+        return (each for i in (-1, 0, 1) for j in (-1, 0, 1) for each in self.lying.get((column + i, row + j), ()))
+
+
+def take(taken: Cells, bodies: Cells, body: Footprint, at: tuple[float, float]) -> None:
+    """A car stands at a place [m] from now on."""
+    taken.put(*at, at)
+    bodies.put(body.x, body.y, body)
 
 
 def number_of(scenario: Scenario, network: Network) -> int:
@@ -103,35 +128,39 @@ def is_long_enough(way: Path, works: Works) -> bool:
     return way.length > 2 * END_CLEARANCE and len(works.way(way).works) <= MOST_WORKS
 
 
-def free_place(i: int, scenario: Scenario, network: Network, taken, bodies, model, works: Works) -> tuple[Path, float] | None:
+def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodies: Cells, model, works: Works) -> tuple[Path, float] | None:
     """A way and a station for traffic car i that keeps the spacing to all that is placed, and overlaps nobody."""
     count = len(through_ways(network))
     for attempt in range(TRIES if count else 0):
-        way = through_path(network, int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count))
+        number = int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count)
+        way = through_path(network, number)
         if not is_long_enough(way, works):
             continue
         station = uniform(scenario.seed_of("traffic"), i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
         x, y = position(way, station)
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
-        if near_light or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken):
+        if near_light or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken.near(x, y)):
             continue
-        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(network, way, station):
+        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(junctions(network, number), station):
             continue
         own = footprint("", model, way, station)
-        if all(depth(own, other) <= 0.0 for other in bodies if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
+        if all(depth(own, other) <= 0.0 for other in bodies.near(own.x, own.y) if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
             return way, station
     return None
 
 
-def junctions(network: Network, way: Path) -> np.ndarray:
-    """From where to where a path leads through junctions, float64[2, n] [m]."""
-    lanes = strands_of(network).lanes
-    return np.array([(each.enter, each.leave) for each in driven(network, way) if each.strand >= lanes]).reshape(-1, 2).T
+def junctions(network: Network, number: int) -> np.ndarray:
+    """From where to where the path of one of the ways leads through junctions, float64[2, n] [m]; found when it is needed, once."""
+    if (network.digest, number) not in _junctions:
+        lanes, there = strands_of(network).lanes, driven(network, through_path(network, number))
+        found = [(each.enter, each.leave) for each in there if each.strand >= lanes]
+        _junctions[network.digest, number] = np.array(found).reshape(-1, 2).T
+    return _junctions[network.digest, number]
 
 
-def in_junction(network: Network, way: Path, station: float) -> bool:
-    """Whether a car at a station [m] would start in a junction, or so near before it that it could not let others go first."""
-    enter, leave = junctions(network, way)
+def in_junction(through: np.ndarray, station: float) -> bool:
+    """Whether a car at a station [m] would start in one of the junctions, or so near before it that it could not let others go first."""
+    enter, leave = through
     return bool(((station > enter - CAR_LENGTH - BRAKING) & (station < leave + CAR_LENGTH)).any())
 
 
@@ -170,4 +199,5 @@ def name_of(i: int) -> str:
 def car(i: int, who: Who, scenario: Scenario, of: Manned, models: Models, way: Path, station: float, speed: float) -> Car:
     """Traffic car i."""
     driver, paint = driver_of(who, scenario, of), PAINTS[i % len(PAINTS)]
-    return Car(name_of(i), models[of.model], way, station, speed, driver, Intervention(), paint, Gps(drift=0.0, noise=0.0))
+    place, gps = (way, station, speed), Gps(drift=0.0, noise=0.0)
+    return Car(name_of(i), models[of.model], *place, driver, Intervention(), paint, gps, is_light=of.dynamics == "light")

@@ -160,7 +160,7 @@ def everybody(state, parameter, mind, removed, world_of, number, first_of, chart
             note(now, ENTERED, v, -1, came[v], world_of, number, table, count)
         if is_there and has_passed_red(before, bumper, stop_first[v], stop_count[v], stop_station, stop_link, shown):
             note(now, AT_RED, v, -1, state[V_X, v], world_of, number, table, count)
-        if is_there and before == before:
+        if is_there and bumper > before:
             enter(
                 v, before, bumper, now, state, parameter, mind, world_of, drive_first[v], drive_count[v], web, first, place, at, watched,
                 pairs,

@@ -20,7 +20,6 @@ from studio.road.ways.path import (
     PATH_SPACING,
     PATH_X,
     PATH_Y,
-    interpolate,
 )
 from studio.road.ways.path import Path as RoadPath
 from studio.vehicle.contact import HEIGHT, MU, SLOPE_X, SLOPE_Y
@@ -46,13 +45,20 @@ MOST_NEAR = 1000  # pieces that are looked at for one vehicle
 
 
 @inlined
+def blend(points, row, column, f):
+    """The value of a row at the share f of the way from a column to the next, as `interpolate` in studio/road/ways/path.py has it."""
+    return points[row, column] if f == 0.0 else (1.0 - f) * points[row, column] + f * points[row, column + 1]
+
+
+@inlined
 def plane(s, points, first, count):
     """The plane that touches a path at station s [m], z = height + slope_x x + slope_y y: height, slope_x, slope_y."""
     at = min(max(s, 0.0), (count - 1.001) * PATH_SPACING)
-    slope, heading = interpolate(points, first, PATH_SLOPE, at), interpolate(points, first, PATH_HEADING, at)
+    column, f = first + int(at), at - int(at)
+    slope, heading = blend(points, PATH_SLOPE, column, f), blend(points, PATH_HEADING, column, f)
     g_x, g_y = slope * elementary.cos(heading), slope * elementary.sin(heading)
-    level = g_x * interpolate(points, first, PATH_X, at) + g_y * interpolate(points, first, PATH_Y, at)
-    return interpolate(points, first, PATH_HEIGHT, at) - level, g_x, g_y
+    level = g_x * blend(points, PATH_X, column, f) + g_y * blend(points, PATH_Y, column, f)
+    return blend(points, PATH_HEIGHT, column, f) - level, g_x, g_y
 
 
 @inlined

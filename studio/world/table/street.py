@@ -45,6 +45,16 @@ SWEPT_AT = SWEEP.row("station", "m", "at which the path comes to it")
 SWEPT_ASIDE = SWEEP.row("aside", "m", "from the path to its near edge")
 SWEPT_OBJECT = SWEEP.row("object", "1", "number of the object")
 
+# Zebra crossings that somebody on foot comes to on his line.
+ZEBRA = Table("zebra", Role.PARAMETER, per="zebra crossing on somebody's line")
+Z_FROM = ZEBRA.row("from_station", "m", "of his line, where he steps onto the crossing")
+Z_TO = ZEBRA.row("to_station", "m", "of his line, where he has left it")
+Z_X = ZEBRA.row("x", "m", "its middle")
+Z_Y = ZEBRA.row("y", "m", "its middle")
+Z_HEADING = ZEBRA.row("heading", "rad", "from edge to edge of the road")
+Z_LENGTH = ZEBRA.row("length", "m", "from edge to edge of the road")
+Z_WIDTH = ZEBRA.row("width", "m", "of the strip on which one walks")
+
 COLLISION = Table("collision", Role.RECORD, per="collision")
 HIT_TIME = COLLISION.row("time", "s", "of the first contact")
 HIT_FIRST = COLLISION.row("first", "1", "number of one vehicle in its world")

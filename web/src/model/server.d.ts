@@ -1267,6 +1267,11 @@ export interface components {
              * @description units of which nothing was recorded
              */
             unknown: string[];
+            /**
+             * Without Tyres
+             * @description units that are light vehicles, of whose tyres nothing is known
+             */
+            without_tyres: string[];
             /** Lines */
             lines: string[];
         };

@@ -53,6 +53,7 @@ describe("why it happened", () => {
             known: [known],
             commanded_by: { car_2: { brake: "platoon" } },
             tyre_at_limit: [],
+            without_tyres: [],
             faults: [],
             not_recorded: [],
             unknown: [],
