@@ -15,10 +15,11 @@ NAMES = {
     "run": "studio.job",
     "drive": "studio.rig.drive",
     "open_runs": "studio.store.runs",
+    "connect": "studio.remote",
     "StudioError": "studio.errors",
 }
 
-__all__ = ["StudioError", "drive", "load", "open_runs", "run"]
+__all__ = ["StudioError", "connect", "drive", "load", "open_runs", "run"]
 
 
 def __getattr__(name: str) -> Any:

@@ -28,6 +28,7 @@ FLOORS = [
     {"scene"},
     {"bench", "crowd"},
     {"doctor"},
+    {"remote"},
     {"server"},
     {"cli"},
 ]
