@@ -249,8 +249,8 @@ def run_trajectories(
     return StreamingResponse(export(kept, run, form, as_degrees=degrees), media_type=MEDIA[form])
 
 
-@router.get("/runs/{run}/report", response_class=HTMLResponse, responses=PAGE)
-def run_report(run: int, kept: KeptRuns) -> HTMLResponse:
+@router.get("/runs/{run}/report", response_class=Response, responses=PAGE)
+def run_report(run: int, kept: KeptRuns) -> Response:
     """One page about a run, to be kept, read and printed."""
     return HTMLResponse(report(kept, run), headers={"Content-Disposition": f'attachment; filename="run_{run}.html"'})
 

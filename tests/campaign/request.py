@@ -95,10 +95,16 @@ FIELDS = {
         {"op": "replace", "path": "/clock/duration", "value": 20},
         {"op": "test", "path": "/version", "value": 3},
     ],
+    "/api/scenarios/{scenario}/copy": {"name": "x"},
+    "/api/runs/{run}/verdicts": {"verdict": "open", "reason": "none", "who": "nobody"},
+    "/api/runs/{run}/remark": {"name": "x", "tags": ["y"], "note": "z"},
+    "/api/scene/time": {"run": 1, "time": 0.1},
     "/api/maps/download": {"place": "Nowhere", "bbox": None, "name": "x", "replace": False},
     "/api/maps/{map}/corrections": {"element": "way 20", "tags": {"lanes": "2"}, "remove": ["name"]},
 }
-USUAL = {"run": "1", "scenario": "patched", "map": "motorway.xodr", "job": "1", "element": "way%2020"}
+WITHOUT_BODY = ("GET", "DELETE")
+LOST = {"scenario": "none"}  # what is deleted would be missing afterwards
+USUAL = {"run": "1", "scenario": "patched", "map": "motorway.xodr", "job": "1", "element": "way%2020", "entry": "1"}
 QUERY = {
     "limit": "10",
     "scenario": "patched",
@@ -139,19 +145,19 @@ class Maker:
         self.operations = [
             (method.upper(), route) for route in sorted(paths) for method in sorted(paths[route]) if not route.endswith("/socket")
         ]
-        self.writing = [each for each in self.operations if each[1] in FIELDS and each[0] != "GET"]
+        self.writing = [each for each in self.operations if each[1] in FIELDS and each[0] not in WITHOUT_BODY]
 
     def usual(self, chance: random.Random, *, writing: bool = False) -> Request:
         """A good request, but that what it would start does not exist."""
         method, route = chance.choice(self.writing if writing else self.operations)
-        body = FIELDS.get(route) if method not in ("GET", "DELETE") else None
+        body = FIELDS.get(route) if method not in WITHOUT_BODY else None
         kind = {"Content-Type": "application/json-patch+json" if method == "PATCH" else "application/json"} if body is not None else {}
         return Request(method, route, self.address(method, route), json.dumps(body).encode() if body is not None else None, kind)
 
     def address(self, method: str, route: str, parts: dict[str, str] | None = None, query: dict[str, str] | None = None) -> str:
         """An address of a route."""
         found = route
-        for name, value in (USUAL | (parts or {})).items():
+        for name, value in (USUAL | (LOST if method == "DELETE" else {}) | (parts or {})).items():
             found = found.replace(f"{{{name}}}", value)
         asked = [each["name"] for each in self.paths[route][method.lower()].get("parameters", []) if each["in"] == "query"]
         question = "&".join(f"{name}={(query or {}).get(name, QUERY.get(name, '1'))}" for name in asked)
@@ -173,7 +179,7 @@ class Maker:
             if chance.random() < 0.5
             else self.one(chance, method, route, told)
         )
-        return replace(good, address=address, body=body.body if method not in ("GET", "DELETE") else None, headers=body.headers)
+        return replace(good, address=address, body=body.body if method not in WITHOUT_BODY else None, headers=body.headers)
 
     def one(self, chance: random.Random, method: str, route: str, told: str) -> str:
         """An address with a value in one place."""
