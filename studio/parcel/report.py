@@ -104,7 +104,7 @@ def metrics(row: Row, against: dict[str, Any] | None) -> str:
             value(each.value),
             escape(each.unit),
             escape(each.about),
-            {"higher": "higher", "lower": "lower"}.get(each.goal or "", ""),
+            each.goal or "",
             change(before.get(name)),
         )
         for name, each in row.metrics.items()

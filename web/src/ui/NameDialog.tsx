@@ -44,25 +44,7 @@ export function NameDialog({ heading, action, taken, error, pending, onClose, on
       <form onSubmit={submit}>
         <Stack gap="sm">
           {children}
-          {title === undefined ? null : (
-            <TextInput
-              size="sm"
-              label="Title"
-              maxLength={120}
-              value={title}
-              onChange={(event) => setTitle(event.currentTarget.value)}
-            />
-          )}
-          <TextInput
-            size="sm"
-            label="File name"
-            data-autofocus
-            rightSection={<Ending />}
-            rightSectionWidth={52}
-            value={name}
-            error={wrong || undefined}
-            onChange={(event) => setName(event.currentTarget.value)}
-          />
+          <NameEntries name={name} onName={setName} wrong={wrong} title={title} onTitle={setTitle} autoFocus />
           {error ? <Failure error={error} /> : null}
           <Group justify="flex-end" gap="xs">
             <Button size="xs" variant="default" onClick={onClose}>
@@ -78,9 +60,39 @@ export function NameDialog({ heading, action, taken, error, pending, onClose, on
   );
 }
 
-/** Behind the name of a scenario file. */
-export const Ending = () => (
-  <Text size="sm" c="dimmed" span>
-    .yaml
-  </Text>
-);
+interface EntriesProps {
+  name: string;
+  onName: (name: string) => void;
+  /** What is wrong with the name; "" when nothing is. */
+  wrong: string;
+  /** Undefined where none is asked for. */
+  title: string | undefined;
+  onTitle: (title: string) => void;
+  /** Whether the name is where typing begins. */
+  autoFocus?: boolean;
+}
+
+/** Title and file name of a scenario. */
+export function NameEntries({ name, onName, wrong, title, onTitle, autoFocus = false }: EntriesProps) {
+  return (
+    <>
+      {title === undefined ? null : (
+        <TextInput size="sm" label="Title" maxLength={120} value={title} onChange={(event) => onTitle(event.currentTarget.value)} />
+      )}
+      <TextInput
+        size="sm"
+        label="File name"
+        data-autofocus={autoFocus || undefined}
+        rightSection={
+          <Text size="sm" c="dimmed" span>
+            .yaml
+          </Text>
+        }
+        rightSectionWidth={52}
+        value={name}
+        error={wrong || undefined}
+        onChange={(event) => onName(event.currentTarget.value)}
+      />
+    </>
+  );
+}

@@ -15,7 +15,7 @@ export function VerdictBadge({ verdict, reason = "" }: { verdict: Word; reason?:
   const badge = (
     <Badge
       color={color}
-      variant={icon ? "light" : "transparent"}
+      variant={icon ? "light" : "outline"}
       size="sm"
       radius="sm"
       tt="none"

@@ -1,13 +1,13 @@
 /** Asks for what a new scenario begins with: a template, and the map that it is laid on. */
 
-import { Button, Group, Modal, NativeSelect, Stack, Text, TextInput } from "@mantine/core";
+import { Button, Group, Modal, NativeSelect, Stack, Text } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link } from "@tanstack/react-router";
 import { type FormEvent, useState } from "react";
 import { maps } from "../../api/maps";
 import { templates, useCreate } from "../../api/scenarios";
 import { freeName, nameFor, nameProblem, plainName } from "../../model/scenario";
-import { Ending } from "../../ui/NameDialog";
+import { NameEntries } from "../../ui/NameDialog";
 import { Failure, Loading } from "../../ui/State";
 
 interface Props {
@@ -81,26 +81,11 @@ function Form({ templates: known, maps: places, taken, onClose, onMade }: FormPr
           label="Map"
           data={places.map((each) => ({ value: each.id, label: each.title }))}
           value={map}
-          description="A way through it is drawn by lot; you can draw another one later."
+          description="A way through it is drawn by lot. It stands under Routes, by its roads, and in the file's text."
           inputWrapperOrder={["label", "input", "description"]}
           onChange={(event) => setMap(event.currentTarget.value)}
         />
-        <TextInput
-          size="sm"
-          label="Title"
-          maxLength={120}
-          value={title}
-          onChange={(event) => setTitle(event.currentTarget.value)}
-        />
-        <TextInput
-          size="sm"
-          label="File name"
-          rightSection={<Ending />}
-          rightSectionWidth={52}
-          value={name}
-          error={wrong || undefined}
-          onChange={(event) => setName(event.currentTarget.value)}
-        />
+        <NameEntries name={name} onName={setName} wrong={wrong} title={title} onTitle={setTitle} />
         {create.error ? <Failure error={create.error} /> : null}
         <Group justify="flex-end" gap="xs">
           <Button size="xs" variant="default" onClick={onClose}>
