@@ -18,6 +18,7 @@ MOTION, TYRE, SAFETY = (PACKAGE / room / name for room, name in (("vehicle", "mo
 def program(tmp_path, monkeypatch):
     """A folder of modules that somebody loaded; call it with name and text, in the order of their imports."""
     monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # Python tells a file of the same second and size for the same
 
     def write(name, text):
         (tmp_path / f"{name}.py").write_text(text)

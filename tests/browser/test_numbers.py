@@ -179,6 +179,7 @@ def test_a_metric_says_whom_when_and_what(page):
     page.goto(f"/runs/{WHOLE}")
     gap = page.get_by_test_id("metrics").locator("[data-metric=min_gap]")
     expect(gap).to_contain_text(re.compile(r"follower_\d behind \w+ at [\d.]+ s"))
+    expect(gap.get_by_text("Least bumper-to-bumper distance")).to_be_attached()  # the words have come, and no row moves any more
     gap.locator("summary").click()
     expect(gap.get_by_text("Least bumper-to-bumper distance")).to_be_visible()
     expect(gap.get_by_text("Measured over the whole run; all recorded vehicles.")).to_be_visible()
