@@ -144,6 +144,10 @@ class Studio:
         """Two runs side by side: parameters that differ, and every metric."""
         return self.get("compare", a=a, b=b)
 
+    def beside(self, *runs: int, everything: bool = False) -> dict[str, Any]:
+        """Up to eight runs side by side, each compared with the first: what differs, or `everything`, and every metric."""
+        return self.get("beside", runs=",".join(map(str, runs)), everything=everything)
+
     # -- asking --------------------------------------------------------------------------------------
 
     def get(self, path: str, **query: Any) -> Any:

@@ -599,6 +599,54 @@ class Comparison(BaseModel):
     metrics: list[MetricDifference]
 
 
+class Beside(BaseModel):
+    """What differs between several runs: a value of each, in their order, null where a run has none."""
+
+    path: str
+    values: list[Any]
+    unit: str
+
+
+class MetricBeside(BaseModel):
+    """A metric of several runs, and how each stands against the first one; nothing where that is not to be ranked."""
+
+    name: str
+    unit: str
+    goal: Goal
+    values: list[float | None]
+    relative: list[float | None] = Field(description="difference from the first one, over the size of that")
+    stands: list[Literal["better", "worse", "same"] | None]
+
+
+class EnvironmentBeside(BaseModel):
+    """A version, machine or commit that differs."""
+
+    name: str
+    values: list[str | None]
+
+
+class SourceBeside(BaseModel):
+    """What a run has used in another form than the first one: a unified diff, or `only` the run that has used it at all."""
+
+    kind: str
+    file: str
+    run: int
+    only: int | None
+    diff: str
+
+
+class SideBySide(BaseModel):
+    """Up to eight runs, each compared with the first."""
+
+    runs: list[Run]
+    alike: float = Field(description="[1] of the greater value: metrics that differ by less are the same")
+    unranked: list[str] = Field(description="of every run why its metrics are not ranked; empty when they are")
+    parameters: list[Beside]
+    metrics: list[MetricBeside]
+    environment: list[EnvironmentBeside]
+    sources: list[SourceBeside]
+
+
 class OnStage(BaseModel):
     """What the scene is to show: a scenario as it would start, or a run: as it goes on, or as it was recorded."""
 

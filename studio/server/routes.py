@@ -23,6 +23,7 @@ from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
 from studio.store import trace
+from studio.store.comparison import beside
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
@@ -267,6 +268,17 @@ def run_explanation(
 def compare(a: int, b: int, kept: KeptRuns) -> answer.Comparison:
     """Two runs side by side."""
     return answer.Comparison(**compare_runs(kept, a, b))
+
+
+@router.get("/beside")
+def side_by_side(
+    runs: Annotated[str, Query(description="numbers of up to eight runs, with commas; the first is what the others are compared with",
+                               pattern=r"^\d{1,18}(,\d{1,18})*$")],
+    kept: KeptRuns,
+    everything: Annotated[bool, Query(description="also the parameters and the environment that do not differ")] = False,
+) -> answer.SideBySide:  # fmt: skip
+    """Several runs side by side."""
+    return answer.SideBySide(**beside(kept, [int(each) for each in runs.split(",")], everything=everything))
 
 
 @router.get("/live")

@@ -1,5 +1,6 @@
 """The run database: what goes in comes out; what is no database is refused; a killed run says so."""
 
+import json
 import signal
 import sqlite3
 import subprocess
@@ -16,7 +17,7 @@ from studio.errors import ScenarioError, StoreError, UnknownError
 from studio.execution.happening import Happening, happening
 from studio.scenario.schema import json_schema
 from studio.store import trace
-from studio.store.comparison import compare
+from studio.store.comparison import beside, compare
 from studio.store.runs import event_of, event_row, open_runs
 from studio.store.setting import settings
 from studio.world.table.event import HIT
@@ -80,6 +81,43 @@ def test_what_ended_early_is_not_ranked(sample, tmp_path):
     assert {each["better"] for each in found["metrics"]} == {None}
     assert found["unranked"] == "Nothing is ranked: run 1 is stopped at 0.1 s, so it was measured over less than a whole run."
     assert compare(runs, 2, 2)["unranked"] == ""
+
+
+def test_several_are_compared_with_the_first(sample, tmp_path):
+    """Two by two it says what the comparison of two says; a kind that only one uses is told, and one that has changed is shown line by line."""
+    runs = open_runs(tmp_path / "runs.db")
+    name = "applications.platoon.parameters.headway"
+    for changes in ({}, {name: 0.9}, {"applications.platoon.application": "acc"}):
+        job.run(job.load(sample, {"clock.duration": 0.3} | changes), runs=runs)
+    found = beside(runs, [1, 2, 3])
+    assert [each["run"] for each in found["runs"]] == [1, 2, 3] and found["unranked"] == ["", "", ""]
+    differing = {each["path"]: each["values"] for each in found["parameters"]}
+    assert differing[name][:2] == [0.6, 0.9] and "clock.duration" not in differing
+    assert "clock.duration" in {each["path"] for each in beside(runs, [1, 2], everything=True)["parameters"]}
+    for place, other in enumerate((2, 3), 1):
+        pairs = {each["name"]: each for each in compare(runs, 1, other)["metrics"]}
+        for each in found["metrics"]:
+            pair = pairs[each["name"]]
+            assert (each["values"][0], each["values"][place], each["relative"][place]) == (pair["a"], pair["b"], pair["relative"])
+            assert each["stands"][place] == {"a": "worse", "b": "better"}.get(pair["better"], pair["better"])
+    assert {(each["kind"], each["only"]) for each in found["sources"]} == {
+        ("application.cacc", 1),
+        ("message.awareness", 1),
+        ("application.acc", 3),
+    }
+    digest, text = runs.rows("select digest, files from kinds where name = 'cacc'")[0].values()
+    kept = next(iter(json.loads(text).values()))
+    changed = runs.keep(runs.text(kept) + "# another line\n")
+    runs.database.table("kinds").insert({"digest": "other", "kind": "application", "name": "cacc", "files": text.replace(kept, changed)})
+    runs.database.conn.execute("update runs set kinds = replace(kinds, ?, 'other') where run = 2", [digest])
+    (source,) = [each for each in beside(runs, [1, 2])["sources"] if each["file"]]
+    assert source["run"] == 2 and source["diff"].splitlines()[-1] == "+# another line"
+
+
+@pytest.mark.parametrize("numbers", [[], [1, 1], list(range(1, 10))])
+def test_what_cannot_stand_beside_each_other(kept, numbers):
+    with pytest.raises(UnknownError, match="cannot stand beside"):
+        beside(kept[0], numbers)
 
 
 def test_settings_of_runs_that_have_not_set_them(sample, tmp_path):

@@ -3,7 +3,8 @@
 import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
-import type { Check, Comparison, Kinds, Pace, Scenario } from "./types";
+import type { SideBySide } from "../model/beside";
+import type { Check, Kinds, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
   queryKey: ["scenarios"],
@@ -131,10 +132,13 @@ export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "s
     enabled: !isLive(status) && events.some(({ kind }) => EXPLAINED.has(kind)),
   });
 
-export const comparison = (a: number, b: number) =>
+/** Runs beside each other, each compared with the first. */
+export const beside = (numbers: readonly number[], everything: boolean) =>
   queryOptions({
-    queryKey: ["compare", a, b],
-    queryFn: () => answer(client.GET("/api/compare", { params: { query: { a, b } } })) as Promise<Comparison>,
+    queryKey: ["beside", numbers, everything],
+    queryFn: () =>
+      answer(client.GET("/api/beside", { params: { query: { runs: numbers.join(","), everything } } })) as Promise<SideBySide>,
+    placeholderData: keepPreviousData,
   });
 
 /** A run that has ended meanwhile is another thing to show than while it went on. */

@@ -1,8 +1,7 @@
 /** What the API answers besides runs and maps: named as the server describes it, with documents for what that leaves open. */
 
-import type { MetricDifference, ParameterDifference } from "../model/compare";
 import type { KnownKind } from "../model/form";
-import type { Filled, Run, Server, Tree } from "../model/run";
+import type { Filled, Server, Tree } from "../model/run";
 import type { Schema } from "../model/schema";
 
 export type Info = Server["Info"];
@@ -14,7 +13,3 @@ export type LiveRow = Server["Live"];
 export type Pace = LiveRow["pace"];
 export type SceneVehicle = Server["SceneVehicle"];
 export type Scene = Server["SceneCast"];
-export type Comparison = Filled<
-  Server["Comparison"],
-  { a: Run; b: Run; parameters: ParameterDifference[]; metrics: MetricDifference[] }
->;

@@ -246,6 +246,7 @@ const KEYS: [string[], string][] = [
   [["g", "k"], "Go to the kinds"],
   [["↑", "↓", "j", "k"], "Move between rows of the runs or of the queue"],
   [["x"], "Select a row to compare"],
+  [["X"], "Compare the rows that are selected"],
   [["c", "d"], "Make a run a candidate, or discard it, with a reason"],
   [["enter"], "Open the run of a row"],
   [["n"], "New scenario, among the scenarios"],

@@ -3,6 +3,7 @@
 import { createRootRoute, createRoute, createRouter, useNavigate } from "@tanstack/react-router";
 import { lazy, Suspense } from "react";
 import { ComparePage } from "../features/compare/ComparePage";
+import { numbersOf } from "../model/beside";
 import type { MapView } from "../features/maps/MapPage";
 import type { ScenariosView } from "../features/scenarios/ScenariosPage";
 import { QueuePage } from "../features/runs/QueuePage";
@@ -73,21 +74,16 @@ const queueRoute = createRoute({ getParentRoute: () => root, path: "/queue", com
 const compareRoute = createRoute({
   getParentRoute: () => root,
   path: "/compare",
-  validateSearch: ({
-    a,
-    b,
-  }: Record<string, unknown>): { a?: number | undefined; b?: number | undefined } => ({
-    a: number(a),
-    b: number(b),
+  // An address with `a` and `b` is one of two runs.
+  validateSearch: ({ runs, a, b }: Record<string, unknown>): { runs?: string | undefined } => ({
+    runs: text(runs) ?? (a === undefined && b === undefined ? undefined : numbersOf(`${a},${b}`).join(",")),
   }),
   component: function Compare() {
-    const { a, b } = compareRoute.useSearch();
     const navigate = useNavigate();
     return (
       <ComparePage
-        a={a}
-        b={b}
-        onChoose={(nextA, nextB) => navigate({ to: "/compare", search: { a: nextA, b: nextB } })}
+        chosen={numbersOf(compareRoute.useSearch().runs)}
+        onChoose={(chosen) => navigate({ to: "/compare", search: { runs: chosen.join(",") } })}
       />
     );
   },

@@ -6,6 +6,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { formatFixed, formatNumber, formatTime, withUnit } from "../model/units";
 import { type Limits, limitsOf } from "./limits";
+import { Stroke } from "./Stroke";
 import classes from "./TimeChart.module.css";
 import type { Span, Zoom } from "./zoom";
 
@@ -13,7 +14,8 @@ export interface Line {
   key: string;
   label: string;
   color: string;
-  dashed?: boolean;
+  /** [px] Stroke and gap in turn; solid without. */
+  dash?: readonly number[];
 }
 
 export type Columns = [number[], ...(number | null | undefined)[][]];
@@ -54,12 +56,12 @@ const FONT = '11px system-ui, -apple-system, "Segoe UI", sans-serif';
 /** Equal left margins keep stacked charts aligned. */
 const AXIS_WIDTH = 52;
 
-function series({ label, color, dashed }: Line): uPlot.Series {
+function series({ label, color, dash }: Line): uPlot.Series {
   return {
     label,
     stroke: color,
-    width: dashed ? 1.5 : 1.75,
-    ...(dashed ? { dash: [6, 4] } : {}),
+    width: dash ? 1.5 : 1.75,
+    ...(dash ? { dash: [...dash] } : {}),
     points: { show: false },
     spanGaps: false,
   };
@@ -293,7 +295,7 @@ export function TimeChart(props: Props) {
             {label}
             {members.map(({ line, place }) => (
               <span key={line.key} className={classes.item}>
-                <Stroke color={line.color} dashed={line.dashed === true} />
+                <Stroke color={line.color} dash={line.dash} />
                 <b className={classes.value}>{shown(valueAt(data[place + 1], index))}</b>
               </span>
             ))}
@@ -350,19 +352,3 @@ function byLabel(lines: readonly Line[]): [string, { line: Line; place: number }
 /** Two decimals at all times, so that the legend does not jump. */
 const shown = (value: number | null): string =>
   value === null ? "–" : formatFixed(value, 2);
-
-function Stroke({ color, dashed }: { color: string; dashed: boolean }) {
-  return (
-    <svg width="16" height="8" aria-hidden="true">
-      <line
-        x1="0"
-        y1="4"
-        x2="16"
-        y2="4"
-        stroke={color}
-        strokeWidth="2.5"
-        strokeDasharray={dashed ? "5 3" : undefined}
-      />
-    </svg>
-  );
-}

@@ -360,6 +360,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/beside": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Side By Side
+         * @description Several runs side by side.
+         */
+        get: operations["side_by_side_api_beside_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/live": {
         parameters: {
             query?: never;
@@ -945,6 +965,18 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /**
+         * Beside
+         * @description What differs between several runs: a value of each, in their order, null where a run has none.
+         */
+        Beside: {
+            /** Path */
+            path: string;
+            /** Values */
+            values: unknown[];
+            /** Unit */
+            unit: string;
+        };
+        /**
          * BrokenKind
          * @description A file that gave no kind, and why.
          */
@@ -1125,6 +1157,16 @@ export interface components {
             status: "done" | "stopped" | "failed" | "cancelled";
             /** Error */
             error: string | null;
+        };
+        /**
+         * EnvironmentBeside
+         * @description A version, machine or commit that differs.
+         */
+        EnvironmentBeside: {
+            /** Name */
+            name: string;
+            /** Values */
+            values: (string | null)[];
         };
         /**
          * Event
@@ -2012,6 +2054,27 @@ export interface components {
              * @description subject and time in words
              */
             about: string;
+        };
+        /**
+         * MetricBeside
+         * @description A metric of several runs, and how each stands against the first one; nothing where that is not to be ranked.
+         */
+        MetricBeside: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Goal */
+            goal: ("higher" | "lower") | null;
+            /** Values */
+            values: (number | null)[];
+            /**
+             * Relative
+             * @description difference from the first one, over the size of that
+             */
+            relative: (number | null)[];
+            /** Stands */
+            stands: (("better" | "worse" | "same") | null)[];
         };
         /**
          * MetricDifference
@@ -2990,6 +3053,32 @@ export interface components {
             shown: boolean;
         };
         /**
+         * SideBySide
+         * @description Up to eight runs, each compared with the first.
+         */
+        SideBySide: {
+            /** Runs */
+            runs: components["schemas"]["Run"][];
+            /**
+             * Alike
+             * @description [1] of the greater value: metrics that differ by less are the same
+             */
+            alike: number;
+            /**
+             * Unranked
+             * @description of every run why its metrics are not ranked; empty when they are
+             */
+            unranked: string[];
+            /** Parameters */
+            parameters: components["schemas"]["Beside"][];
+            /** Metrics */
+            metrics: components["schemas"]["MetricBeside"][];
+            /** Environment */
+            environment: components["schemas"]["EnvironmentBeside"][];
+            /** Sources */
+            sources: components["schemas"]["SourceBeside"][];
+        };
+        /**
          * SignalCount
          * @description Signals on car roads: mapped, of these with a stop line near, programmes.
          */
@@ -3000,6 +3089,22 @@ export interface components {
             placed: number;
             /** Groups */
             groups: number;
+        };
+        /**
+         * SourceBeside
+         * @description What a run has used in another form than the first one: a unified diff, or `only` the run that has used it at all.
+         */
+        SourceBeside: {
+            /** Kind */
+            kind: string;
+            /** File */
+            file: string;
+            /** Run */
+            run: number;
+            /** Only */
+            only: number | null;
+            /** Diff */
+            diff: string;
         };
         /**
          * Started
@@ -5648,6 +5753,130 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Comparison"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    side_by_side_api_beside_get: {
+        parameters: {
+            query: {
+                /** @description numbers of up to eight runs, with commas; the first is what the others are compared with */
+                runs: string;
+                /** @description also the parameters and the environment that do not differ */
+                everything?: boolean;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SideBySide"];
                 };
             };
             /** @description The body is no JSON. */

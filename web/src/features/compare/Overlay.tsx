@@ -1,68 +1,76 @@
-/** The charts of both runs in one: A solid, B dashed, one colour per vehicle, linked cursors. */
+/** The charts of all runs in one, with linked cursors, on the clock of the first run. */
 
-import { Checkbox, Group } from "@mantine/core";
-import { useQuery } from "@tanstack/react-query";
+import { Checkbox, Group, NativeSelect, Text } from "@mantine/core";
+import { useQueries } from "@tanstack/react-query";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
 import { run as runQuery, trace } from "../../api/queries";
+import { Stroke } from "../../charts/Stroke";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
+import { commonKinds, merged, namesOf, offsetsOf, type SideBySide } from "../../model/beside";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
-import { merge } from "../../model/compare";
 import { carColors, paintsOf } from "../../model/palette";
-import type { Run } from "../../model/run";
-import { words } from "../../model/units";
+import type { RunDetail } from "../../model/run";
+import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { QuantitySelect } from "../../ui/QuantitySelect";
 import { Empty, Failure, Loading } from "../../ui/State";
 import classes from "./Compare.module.css";
+import { styleOf } from "./line";
 
 /** Rows of a trace: about as many as a wide screen has pixels. */
 const POINTS = 2000;
+/** So many lines are in one chart at first: of more nobody sees anything. */
+const LINES = 12;
 
-export function Overlay({ a, b }: { a: Run; b: Run }) {
-  const one = useQuery(runQuery(a.run));
-  const other = useQuery(runQuery(b.run));
-  const [chosen, setChosen] = useState(["speed", "gap"]);
-  const [hidden, setHidden] = useState<string[]>([]);
-  const zoom = useZoom(`${a.run} ${b.run}`);
-  const names = useMemo(
-    () => [one.data, other.data].map((run) => (run?.channels ?? []).map(({ name }) => name)),
-    [one.data, other.data],
-  );
-  const all = useMemo(() => [...new Set(names.flat())], [names]);
-  const known = useGlossary().channels;
-  const dark = useDark();
-  const colors = useMemo(() => {
-    const vehicles = vehiclesOf(all);
-    const paints = { ...paintsOf(other.data?.document), ...paintsOf(one.data?.document) };
-    const found = carColors(vehicles, paints, dark);
-    return Object.fromEntries(vehicles.map((vehicle, index) => [vehicle, found[index] as string]));
-  }, [all, one.data, other.data, dark]);
-  if (!one.data || !other.data) return <Loading what="the traces" />;
-  if (all.length === 0)
+export function Overlay({ found }: { found: SideBySide }) {
+  const asked = useQueries({ queries: found.runs.map(({ run }) => runQuery(run)) });
+  const details = asked.map(({ data }) => data);
+  if (!details.every((each) => each !== undefined)) return <Loading what="the traces" />;
+  if (details.every(({ channels }) => channels.length === 0))
     return (
       <Empty icon="chart" title="No traces">
-        Neither run recorded anything.
+        None of the runs recorded anything.
       </Empty>
     );
-  const quantities = recorded([...one.data.channels, ...other.data.channels], known);
+  return <Charts found={found} details={details} />;
+}
+
+function Charts({ found, details }: { found: SideBySide; details: readonly RunDetail[] }) {
+  const [chosen, setChosen] = useState(["speed", "gap"]);
+  const [hiding, setHidden] = useState<string[]>();
+  const [aligned, setAligned] = useState<string>();
+  const key = found.runs.map(({ run }) => run).join(" ");
+  const zoom = useZoom(`${key} ${aligned ?? ""}`);
+  const had = useMemo(() => details.map(({ channels }) => channels.map(({ name }) => name)), [details]);
+  const all = useMemo(() => [...new Set(had.flat())], [had]);
+  const colors = useColors(all, details);
+  const events = details.map((each) => each.events);
+  const offsets = offsetsOf(events, aligned);
+  const hidden = hiding ?? Object.keys(colors).slice(Math.max(1, Math.floor(LINES / details.length)));
+  const names = namesOf(found.runs, found.parameters);
+  const known = useGlossary().channels;
+  const quantities = recorded(details.flatMap(({ channels }) => channels), known);
   return (
-    <section className={classes.card} aria-label="Charts of both runs" data-testid="compare-charts">
+    <section className={`${classes.card} ${classes.wide}`} aria-label="Charts of all runs" data-testid="compare-charts">
       <Group gap="md" mb={4} className={classes.over}>
         <h2>Over time</h2>
-        <Vehicles colors={colors} hidden={hidden} onHidden={setHidden} />
+        <Align kinds={commonKinds(events)} chosen={aligned} onChoose={setAligned} />
+        <Runs names={names} offsets={offsets} />
+        <Vehicles colors={colors} hidden={hidden} onHidden={setHidden} plain={details.length > 2} />
       </Group>
       <div className={classes.charts}>
         {chosen.map((name, place) => (
           <div key={place}>
-            <Both
-              a={a.run}
-              b={b.run}
+            <Chart
+              runs={found.runs.map(({ run }) => run)}
+              names={names}
+              offsets={offsets}
               shown={quantity(name, quantities)}
               all={all}
               colors={colors}
-              had={names}
+              had={had}
               hidden={hidden}
               zoom={zoom}
               lead={
@@ -83,19 +91,64 @@ export function Overlay({ a, b }: { a: Run; b: Run }) {
 /** The colour of each vehicle. */
 type Colors = Readonly<Record<string, string>>;
 
+function useColors(all: readonly string[], details: readonly RunDetail[]): Colors {
+  const dark = useDark();
+  return useMemo(() => {
+    const vehicles = vehiclesOf(all);
+    const paints = Object.assign({}, ...details.map(({ document }) => paintsOf(document)).reverse());
+    const found = carColors(vehicles, paints, dark);
+    return Object.fromEntries(vehicles.map((vehicle, index) => [vehicle, found[index] as string]));
+  }, [all, details, dark]);
+}
+
+interface AlignProps {
+  kinds: readonly string[];
+  chosen: string | undefined;
+  onChoose: (kind: string | undefined) => void;
+}
+
+/** What is at the same place of the time axis in all runs. */
+function Align({ kinds, chosen, onChoose }: AlignProps) {
+  return (
+    <NativeSelect
+      size="xs"
+      aria-label="Align the runs by"
+      value={chosen ?? ""}
+      onChange={({ currentTarget: { value } }) => onChoose(value || undefined)}
+      data={[
+        { value: "", label: "Aligned by time" },
+        ...kinds.map((kind) => ({ value: kind, label: `by the first ${words(kind).toLowerCase()}` })),
+      ]}
+    />
+  );
+}
+
+/** Which line is whose, and by how much it was moved. */
+function Runs({ names, offsets }: { names: readonly string[]; offsets: readonly number[] }) {
+  const dark = useDark();
+  return names.map((name, place) => (
+    <Text key={name} size="xs" span className={classes.run}>
+      <Stroke {...styleOf({ place, of: names.length, vehicle: 0, color: "currentColor", dark })} width={22} /> {name}
+      {offsets[place] ? `, moved by ${formatDifference(-Number(offsets[place].toFixed(2)))} s` : ""}
+    </Text>
+  ));
+}
+
 interface VehiclesProps {
   colors: Colors;
   hidden: readonly string[];
   onHidden: (hidden: string[]) => void;
+  /** Whether colours stand for runs, and not for vehicles. */
+  plain: boolean;
 }
 
 /** Which vehicles are drawn. */
-function Vehicles({ colors, hidden, onHidden }: VehiclesProps) {
+function Vehicles({ colors, hidden, onHidden, plain }: VehiclesProps) {
   return Object.entries(colors).map(([vehicle, color]) => (
     <Checkbox
       key={vehicle}
       size="xs"
-      color={color}
+      {...(plain ? {} : { color })}
       autoContrast
       label={words(vehicle)}
       checked={!hidden.includes(vehicle)}
@@ -110,9 +163,10 @@ function Vehicles({ colors, hidden, onHidden }: VehiclesProps) {
 
 const NOTHING = { time: [], channels: {} };
 
-interface BothProps {
-  a: number;
-  b: number;
+interface ChartProps {
+  runs: readonly number[];
+  names: readonly string[];
+  offsets: readonly number[];
   shown: Quantity;
   all: readonly string[];
   colors: Colors;
@@ -123,21 +177,23 @@ interface BothProps {
   lead: ReactNode;
 }
 
-function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, zoom, lead }: BothProps) {
+function Chart({ runs, names, offsets, shown: { name, label, unit }, all, colors, had, hidden, zoom, lead }: ChartProps) {
+  const dark = useDark();
   const channels = useMemo(
     () => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)),
     [name, all, hidden],
   );
-  // A run is asked only for what it has recorded.
-  const [ofA, ofB] = had.map((known) => channels.filter((channel) => known.includes(channel)));
-  const one = useQuery(trace(a, ofA ?? [], { points: POINTS, span: zoom.span }));
-  const other = useQuery(trace(b, ofB ?? [], { points: POINTS, span: zoom.span }));
-  const lines = useMemo<Line[]>(() => linesOf(channels, colors), [channels, colors]);
-  const data = useMemo<Columns>(
-    () => merge(one.data ?? NOTHING, other.data ?? NOTHING, channels),
-    [one.data, other.data, channels],
-  );
-  const error = one.error ?? other.error;
+  // A run is asked only for what it has recorded, and for the stretch of its own clock that is seen.
+  const own = useMemo(() => had.map((known) => channels.filter((channel) => known.includes(channel))), [had, channels]);
+  const asked = useQueries({
+    queries: runs.map((run, place) => trace(run, own[place] ?? [], { points: POINTS, span: moved(zoom.span, offsets[place] ?? 0) })),
+  });
+  const traces = asked.map(({ data }) => data ?? NOTHING);
+  const version = asked.map(({ dataUpdatedAt }) => dataUpdatedAt).join(" ");
+  const shift = offsets.join(" ");
+  const lines = useMemo<Line[]>(() => linesOf(own, names, colors, dark), [own, names.join("\n"), colors, dark]);
+  const data = useMemo<Columns>(() => merged(traces, offsets, own), [version, shift, own]);
+  const error = asked.find((each) => each.error)?.error;
   if (error) return <Failure error={error} />;
   if (channels.length === 0)
     return (
@@ -145,7 +201,7 @@ function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, zo
         No shown vehicle has this quantity.
       </Empty>
     );
-  if (one.isLoading || other.isLoading) return <Loading what="the traces" />;
+  if (asked.some(({ isLoading }) => isLoading)) return <Loading what="the traces" />;
   return (
     <div className={classes.chart}>
       <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" zoom={zoom} lead={lead} />
@@ -153,13 +209,18 @@ function Both({ a, b, shown: { name, label, unit }, all, colors, had, hidden, zo
   );
 }
 
-/** First all lines of A, then all of B, as `merge` puts them. */
-function linesOf(channels: readonly string[], colors: Colors): Line[] {
-  return (["A", "B"] as const).flatMap((side) =>
+/** A stretch of the first run's clock on that of a run that is so much later [s]. */
+const moved = (span: Zoom["span"], offset: number): Zoom["span"] => (span ? [Math.max(0, span[0] + offset), span[1] + offset] : undefined);
+
+/** Run after run, as `merged` puts them. The legend names only what there is more than one of. */
+function linesOf(own: readonly (readonly string[])[], names: readonly string[], colors: Colors, dark: boolean): Line[] {
+  const vehicles = vehiclesOf(own.flat());
+  return own.flatMap((channels, place) =>
     channels.map((channel) => {
       const { vehicle } = parts(channel);
-      const color = colors[vehicle] as string;
-      return { key: `${side} ${channel}`, label: words(vehicle), color, dashed: side === "B" };
+      const at = vehicles.indexOf(vehicle);
+      const style = styleOf({ place, of: own.length, vehicle: at, color: colors[vehicle] as string, dark });
+      return { key: `${place} ${channel}`, label: vehicles.length > 1 ? words(vehicle) : (names[place] as string), ...style };
     }),
   );
 }

@@ -102,7 +102,7 @@ function Ways({ run }: { run: RunDetail }) {
           size="xs"
           variant="default"
           leftSection={<Icon name="compare" size={14} />}
-          onClick={() => navigate({ to: "/compare", search: { a: run.parent ?? undefined, b: run.run } })}
+          onClick={() => navigate({ to: "/compare", search: { runs: `${run.parent},${run.run}` } })}
         >
           Compare with its parent #{run.parent}
         </Button>

@@ -1,10 +1,11 @@
-/** All runs in one table: what was set, what came out, and which two to compare. */
+/** All runs in one table: what was set, what came out, and which to compare. */
 
 import { Badge, Button, Group, Modal, Switch, Text, TextInput, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useRef, useState } from "react";
 import { runs } from "../../api/queries";
+import { MOST } from "../../model/beside";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
 import { filtered } from "../../model/table";
 import type { Word } from "../../model/verdict";
@@ -66,7 +67,7 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
   const [judged, setJudged] = useState<Judged>();
   const toggle = (run: number) =>
     setSelected(
-      selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-2),
+      selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-MOST),
     );
 
   return (
@@ -140,18 +141,23 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
   );
 }
 
+/** The way to the comparison; the oldest of the selected runs is what the others are compared with. */
 function CompareButton({ selected }: { selected: readonly number[] }) {
   const navigate = useNavigate();
-  const [a, b] = [...selected].sort((one, other) => one - other);
+  const enough = selected.length > 1;
+  const sorted = [...selected].sort((one, other) => one - other);
+  const open = () => navigate({ to: "/compare", search: { runs: sorted.join(",") } });
+  useShortcuts(enough ? { X: open } : {});
   return (
     <Button
       size="xs"
       data-testid="compare-button"
       leftSection={<Icon name="compare" size={14} />}
-      disabled={selected.length !== 2}
-      onClick={() => navigate({ to: "/compare", search: { a, b } })}
+      disabled={!enough}
+      title={`Select two to ${MOST} rows (x), then compare them (Shift+X)`}
+      onClick={open}
     >
-      {selected.length === 2 ? `Compare #${a} and #${b}` : "Select two to compare"}
+      {enough ? `Compare ${sorted.map((run) => `#${run}`).join(", ")}` : "Select runs to compare"}
     </Button>
   );
 }

@@ -6,6 +6,7 @@ import { Link, useNavigate } from "@tanstack/react-router";
 import { memo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
 import { kinds as kindsQuery, runs } from "../../api/queries";
+import { MOST } from "../../model/beside";
 import { fromSet } from "../../model/form";
 import { isLive, leaf, type Run, type RunDetail, type RunEvent, type Status } from "../../model/run";
 import { formatMoment, formatValue, words } from "../../model/units";
@@ -79,14 +80,13 @@ function History({ scenario, shown, status }: HistoryProps) {
       </Empty>
     );
   }
-  // The third choice replaces the older of the first two: a comparison has two sides.
   const toggle = (number: number) =>
     setSelected(
       selected.includes(number)
         ? selected.filter((other) => other !== number)
-        : [...selected, number].slice(-2),
+        : [...selected, number].slice(-MOST),
     );
-  const [a, b] = [...selected].sort((one, other) => one - other);
+  const sorted = [...selected].sort((one, other) => one - other);
   return (
     <>
       <ScrollArea className={classes.history} classNames={{ content: classes.historyContent ?? "" }} type="auto">
@@ -107,10 +107,10 @@ function History({ scenario, shown, status }: HistoryProps) {
           variant="light"
           data-testid="compare-button"
           leftSection={<Icon name="compare" size={13} />}
-          disabled={selected.length !== 2}
-          onClick={() => navigate({ to: "/compare", search: { a, b } })}
+          disabled={sorted.length < 2}
+          onClick={() => navigate({ to: "/compare", search: { runs: sorted.join(",") } })}
         >
-          {selected.length === 2 ? `Compare #${a} and #${b}` : `Compare (${selected.length} of 2)`}
+          {sorted.length > 1 ? `Compare ${sorted.map((each) => `#${each}`).join(", ")}` : "Select to compare"}
         </Button>
         <Link to="/runs" search={{ scenario }} className={classes.all}>
           All runs

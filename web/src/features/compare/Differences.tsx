@@ -1,0 +1,91 @@
+/** What differs between runs: parameters, the environment, and how each ended. */
+
+import { Table, Text } from "@mantine/core";
+import { Link } from "@tanstack/react-router";
+import type { SideBySide } from "../../model/beside";
+import { unitAt } from "../../model/form";
+import type { Json } from "../../model/run";
+import { formatValue, withUnit } from "../../model/units";
+import { useUnits } from "../../api/units";
+import { Path } from "../../ui/Path";
+import { StatusBadge } from "../../ui/StatusBadge";
+import { VerdictBadge } from "../../ui/VerdictBadge";
+import classes from "./Compare.module.css";
+
+export function Differences({ found }: { found: SideBySide }) {
+  const { runs, parameters, environment } = found;
+  const units = useUnits(runs);
+  const scenarios = [...new Set(runs.map(({ scenario }) => scenario))];
+  return (
+    <section className={classes.card} data-testid="compare-parameters" aria-label="What differs">
+      <h2>What differs</h2>
+      {scenarios.length > 1 ? (
+        <Text size="xs" c="dimmed" mb={6}>
+          The runs are of {scenarios.length} scenarios: {scenarios.join(", ")}.
+        </Text>
+      ) : null}
+      <Table verticalSpacing={4} horizontalSpacing={8} fz="sm" className={classes.figures}>
+        <Table.Thead>
+          <Table.Tr>
+            <Table.Th>Parameter</Table.Th>
+            <Heads found={found} />
+          </Table.Tr>
+        </Table.Thead>
+        <Table.Tbody>
+          {parameters.length === 0 ? (
+            <Table.Tr>
+              <Table.Td colSpan={runs.length + 1} c="dimmed">
+                No parameter differs.
+              </Table.Td>
+            </Table.Tr>
+          ) : null}
+          {parameters.map(({ path, values, unit }) => (
+            <Row key={path} name={withUnit(path, unit || unitAt(units, path))} values={values} />
+          ))}
+          {environment.map(({ name, values }) => (
+            <Row key={`environment ${name}`} name={`Environment: ${name}`} values={values} />
+          ))}
+          <Table.Tr>
+            <Table.Td>Status, verdict</Table.Td>
+            {runs.map((run) => (
+              <Table.Td key={run.run} ta="right">
+                <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />{" "}
+                {run.verdict === "open" ? null : <VerdictBadge verdict={run.verdict} reason={run.reason} />}
+              </Table.Td>
+            ))}
+          </Table.Tr>
+        </Table.Tbody>
+      </Table>
+    </section>
+  );
+}
+
+/** One thing of all runs; what is not as in the first one stands out. */
+function Row({ name, values }: { name: string; values: readonly Json[] }) {
+  const first = formatValue(values[0]);
+  return (
+    <Table.Tr>
+      <Table.Td className={classes.path}>
+        <Path path={name} />
+      </Table.Td>
+      {values.map((value, place) => (
+        <Table.Td key={place} ta="right" className={classes.value} fw={formatValue(value) === first ? undefined : 700}>
+          {formatValue(value)}
+        </Table.Td>
+      ))}
+    </Table.Tr>
+  );
+}
+
+/** The runs as heads of columns. */
+export function Heads({ found: { runs } }: { found: SideBySide }) {
+  return runs.map(({ run, name, parent }, place) => (
+    <Table.Th key={run} ta="right" title={parent === null ? undefined : `Child of #${parent}`}>
+      <Link to="/runs/$run" params={{ run: String(run) }} className={classes.link}>
+        #{run}
+      </Link>{" "}
+      {name}
+      {place === 0 ? <span className={classes.base}> baseline</span> : null}
+    </Table.Th>
+  ));
+}
