@@ -307,6 +307,7 @@ class Glossary(BaseModel):
 
     channels: list[Quantity]
     metrics: list[Measure]
+    alike: float = Field(description="[1] of the greater value: metrics of two runs that differ by less are the same")
 
 
 class Metric(BaseModel):

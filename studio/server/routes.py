@@ -8,6 +8,7 @@ from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
+from studio.assess.compare import ALIKE
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError
 from studio.kind import registry
 from studio.kind.registry import Kind
@@ -164,7 +165,7 @@ def glossary() -> answer.Glossary:
     channels = [
         answer.Quantity(name=each.name, unit=each.unit, label=each.label, meaning=each.meaning) for each in channel.catalogue().values()
     ]
-    return answer.Glossary(channels=channels, metrics=[measure_of(each) for each in registry.known("metric").values()])
+    return answer.Glossary(channels=channels, metrics=[measure_of(each) for each in registry.known("metric").values()], alike=ALIKE)
 
 
 def measure_of(kind: Kind) -> answer.Measure:

@@ -84,7 +84,7 @@ def test_what_ended_early_is_not_ranked(sample, tmp_path):
 
 
 def test_several_are_compared_with_the_first(sample, tmp_path):
-    """Two by two it says what the comparison of two says; a kind that only one uses is told, and one that has changed is shown line by line."""
+    """It says what the comparison of two says; a kind that only one uses is told, and one that has changed is shown line by line."""
     runs = open_runs(tmp_path / "runs.db")
     name = "applications.platoon.parameters.headway"
     for changes in ({}, {name: 0.9}, {"applications.platoon.application": "acc"}):

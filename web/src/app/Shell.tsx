@@ -22,6 +22,7 @@ import { StudioPage } from "../features/studio/StudioPage";
 import { Icon, type IconName } from "../ui/Icon";
 import { rememberScenario } from "../ui/memory";
 import { useShortcuts } from "../ui/shortcut";
+import { openPalette, Palette } from "./Palette";
 import classes from "./Shell.module.css";
 
 export function Shell() {
@@ -46,6 +47,7 @@ export function Shell() {
       <main className={classes.main}>
         <Places />
       </main>
+      <Palette onKeys={() => setHelp(true)} />
       <Keys opened={help} onClose={() => setHelp(false)} />
       <Notifications
         position="bottom-right"
@@ -100,6 +102,11 @@ function Head({ onHelp }: { onHelp: () => void }) {
       </Link>
       <Navigation />
       <div className={classes.tools}>
+        <Tooltip label="Go to anything (Ctrl+K)">
+          <ActionIcon variant="subtle" color="gray" aria-label="Go to a place, scenario, run or map" onClick={openPalette}>
+            <Icon name="search" size={18} />
+          </ActionIcon>
+        </Tooltip>
         <ThemeToggle />
         <Tooltip label="Keyboard (?)">
           <ActionIcon variant="subtle" color="gray" aria-label="Show the keyboard shortcuts" onClick={onHelp}>
@@ -247,6 +254,7 @@ const KEYS: [string[], string][] = [
   [["↑", "↓", "j", "k"], "Move between rows of the runs or of the queue"],
   [["x"], "Select a row to compare"],
   [["X"], "Compare the rows that are selected"],
+  [["b"], "Tint the metrics of the runs against that of the row"],
   [["c", "d"], "Make a run a candidate, or discard it, with a reason"],
   [["enter"], "Open the run of a row"],
   [["n"], "New scenario, among the scenarios"],
@@ -255,6 +263,7 @@ const KEYS: [string[], string][] = [
   [["ctrl", "S"], "Save the text of a scenario"],
   [["+", "−"], "Enlarge or reduce the plan of a map"],
   [["f"], "Show all of the plan"],
+  [["ctrl", "K"], "Go to any place, scenario, run or map by its name"],
   [["?"], "Show this"],
 ];
 

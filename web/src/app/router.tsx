@@ -42,12 +42,16 @@ export const studioRoute = createRoute({
 const runsRoute = createRoute({
   getParentRoute: () => root,
   path: "/runs",
-  validateSearch: ({ scenario, q, sort, varying, only }: Record<string, unknown>): RunsView => ({
+  validateSearch: ({ scenario, q, sort, varying, only, as, base, draw, axes }: Record<string, unknown>): RunsView => ({
     scenario: text(scenario),
     q: text(q),
     sort: text(sort),
     varying: varying === false ? false : undefined,
     only: text(only),
+    as: as === "space" || as === "lineage" || as === "board" ? as : undefined,
+    base: number(base),
+    draw: draw === "points" ? draw : undefined,
+    axes: text(axes),
   }),
   component: function Runs() {
     const navigate = useNavigate();

@@ -1340,6 +1340,11 @@ export interface components {
             channels: components["schemas"]["Quantity"][];
             /** Metrics */
             metrics: components["schemas"]["Measure"][];
+            /**
+             * Alike
+             * @description [1] of the greater value: metrics of two runs that differ by less are the same
+             */
+            alike: number;
         };
         /**
          * Harmed

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { finished, metric } from "../test/scenario";
-import { filtered, isUnranked, metricColumns, parameterColumns, sorted, varies } from "./table";
+import { isUnranked, metricColumns, parameterColumns, sorted, varies } from "./table";
 
 const gap = (value: number | null) => ({ minimum_gap: metric(value, "m", "higher") });
 const runs = [
@@ -51,7 +51,6 @@ describe("columns", () => {
       [0.9, true],
     ]);
     expect(numbers(sorted(two, headway as typeof delayColumn, true))).toEqual([2, 1]);
-    expect(numbers(filtered(two, "headway=0.6"))).toEqual([1]);
   });
 
   it("lay out the parameters of an exchanged application", () => {
@@ -108,20 +107,5 @@ describe("sorting", () => {
       "run9",
       "run10",
     ]);
-  });
-});
-
-describe("the filter", () => {
-  it.each([
-    ["failed", [2]],
-    ["zerodivision", [2]],
-    ["#3", [3]],
-    ["seed=7", [3]],
-    ["delay=0.1", [1, 3]],
-    ["delay=0.1 seed=7", [3]],
-    ["  ", [1, 2, 3, 4]],
-    ["nothing", []],
-  ])("%s", (query, expected) => {
-    expect(numbers(filtered(runs, query))).toEqual(expected);
   });
 });

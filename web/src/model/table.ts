@@ -22,6 +22,20 @@ export interface Column {
   isSet?: (run: ListedRun) => boolean;
 }
 
+/** What every run has, whatever was set or measured. */
+export const RUN_COLUMNS: Column[] = ([
+  { id: "run", title: "Run", unit: "", name: "Number of the run", numeric: false, value: ({ run }) => run },
+  { id: "scenario", title: "Scenario", unit: "", name: "Scenario", numeric: false, value: ({ scenario }) => scenario },
+  { id: "status", title: "Status", unit: "", name: "Status", numeric: false, value: ({ status }) => status },
+  { id: "verdict", title: "Verdict", unit: "", name: "What was decided about it (C: candidate, D: discarded)", numeric: false, value: ({ verdict }) => verdict },
+  { id: "name", title: "Name", unit: "", name: "What it was called", numeric: false, value: ({ name }) => name },
+  { id: "tags", title: "Tags", unit: "", name: "What it is found by", numeric: false, value: ({ tags }) => tags },
+  { id: "parent", title: "Parent", unit: "", name: "The run it descends from", numeric: false, value: ({ parent }) => parent },
+  { id: "created", title: "Created", unit: "", name: "When it was started", numeric: false, value: ({ created }) => created },
+  { id: "seed", title: "Seed", unit: "", name: "Seed of the random numbers", numeric: true, value: ({ seed }) => seed },
+  { id: "sim_time", title: "Simulated", unit: "s", name: "Simulated time", numeric: true, value: ({ sim_time_s }) => sim_time_s },
+] satisfies Omit<Column, "group">[]).map((column) => ({ ...column, group: "run" as const }));
+
 /** One column for every parameter that any run set; every run has its value there, whether it was set or not. */
 export function parameterColumns(runs: readonly ListedRun[], units: Record<string, string>): Column[] {
   const paths = [...new Set(runs.flatMap(({ settings }) => Object.keys(settings)))].sort();
@@ -90,17 +104,8 @@ export function sorted(
   });
 }
 
-/** Runs whose visible text holds every word of the query. */
-export function filtered(runs: readonly ListedRun[], query: string): ListedRun[] {
-  const needles = query.toLowerCase().split(/\s+/).filter(Boolean);
-  if (needles.length === 0) return [...runs];
-  return runs.filter((run) => {
-    const text = searchText(run);
-    return needles.every((needle) => text.includes(needle));
-  });
-}
-
-function searchText(run: ListedRun): string {
+/** What stands in the row of a run, in small letters, to look for words in. */
+export function textOf(run: ListedRun): string {
   const had = Object.entries(run.settings).map(([path, value]) => `${path}=${formatValue(value)}`);
   return [
     `#${run.run}`,

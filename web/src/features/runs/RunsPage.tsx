@@ -1,29 +1,39 @@
 /** All runs in one table: what was set, what came out, and which to compare. */
 
-import { Badge, Button, Group, Modal, Switch, Text, TextInput, Title } from "@mantine/core";
+import { Badge, Button, Group, Modal, SegmentedControl, Switch, Text, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
-import { useMemo, useRef, useState } from "react";
+import { useMemo, useState } from "react";
 import { runs } from "../../api/queries";
 import { MOST } from "../../model/beside";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
-import { filtered } from "../../model/table";
+import { filterOf } from "../../model/filter";
+import { textOf } from "../../model/table";
 import type { Word } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
+import { Board } from "./Board";
+import { useColumns } from "./columns";
+import { FilterField } from "./FilterField";
+import { Lineage } from "./Lineage";
 import classes from "./Runs.module.css";
 import { RunsTable } from "./RunsTable";
+import { Space, type SpaceView } from "./Space";
 import { VerdictForm } from "./VerdictForm";
 
 /** What the address says about the table. */
-export interface RunsView {
+export interface RunsView extends SpaceView {
   scenario?: string | undefined;
   q?: string | undefined;
   sort?: string | undefined;
   varying?: boolean | undefined;
   /** A status or verdict that is shown alone. */
   only?: string | undefined;
+  /** How they are shown; as a table without it. */
+  as?: "space" | "lineage" | "board" | undefined;
+  /** The run that the others are tinted against. */
+  base?: number | undefined;
 }
 
 interface Props {
@@ -53,18 +63,27 @@ function NoRuns() {
   );
 }
 
+const WAYS = [
+  { value: "table", label: "Table" },
+  { value: "space", label: "Plot" },
+  { value: "lineage", label: "Lineage" },
+  { value: "board", label: "Board" },
+];
+
 function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[] }) {
-  const { q = "", scenario, only } = view;
+  const { q = "", scenario, only, as = "table" } = view;
   const [selected, setSelected] = useState<number[]>([]);
-  const search = useRef<HTMLInputElement>(null);
-  useShortcuts({ "/": () => search.current?.focus() });
+  const columns = useColumns(all);
+  const filter = useMemo(() => filterOf(q, columns, textOf), [q, columns]);
+  const hits = useMemo(() => {
+    const passes = filter.test ?? (() => true); // what cannot be read hides nothing
+    return new Set(all.filter((run) => passes(run) && (!only || run.status === only || run.verdict === only)).map(({ run }) => run));
+  }, [all, filter, only]);
   // A run chosen for comparison stays in the table whatever the filter says.
-  const shown = useMemo(() => {
-    const hits = new Set(filtered(all, q));
-    const is = (run: ListedRun) => hits.has(run) && (!only || run.status === only || run.verdict === only);
-    return all.filter((run) => is(run) || selected.includes(run.run));
-  }, [all, q, only, selected]);
+  const shown = useMemo(() => all.filter(({ run }) => hits.has(run) || selected.includes(run)), [all, hits, selected]);
   const [judged, setJudged] = useState<Judged>();
+  const [hovered, setHovered] = useState<number>();
+  const onJudge = (run: ListedRun, word: Word) => setJudged({ run, word });
   const toggle = (run: number) =>
     setSelected(
       selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-MOST),
@@ -79,6 +98,14 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
         <Text size="sm" c="dimmed">
           {shown.length === all.length ? all.length : `${shown.length} of ${all.length}`}
         </Text>
+        <SegmentedControl
+          size="xs"
+          transitionDuration={0}
+          aria-label="Shown as"
+          value={as}
+          onChange={(next) => onView({ ...view, as: next === "table" ? undefined : (next as RunsView["as"]) })}
+          data={WAYS}
+        />
         <Counts runs={all} only={only} onOnly={(next) => onView({ ...view, only: next })} />
         {scenario ? (
           <Button
@@ -91,28 +118,36 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
             {scenario}
           </Button>
         ) : null}
-        <Group gap="sm" ml="auto">
-          <Switch
-            size="xs"
-            label="Only columns that vary"
-            checked={view.varying !== false}
-            onChange={(event) =>
-              onView({ ...view, varying: event.currentTarget.checked ? undefined : false })
-            }
-          />
-          <TextInput
-            ref={search}
-            size="xs"
-            w={230}
-            placeholder="Filter, e.g. failed or headway=0.9 (/)"
-            aria-label="Filter the runs"
-            leftSection={<Icon name="search" size={14} />}
-            value={q}
-            onChange={(event) => onView({ ...view, q: event.currentTarget.value || undefined })}
-          />
+        <Group gap="sm" ml="auto" align="flex-start">
+          {as === "table" || as === "space" ? (
+            <Switch
+              size="xs"
+              mt={6}
+              label="Only columns that vary"
+              checked={view.varying !== false}
+              onChange={(event) =>
+                onView({ ...view, varying: event.currentTarget.checked ? undefined : false })
+              }
+            />
+          ) : null}
+          <FilterField text={q} wrong={filter.wrong} columns={columns} onText={(next) => onView({ ...view, q: next || undefined })} />
           <CompareButton selected={selected} />
         </Group>
       </Group>
+      {as === "space" ? (
+        <Space
+          runs={all}
+          shown={hits}
+          columns={columns}
+          text={q}
+          bounds={filter.bounds ?? []}
+          draw={view.draw}
+          axes={view.axes}
+          onView={(next) => onView({ ...view, ...next })}
+          onFilter={(next) => onView({ ...view, q: next || undefined })}
+          onHover={setHovered}
+        />
+      ) : null}
       {shown.length === 0 ? (
         <Empty
           icon="search"
@@ -123,17 +158,26 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
             </Button>
           }
         >
-          The filter looks at the number, scenario, status, error, verdict, name, tags, seed, parent and what was set.
+          A word is looked for in the number, scenario, status, error, verdict, name, tags and what was set; a comparison such as
+          headway &lt; 0.8 in a column.
         </Empty>
+      ) : as === "lineage" ? (
+        <Lineage runs={shown} selected={selected} onToggle={toggle} />
+      ) : as === "board" ? (
+        <Board runs={shown} onJudge={onJudge} />
       ) : (
         <RunsTable
           runs={shown}
           all={all}
+          columns={columns}
+          base={all.find(({ run }) => run === view.base)}
+          hovered={hovered}
           view={view}
-          onView={onView}
           selected={selected}
+          onView={onView}
           onToggle={toggle}
-          onJudge={(run, word) => setJudged({ run, word })}
+          onJudge={onJudge}
+          onBase={(run) => onView({ ...view, base: run === view.base ? undefined : run })}
         />
       )}
       <VerdictDialog judged={judged} onChange={setJudged} />

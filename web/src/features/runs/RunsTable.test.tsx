@@ -7,6 +7,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { kinds } from "../../api/queries";
 import { finished } from "../../test/scenario";
 import { press, Sight } from "../../test/sight";
+import { RUN_COLUMNS } from "../../model/table";
 import { RunsTable } from "./RunsTable";
 
 const ROW = 33; // [px]
@@ -19,7 +20,19 @@ let sight: Sight;
 
 function Table() {
   return (
-    <RunsTable runs={RUNS} all={RUNS} view={{}} onView={() => {}} selected={[]} onToggle={() => {}} onJudge={(run, word) => judged.push([run.run, word])} />
+    <RunsTable
+      runs={RUNS}
+      all={RUNS}
+      columns={RUN_COLUMNS}
+      base={undefined}
+      hovered={undefined}
+      view={{}}
+      selected={[]}
+      onView={() => {}}
+      onToggle={() => {}}
+      onJudge={(run, word) => judged.push([run.run, word])}
+      onBase={() => {}}
+    />
   );
 }
 

@@ -13,9 +13,9 @@ import {
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
 import { useGlossary } from "../../api/glossary";
-import { useUnits } from "../../api/units";
 import type { Json, ListedRun } from "../../model/run";
-import { type Column, isUnranked, metricColumns, parameterColumns, sorted, varies } from "../../model/table";
+import { standing } from "../../model/standing";
+import { type Column, isUnranked, sorted, varies } from "../../model/table";
 import { formatMoment, formatNumber, formatTime, formatValue, withUnit } from "../../model/units";
 import type { Word } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
@@ -28,100 +28,6 @@ import type { RunsView } from "./RunsPage";
 
 const ROW_HEIGHT = 33;
 
-/** What every run has, whatever was set or measured. */
-const FIXED: Column[] = [
-  {
-    id: "run",
-    group: "run",
-    title: "Run",
-    unit: "",
-    name: "Number of the run",
-    numeric: false,
-    value: ({ run }) => run,
-  },
-  {
-    id: "scenario",
-    group: "run",
-    title: "Scenario",
-    unit: "",
-    name: "Scenario",
-    numeric: false,
-    value: ({ scenario }) => scenario,
-  },
-  {
-    id: "status",
-    group: "run",
-    title: "Status",
-    unit: "",
-    name: "Status",
-    numeric: false,
-    value: ({ status }) => status,
-  },
-  {
-    id: "verdict",
-    group: "run",
-    title: "Verdict",
-    unit: "",
-    name: "What was decided about it (C: candidate, D: discarded)",
-    numeric: false,
-    value: ({ verdict }) => verdict,
-  },
-  {
-    id: "name",
-    group: "run",
-    title: "Name",
-    unit: "",
-    name: "What it was called",
-    numeric: false,
-    value: ({ name }) => name,
-  },
-  {
-    id: "tags",
-    group: "run",
-    title: "Tags",
-    unit: "",
-    name: "What it is found by",
-    numeric: false,
-    value: ({ tags }) => tags.join(", "),
-  },
-  {
-    id: "parent",
-    group: "run",
-    title: "Parent",
-    unit: "",
-    name: "The run it descends from",
-    numeric: false,
-    value: ({ parent }) => parent,
-  },
-  {
-    id: "created",
-    group: "run",
-    title: "Created",
-    unit: "",
-    name: "When it was started",
-    numeric: false,
-    value: ({ created }) => created,
-  },
-  {
-    id: "seed",
-    group: "run",
-    title: "Seed",
-    unit: "",
-    name: "Seed of the random numbers",
-    numeric: true,
-    value: ({ seed }) => seed,
-  },
-  {
-    id: "sim_time",
-    group: "run",
-    title: "Simulated",
-    unit: "s",
-    name: "Simulated time",
-    numeric: true,
-    value: ({ sim_time_s }) => sim_time_s,
-  },
-];
-
 /** These say what a row is, so they stay even when all rows agree. */
 const ALWAYS = new Set(["run", "status", "verdict", "created"]);
 
@@ -131,8 +37,14 @@ const features = tableFeatures({ rowSortingFeature, columnVisibilityFeature });
 
 interface Props {
   runs: readonly ListedRun[];
-  /** The runs without the text filter, from which the columns are made. */
+  /** The runs without the filter. */
   all: readonly ListedRun[];
+  columns: readonly Column[];
+  /** The run that the others are tinted against. */
+  base: ListedRun | undefined;
+  /** The run that is pointed at elsewhere. */
+  hovered: number | undefined;
+  onBase: (run: number) => void;
   view: RunsView;
   onView: (view: RunsView) => void;
   selected: readonly number[];
@@ -141,13 +53,7 @@ interface Props {
   onJudge: (run: ListedRun, word: Word) => void;
 }
 
-export function RunsTable({ runs, all, view, onView, selected, onToggle, onJudge }: Props) {
-  const units = useUnits(all);
-  const known = useGlossary().metrics;
-  const columns = useMemo(
-    () => [...FIXED, ...parameterColumns(all, units), ...metricColumns(all, known)],
-    [all, units, known],
-  );
+export function RunsTable({ runs, all, columns, base, hovered, view, selected, onView, onToggle, onJudge, onBase }: Props) {
   const sorting = readSort(view.sort);
   const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0]), [runs, columns, view.sort]);
   const table = useTable({
@@ -176,11 +82,18 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle, onJudge
   const keys = useMemo(() => rows.map(({ id }) => id), [rows]);
   const { enter, step } = useRowFocus(scroller, keys, (index) => virtual.scrollToIndex(index));
   useRowKeys(() => enter(virtual.range?.startIndex ?? 0), items.length > 0);
-  const judge = (word: Word) => () => {
+  const withFocused = (act: (run: ListedRun) => void) => () => {
     const run = runs.find((each) => String(each.run) === focusedRun());
-    if (run) onJudge(run, word);
+    if (run) act(run);
   };
-  useShortcuts({ c: judge("candidate"), C: judge("candidate"), d: judge("discarded"), D: judge("discarded") });
+  const judge = (word: Word) => withFocused((run) => onJudge(run, word));
+  useShortcuts({
+    c: judge("candidate"),
+    C: judge("candidate"),
+    d: judge("discarded"),
+    D: judge("discarded"),
+    b: withFocused(({ run }) => onBase(run)),
+  });
 
   return (
     <div ref={scroller} className={classes.scroller}>
@@ -224,6 +137,8 @@ export function RunsTable({ runs, all, view, onView, selected, onToggle, onJudge
                 run={row.original}
                 index={index}
                 columns={row.getVisibleCells().map((cell) => byId(columns, cell.column.id))}
+                base={base}
+                hovered={row.original.run === hovered}
                 selected={selected.includes(row.original.run)}
                 onToggle={() => onToggle(row.original.run)}
               />
@@ -334,11 +249,14 @@ interface RowProps {
   run: ListedRun;
   index: number;
   columns: readonly Column[];
+  base: ListedRun | undefined;
+  hovered: boolean;
   selected: boolean;
   onToggle: () => void;
 }
 
-function RunRow({ run, index, columns, selected, onToggle }: RowProps) {
+function RunRow({ run, index, columns, base, hovered, selected, onToggle }: RowProps) {
+  const { alike } = useGlossary();
   const navigate = useNavigate();
   const open = (event?: { target: EventTarget }) => {
     // Picking a run is not opening it.
@@ -355,6 +273,8 @@ function RunRow({ run, index, columns, selected, onToggle }: RowProps) {
       data-run={run.run}
       data-index={index}
       data-selected={selected || undefined}
+      data-hovered={hovered || undefined}
+      data-base={run.run === base?.run || undefined}
       onClick={open}
       onKeyDown={onKey}
     >
@@ -372,25 +292,33 @@ function RunRow({ run, index, columns, selected, onToggle }: RowProps) {
           key={column.id}
           data-numeric={column.numeric || undefined}
           data-sticky={column.id === "run" || undefined}
+          data-stand={column.group === "metrics" ? standing(run, base, column.id.slice("metric:".length), alike) : undefined}
         >
-          <Cell column={column} run={run} />
+          <Cell column={column} run={run} isBase={run.run === base?.run} />
         </td>
       ))}
     </tr>
   );
 }
 
-function Cell({ column, run }: { column: Column; run: ListedRun }) {
+function Cell({ column, run, isBase }: { column: Column; run: ListedRun; isBase: boolean }) {
   const value: Json | undefined = column.value(run);
   switch (column.id) {
     case "run":
-      return <b>#{run.run}</b>;
+      return (
+        <>
+          <b>#{run.run}</b>
+          {isBase ? <small title="The others are tinted against it"> baseline</small> : null}
+        </>
+      );
     case "status":
       return <StatusBadge status={run.status} error={run.error} unmet={run.unmet} />;
     case "verdict":
       return <VerdictBadge verdict={run.verdict} reason={run.reason} />;
     case "created":
       return formatMoment(run.created);
+    case "tags":
+      return run.tags.length ? run.tags.join(", ") : <span className={classes.none}>–</span>;
     case "parent":
       return run.parent === null ? <span className={classes.none}>–</span> : `#${run.parent}`;
     case "sim_time":

@@ -1,0 +1,171 @@
+/** One line a run over parallel axes. Lines are on a canvas, since there may be ten thousand; axes and what is hovered over it. */
+
+import { useElementSize } from "@mantine/hooks";
+import { type PointerEvent, useEffect, useRef, useState } from "react";
+import { type Axis, placeOn, type Range, rangeOf, valueAt } from "../../model/axes";
+import type { ListedRun } from "../../model/run";
+import { formatNumber, formatValue, withUnit } from "../../model/units";
+import { useDark } from "../../ui/dark";
+import { inkOf } from "./ink";
+import type { Drawn } from "./Space";
+import classes from "./Space.module.css";
+
+const HEIGHT = 250;
+const [TOP, BOTTOM, SIDE] = [34, 34, 70];
+/** Where a run is that has no value there: below the axis. */
+const NONE = HEIGHT - 10;
+/** [px] So near to a line one means it, and so near to an axis. */
+const NEAR = 8;
+const GRIP = 14;
+
+interface Stroke {
+  axis: number;
+  from: number;
+  to: number;
+}
+
+export function Parallel({ axes, runs, shown, bounds, onRange, onHover }: Drawn) {
+  const { ref, width } = useElementSize();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const dark = useDark();
+  const [hovered, setHovered] = useState<ListedRun>();
+  const [stroke, setStroke] = useState<Stroke>();
+  const x = (index: number) => SIDE + (axes.length < 2 ? 0 : (index * (width - 2 * SIDE)) / (axes.length - 1));
+  useEffect(() => {
+    if (canvas.current && width > 0) drawLines(canvas.current, width, axes, runs, shown, x, dark);
+  }, [width, axes, runs, shown, dark]);
+
+  const hover = (run: ListedRun | undefined) => {
+    setHovered(run);
+    onHover(run?.run);
+  };
+  const move = (event: PointerEvent<SVGSVGElement>) => {
+    const { left, top } = event.currentTarget.getBoundingClientRect();
+    const at = { x: event.clientX - left, y: event.clientY - top };
+    if (stroke) setStroke({ ...stroke, to: placeAt(at.y) });
+    else hover(nearest(at, axes, runs, shown, x));
+  };
+  const press = (event: PointerEvent<SVGSVGElement>) => {
+    const { left, top } = event.currentTarget.getBoundingClientRect();
+    const axis = axes.findIndex((_, index) => Math.abs(event.clientX - left - x(index)) < GRIP);
+    if (axis < 0 || event.button !== 0) return;
+    event.currentTarget.setPointerCapture(event.pointerId);
+    const from = placeAt(event.clientY - top);
+    setStroke({ axis, from, to: from });
+  };
+  const release = () => {
+    if (!stroke) return;
+    const axis = axes[stroke.axis] as Axis;
+    const ends = [stroke.from, stroke.to].sort((one, other) => one - other).map((place) => valueAt(axis, place));
+    const isClick = Math.abs(stroke.to - stroke.from) * (HEIGHT - TOP - BOTTOM) < 4;
+    onRange([[axis, isClick ? undefined : (ends as unknown as Range)]]);
+    setStroke(undefined);
+  };
+  return (
+    <div ref={ref} className={classes.parallel} style={{ height: HEIGHT }}>
+      <canvas ref={canvas} className={classes.lines} />
+      <svg
+        width={width}
+        height={HEIGHT}
+        role="img"
+        aria-label={`Parallel axes: ${axes.map(({ column }) => column.title).join(", ")}`}
+        onPointerMove={move}
+        onPointerDown={press}
+        onPointerUp={release}
+        onPointerCancel={() => setStroke(undefined)}
+        onPointerLeave={() => hover(undefined)}
+        onKeyDown={(event) => event.key === "Escape" && setStroke(undefined)}
+      >
+        {axes.map((axis, index) => (
+          <AxisLine
+            key={axis.column.id}
+            axis={axis}
+            x={x(index)}
+            range={stroke?.axis === index ? sorted(stroke) : rangeOf(axis, bounds)}
+          />
+        ))}
+        {hovered ? <polyline points={points(hovered, axes, x)} className={classes.hovered} /> : null}
+      </svg>
+      {hovered ? <Told run={hovered} axes={axes} /> : null}
+    </div>
+  );
+}
+
+const sorted = ({ from, to }: Stroke): Range => [Math.min(from, to), Math.max(from, to)];
+const y = (place: number | undefined) => (place === undefined ? NONE : HEIGHT - BOTTOM - place * (HEIGHT - TOP - BOTTOM));
+const placeAt = (at: number) => Math.min(1, Math.max(0, (HEIGHT - BOTTOM - at) / (HEIGHT - TOP - BOTTOM)));
+
+/** Title above, its ends, the range that is kept, and the place of runs that have no value. */
+function AxisLine({ axis, x, range }: { axis: Axis; x: number; range: Range | undefined }) {
+  const { column, low, high } = axis;
+  return (
+    <g className={classes.axis} data-axis={column.id}>
+      <title>{`${column.name}: drag along the axis to keep a range, click to let all through`}</title>
+      <rect x={x - GRIP} y={TOP} width={2 * GRIP} height={HEIGHT - TOP - BOTTOM} className={classes.grip} />
+      <line x1={x} x2={x} y1={TOP} y2={HEIGHT - BOTTOM} />
+      <text x={x} y={12} className={classes.title}>
+        {short(withUnit(column.title, column.unit))}
+      </text>
+      <text x={x} y={TOP - 6}>
+        {formatNumber(high)}
+      </text>
+      <text x={x} y={HEIGHT - BOTTOM + 13}>
+        {formatNumber(low)}
+      </text>
+      {range ? (
+        <rect x={x - 6} width={12} y={y(range[1])} height={Math.max(3, y(range[0]) - y(range[1]))} className={classes.range} />
+      ) : null}
+    </g>
+  );
+}
+
+const short = (text: string) => (text.length > 24 ? `${text.slice(0, 23)}…` : text);
+
+const points = (run: ListedRun, axes: readonly Axis[], x: (index: number) => number) =>
+  axes.map((axis, index) => `${x(index)},${y(placeOn(axis, run))}`).join(" ");
+
+/** Which run is meant: that whose value on the nearest axis is nearest, of those that are shown. */
+function nearest(at: { x: number; y: number }, axes: readonly Axis[], runs: readonly ListedRun[], shown: ReadonlySet<number>, x: (index: number) => number) {
+  let found: ListedRun | undefined;
+  let least = NEAR;
+  for (const run of runs) {
+    if (!shown.has(run.run)) continue;
+    for (let index = 0; index + 1 < axes.length; index += 1) {
+      const [left, right] = [x(index), x(index + 1)];
+      if (at.x < left || at.x > right) continue;
+      const [from, to] = [y(placeOn(axes[index] as Axis, run)), y(placeOn(axes[index + 1] as Axis, run))];
+      const off = Math.abs(from + ((to - from) * (at.x - left)) / (right - left) - at.y);
+      if (off < least) [found, least] = [run, off];
+    }
+  }
+  return found;
+}
+
+/** The values of the run under the pointer. */
+function Told({ run, axes }: { run: ListedRun; axes: readonly Axis[] }) {
+  return (
+    <div className={classes.told} role="status">
+      <b>#{run.run}</b> {run.name}{" "}
+      {axes.map(({ column }) => `${column.title} ${formatValue(column.value(run))}`).join(", ")}
+    </div>
+  );
+}
+
+/** Those that are filtered out first, and pale. */
+function drawLines(canvas: HTMLCanvasElement, width: number, axes: readonly Axis[], runs: readonly ListedRun[], shown: ReadonlySet<number>, x: (index: number) => number, dark: boolean) {
+  const scale = window.devicePixelRatio || 1;
+  canvas.width = width * scale;
+  canvas.height = HEIGHT * scale;
+  const context = canvas.getContext("2d");
+  if (!context) return;
+  context.scale(scale, scale);
+  context.lineWidth = 1.3;
+  for (const isShown of [false, true])
+    for (const run of runs) {
+      if (shown.has(run.run) !== isShown) continue;
+      context.strokeStyle = inkOf(run, isShown, dark);
+      context.beginPath();
+      for (const [index, axis] of axes.entries()) context.lineTo(x(index), y(placeOn(axis, run)));
+      context.stroke();
+    }
+}

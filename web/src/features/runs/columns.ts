@@ -1,0 +1,13 @@
+/** The columns that a table of these runs has. */
+
+import { useMemo } from "react";
+import { useGlossary } from "../../api/glossary";
+import { useUnits } from "../../api/units";
+import type { ListedRun } from "../../model/run";
+import { type Column, metricColumns, parameterColumns, RUN_COLUMNS } from "../../model/table";
+
+export function useColumns(all: readonly ListedRun[]): Column[] {
+  const units = useUnits(all);
+  const known = useGlossary().metrics;
+  return useMemo(() => [...RUN_COLUMNS, ...parameterColumns(all, units), ...metricColumns(all, known)], [all, units, known]);
+}
