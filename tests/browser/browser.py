@@ -37,9 +37,11 @@ def browser() -> Iterator[Browser]:
         yield playwright.chromium.launch(executable_path=found, headless=True, ignore_default_args=["--headless"], args=FLAGS)
 
 
-def watched(opened: Browser | BrowserContext, **options: Any) -> tuple[Page, list[str]]:
-    """A new page that waits as long as a busy machine needs, and what its console will have complained about."""
+def watched(opened: Browser | BrowserContext, *, tour: bool = False, **options: Any) -> tuple[Page, list[str]]:
+    """A new page that waits as long as a busy machine needs, and what its console will have complained about; the tour is over, or new."""
     page = opened.new_page(**options)
+    if not tour:
+        page.add_init_script("localStorage.setItem('tour', JSON.stringify('over'))")
     page.set_default_timeout(PATIENCE_MS)
     expect.set_options(timeout=PATIENCE_MS)
     complaints: list[str] = []

@@ -4,6 +4,7 @@ import {
   ActionIcon,
   Alert,
   Badge,
+  Button,
   Kbd,
   Modal,
   Progress,
@@ -23,6 +24,7 @@ import { Icon, type IconName } from "../ui/Icon";
 import { rememberScenario } from "../ui/memory";
 import { useShortcuts } from "../ui/shortcut";
 import { openPalette, Palette } from "./Palette";
+import { Tour, useTour } from "./Tour";
 import classes from "./Shell.module.css";
 
 export function Shell() {
@@ -48,6 +50,7 @@ export function Shell() {
         <Places />
       </main>
       <Palette onKeys={() => setHelp(true)} />
+      <Tour />
       <Keys opened={help} onClose={() => setHelp(false)} />
       <Notifications
         position="bottom-right"
@@ -268,8 +271,18 @@ const KEYS: [string[], string][] = [
 ];
 
 function Keys({ opened, onClose }: { opened: boolean; onClose: () => void }) {
+  const { begin } = useTour();
+  const navigate = useNavigate();
+  const tour = () => {
+    onClose();
+    begin();
+    void navigate({ to: "/" });
+  };
   return (
     <Modal opened={opened} onClose={onClose} title="Keyboard" size="sm">
+      <Button size="xs" variant="light" mb="xs" onClick={tour}>
+        Take the tour of ninety seconds
+      </Button>
       <Table verticalSpacing={5}>
         <Table.Tbody>
           {KEYS.map(([keys, what]) => (

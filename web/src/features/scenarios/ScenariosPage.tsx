@@ -81,7 +81,12 @@ export function ScenariosPage({ view, onView }: Props) {
             onChange={(event) => onView({ ...view, q: event.currentTarget.value || undefined })}
           />
           <ImportButton onFiles={take} pending={imports.pending} />
-          <Button size="xs" leftSection={<Icon name="plus" size={14} />} onClick={() => setMaking(true)}>
+          <Button
+            size="xs"
+            leftSection={<Icon name="plus" size={14} />}
+            data-testid="new-scenario"
+            onClick={() => setMaking(true)}
+          >
             New scenario
           </Button>
         </div>
