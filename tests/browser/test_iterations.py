@@ -108,11 +108,11 @@ def test_4_the_lineage_says_what_was_changed(page):
     page.get_by_text("Lineage", exact=True).click()
     tree = page.get_by_role("tree", name="Lineage of the runs")
     expect(tree.get_by_role("treeitem")).to_have_count(6)
-    assert [each.get_attribute("aria-label") for each in tree.get_by_role("treeitem").all()] == [f"Run {run}" for run in (1, 2, 3, 5, 6, 4)]
-    expect(tree.get_by_role("treeitem", name="Run 2")).to_contain_text("headway 0.6 0.4")
-    expect(tree.get_by_role("treeitem", name="Run 6")).to_contain_text("application cacc acc")
-    assert tree.get_by_role("treeitem", name="Run 5").get_attribute("aria-level") == "3"
-    expect(tree.get_by_role("treeitem", name="Run 1")).to_contain_text("5 descend from it")
+    assert [each.get_attribute("data-run") for each in tree.get_by_role("treeitem").all()] == list("123564")
+    expect(tree.locator("[data-run='2']")).to_contain_text("headway 0.6 0.4")
+    expect(tree.locator("[data-run='6']")).to_contain_text("application cacc acc")
+    assert tree.locator("[data-run='5']").get_attribute("aria-level") == "3"
+    expect(tree.locator("[data-run='1']")).to_contain_text("5 descend from it")
 
 
 def test_5_a_card_is_carried_to_another_verdict(page, studio):

@@ -1,6 +1,6 @@
 /** The maps that there are, and the ways to a new one. */
 
-import { ActionIcon, Badge, Group, Table, Text, Title, Tooltip } from "@mantine/core";
+import { ActionIcon, Badge, Group, Table, Text, Title, Tooltip, VisuallyHidden } from "@mantine/core";
 import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { useRef, useState } from "react";
@@ -83,7 +83,9 @@ function MapTable({ rows }: { rows: readonly MapRow[] }) {
             <Table.Th ta="right">On disk</Table.Th>
             <Table.Th>Made from</Table.Th>
             <Table.Th>Attribution, licence</Table.Th>
-            <Table.Th aria-label="Delete" />
+            <Table.Th>
+            <VisuallyHidden>Delete</VisuallyHidden>
+          </Table.Th>
           </Table.Tr>
         </Table.Thead>
         <Table.Tbody>

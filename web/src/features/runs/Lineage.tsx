@@ -38,7 +38,7 @@ export function Lineage({ runs, selected, onToggle }: Props) {
               key={branch.run.run}
               role="treeitem"
               aria-level={branch.open.length + 1}
-              aria-label={`Run ${branch.run.run}`}
+              data-run={branch.run.run}
               aria-selected={selected.includes(branch.run.run)}
               className={classes.row}
               style={{ transform: `translateY(${start}px)`, height: ROW_HEIGHT }}

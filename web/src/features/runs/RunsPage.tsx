@@ -85,8 +85,8 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
   const [hovered, setHovered] = useState<number>();
   const onJudge = (run: ListedRun, word: Word) => setJudged({ run, word });
   const toggle = (run: number) =>
-    setSelected(
-      selected.includes(run) ? selected.filter((other) => other !== run) : [...selected, run].slice(-MOST),
+    setSelected((before) =>
+      before.includes(run) ? before.filter((other) => other !== run) : [...before, run].slice(-MOST),
     );
 
   return (

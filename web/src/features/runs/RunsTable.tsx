@@ -102,7 +102,7 @@ export function RunsTable({ runs, all, columns, base, hovered, view, selected, o
           {table.getHeaderGroups().map((group, level) => (
             <tr key={group.id}>
               <th className={classes.pick}>
-                {level === 0 ? null : <VisuallyHidden>Select to compare</VisuallyHidden>}
+                <VisuallyHidden>{level === 0 ? "Selection" : "Select to compare"}</VisuallyHidden>
               </th>
               {group.headers.map((header) =>
                 level === 0 ? (

@@ -18,7 +18,7 @@ const NEAR = 8;
 export function Scatter(drawn: Drawn) {
   const { axes } = drawn;
   return (
-    <div className={classes.matrix} style={{ gridTemplateColumns: `90px repeat(${axes.length - 1}, minmax(90px, 1fr))` }}>
+    <div className={classes.matrix} role="region" aria-label="Pairs of axes" tabIndex={0} style={{ gridTemplateColumns: `90px repeat(${axes.length - 1}, minmax(90px, 1fr))` }}>
       {axes.slice(1).map((row) => (
         <Row key={row.column.id} row={row} {...drawn} />
       ))}

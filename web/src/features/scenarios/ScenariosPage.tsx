@@ -1,6 +1,17 @@
 /** The scenario files: which there are, what is wrong with them, and all that can be done with a file. */
 
-import { ActionIcon, Button, CloseButton, FileButton, Table, Text, TextInput, Title, Tooltip } from "@mantine/core";
+import {
+  ActionIcon,
+  Button,
+  CloseButton,
+  FileButton,
+  Table,
+  Text,
+  TextInput,
+  Title,
+  Tooltip,
+  VisuallyHidden,
+} from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type KeyboardEvent, type MouseEvent, useMemo, useRef, useState } from "react";
@@ -209,7 +220,9 @@ function ScenarioTable({ rows, order, onOrder, onMenu, onDeed }: TableProps) {
           ))}
           <Table.Th ta="right">Vehicles</Table.Th>
           <Table.Th ta="right">Duration</Table.Th>
-          <Table.Th aria-label="What to do" />
+          <Table.Th>
+            <VisuallyHidden>What to do</VisuallyHidden>
+          </Table.Th>
         </Table.Tr>
       </Table.Thead>
       <Table.Tbody>

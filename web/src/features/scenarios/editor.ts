@@ -22,7 +22,7 @@ const colour = (light: string, dark: string) =>
 
 const COLOURS = HighlightStyle.define([
   { tag: [tags.propertyName, tags.definition(tags.propertyName)], color: colour("blue-9", "blue-3") },
-  { tag: [tags.string, tags.special(tags.string)], color: colour("green-9", "green-4") },
+  { tag: [tags.string, tags.special(tags.string)], color: "light-dark(#1f6b2d, var(--mantine-color-green-4))" },
   { tag: tags.comment, color: colour("gray-7", "dark-1"), fontStyle: "italic" },
   { tag: [tags.labelName, tags.typeName, tags.meta], color: colour("grape-8", "grape-3") },
 ]);
@@ -125,7 +125,7 @@ const extensions = (text: string, label: string): Extension[] => [
   syntaxHighlighting(COLOURS),
   search({ top: true }),
   LOOK,
-  EditorView.contentAttributes.of({ "aria-label": label }),
+  EditorView.contentAttributes.of({ tabindex: "0", "aria-label": label }),
   ...(hasWindowsLines(text) ? [EditorState.lineSeparator.of("\r\n")] : []),
   keymap.of([
     { key: "Mod-]", run: indentMore },

@@ -81,10 +81,8 @@ function History({ scenario, shown, status }: HistoryProps) {
     );
   }
   const toggle = (number: number) =>
-    setSelected(
-      selected.includes(number)
-        ? selected.filter((other) => other !== number)
-        : [...selected, number].slice(-MOST),
+    setSelected((before) =>
+      before.includes(number) ? before.filter((other) => other !== number) : [...before, number].slice(-MOST),
     );
   const sorted = [...selected].sort((one, other) => one - other);
   return (
