@@ -113,10 +113,10 @@ def plane(road: Mapping[str, float]) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Feed:
-    """What one input of one vehicle is at every step, and the row of the commands that it goes into."""
+    """One input: the columns of the vehicles that have it, and what it is at every step, [step, vehicle]."""
 
     name: str
-    vehicle: int
+    vehicles: np.ndarray
     values: np.ndarray
 
 
@@ -129,14 +129,14 @@ def take_delays(rig: Fleet) -> dict[str, np.ndarray]:
 
 def feeds(rig: Fleet, orders: Sequence[Order], steps: int, step: float) -> list[Feed]:
     """All inputs of all vehicles, step by step, in the units of the commands."""
-    delays, time = take_delays(rig), np.arange(steps) * step
-    none = np.zeros(rig.size)
-    return [
-        Feed(name, v, scaled(rig, name, v, values_at(each.inputs, name, time - delays.get(name, none)[v])))
-        for v, each in enumerate(orders)
-        for name in each.inputs
-        if name != "time_s"
-    ]
+    delays, time, none = take_delays(rig), np.arange(steps) * step, np.zeros(rig.size)
+    found = []
+    for name in dict.fromkeys(name for each in orders for name in each.inputs if name != "time_s"):
+        vehicles = np.array([v for v, each in enumerate(orders) if name in each.inputs])
+        late = delays.get(name, none)
+        values = [scaled(rig, name, v, values_at(orders[v].inputs, name, time - late[v])) for v in vehicles.tolist()]
+        found.append(Feed(name, vehicles, np.array(values).T.copy()))
+    return found
 
 
 def values_at(given: Mapping[str, np.ndarray], name: str, time: np.ndarray) -> np.ndarray:
@@ -158,19 +158,18 @@ def command(rig: Fleet, given: Sequence[Feed], k: int) -> None:
     slot = (k % RING) * rig.size
     for each in given:
         if each.name == "speed_mps":
-            rig.commands[U_APPLIED, slot + each.vehicle] = holding(rig, each, k)
+            rig.commands[U_APPLIED, slot + each.vehicles] = holding(rig, each, k)
             continue
-        rig.commands[ROWS[each.name], slot + each.vehicle] = each.values[k]
+        rig.commands[ROWS[each.name], slot + each.vehicles] = each.values[k]
         if each.name == "road_wheel_angle_rad":
-            rig.state[DELTA, each.vehicle] = each.values[k]
+            rig.state[DELTA, each.vehicles] = each.values[k]
 
 
-def holding(rig: Fleet, speed: Feed, k: int) -> float:
-    """Torque at the wheels [Nm] that holds a speed; none where nobody holds it, which is said by not a number."""
-    v = speed.vehicle
-    if not np.isfinite(speed.values[k]):
-        return 0.0
-    return float(rig.parameter[MASS, v] * rig.parameter[RADIUS, v] * HELD * (speed.values[k] - rig.state[V_X, v]))
+def holding(rig: Fleet, speed: Feed, k: int) -> np.ndarray:
+    """Torques at the wheels [Nm] that hold a speed; none where nobody holds it, which is said by not a number."""
+    v, wanted = speed.vehicles, speed.values[k]
+    torque = rig.parameter[MASS, v] * rig.parameter[RADIUS, v] * HELD * (wanted - rig.state[V_X, v])
+    return np.where(np.isfinite(wanted), torque, 0.0)
 
 
 # --- the drive -----------------------------------------------------------------------------------------------------------
@@ -202,7 +201,8 @@ def together(
             progress((k + 1) / max(lasts))
         if len(broke) == rig.size:
             break
-    return [outcome(np.array(rows)[:, :, v], lasts[v] // every, broke.get(v)) for v in range(rig.size)]
+    found = np.array(rows).transpose(2, 1, 0)
+    return [outcome(found[v], lasts[v] // every, broke.get(v)) for v in range(rig.size)]
 
 
 def note_broken(rig: Fleet, broke: dict[int, tuple[float, str]], k: int, step: float) -> None:
@@ -215,8 +215,8 @@ def note_broken(rig: Fleet, broke: dict[int, tuple[float, str]], k: int, step: f
 
 def outcome(rows: np.ndarray, last: int, broke: tuple[float, str] | None) -> Outcome:
     """What became of one vehicle, until the end of its own inputs."""
-    columns = dict(zip(column_names(), rows[: last + 1].T.copy(), strict=True))
-    return Outcome(columns, *(broke or ()))
+    columns = dict(zip(column_names(), rows[:, : last + 1].copy(), strict=True))
+    return Outcome(columns, broke[0], broke[1]) if broke else Outcome(columns)
 
 
 def column_names() -> list[str]:

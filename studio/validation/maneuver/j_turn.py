@@ -1,0 +1,46 @@
+"""J-turn (ISO 7401, step steer): the wheel is turned quickly to an angle and held. Judged in its steady part (Lat-I)."""
+
+import numpy as np
+
+from studio.log.recording import Recording
+from studio.validation.marks import Marks, lacking, lobes, mean, steering
+from studio.validation.smooth import crossing
+
+TITLE = "J-turn"
+STEP = "II Lat-I"
+FED = ("road_wheel_angle|steering_wheel_angle", "speed")
+JUDGED = ("yaw_rate", "lateral_acceleration")
+HOLDS_SPEED = True
+REPEATS = True
+ZONES = JUDGED
+LEAD, HELD, LONGEST = 1.0, 2.5, 8.0  # [s] straight before, held at least, looked at at most
+STEADY = 0.1  # [1] of the angle, by which it may vary while it is held
+
+
+def find(recording: Recording) -> list[tuple[float, float]]:
+    """Where the wheel is held after it was straight."""
+    angle, time = steering(recording), recording.time
+    found = []
+    for lobe in lobes(recording, 0.5):
+        begin, end = time[lobe.first] - LEAD, min(time[lobe.last - 1], time[lobe.first] + LONGEST)
+        held = angle[(time > time[lobe.first] + 0.5) & (time < end - 0.3)]
+        before = angle[(time >= begin) & (time < begin + 0.6 * LEAD)]
+        is_held = end - time[lobe.first] >= HELD and held.size and np.ptp(held) < 2 * STEADY * abs(held.mean())
+        if begin >= 0.0 and is_held and np.abs(before).max() < STEADY * abs(held.mean()):
+            found.append((float(begin), float(end)))
+    return found
+
+
+def marks(recording: Recording) -> Marks:
+    """Aligned where the angle reaches half of its steady value; steady is the second half of what follows."""
+    angle, time = steering(recording), recording.time
+    steady = float(np.nanmedian(angle[time > 0.6 * time[-1]]))
+    half = crossing(time, angle * np.sign(steady), 0.5 * abs(steady)) if steady else float("nan")
+    if not half < time[-1] - 1.0:
+        raise lacking(recording, "has no step of the steering that is held", "cut it so that it begins straight and ends while held")
+    return Marks(half, half + 0.5 * (time[-1] - half), float(time[-1]))
+
+
+def measures(recording: Recording, at: Marks) -> dict:
+    """Steady-state gains of yaw rate and lateral acceleration."""
+    return {f"steady {name}": (mean(recording, name, at.since, at.until), "gain") for name in JUDGED}
