@@ -4,9 +4,10 @@
     signals:
       yaw_rate: {from: YawRateSensor, unit: deg/s, sign: -1, offset: 0.4, delay: 0.02}
       road_wheel_angle: {from: [SteerAngleFL, SteerAngleFR], unit: rad}
+      speed: {from: ["velocity[0]", "velocity[1]", "velocity[2]"], unit: m/s, combine: norm}
 
-Ours is sign · (recorded - offset), the offset in the recorded unit, brought to SI; of several recorded signals it is the mean. A
-signal that comes `delay` seconds late has its times moved back. Without `unit` it is the one that the log gives.
+Ours is sign · (recorded - offset), the offset in the recorded unit, brought to SI; of several recorded signals it is the mean, or as
+`combine: norm` the length of the vector that they are. A signal that comes `delay` seconds late has its times moved back. Without `unit` it is the one that the log gives.
 """
 
 from dataclasses import dataclass, field
@@ -29,6 +30,7 @@ class Source(Part):
 
     recorded: str | list[str] = Field(..., alias="from", title="Recorded signal", description="or several, of which it is the mean")
     unit: str = Field("", title="Unit of the recorded signal", description="left out: as the log says")
+    combine: Literal["mean", "norm"] = Field("mean", title="What several signals become")
     sign: Literal[1, -1] = Field(1, title="Sign", description="-1 where the log counts to the other side")
     offset: float = number(0.0, unit="1", title="What the sensor shows at rest, in its own unit")
     delay: float = number(0.0, unit="s", title="How late the signal comes", ge=-60, le=60)
@@ -134,7 +136,8 @@ def ours(name: str, source: Source, log: Log) -> Signal:
     scaled = [source.sign * (each.values - source.offset) * unit.factor(given, wanted, f"signals.{name}.unit")
               for each, given in zip(parts, recorded, strict=True)]  # fmt: skip
     time = parts[0].time
-    values = np.mean([scaled[0], *(np.interp(time, part.time, each) for part, each in zip(parts[1:], scaled[1:], strict=True))], axis=0)
+    together = np.array([scaled[0], *(np.interp(time, part.time, each) for part, each in zip(parts[1:], scaled[1:], strict=True))])
+    values = together.mean(axis=0) if source.combine == "mean" else np.linalg.norm(together, axis=0)
     return signal(name, wanted, time - source.delay, values)
 
 

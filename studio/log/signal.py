@@ -64,9 +64,10 @@ class Log:
 
 
 def signal(name: str, unit: str, time: np.ndarray, values: np.ndarray) -> Signal:
-    """A signal whose times rise: samples of one time, or out of order, are put in order, and of equal times the last one counts."""
+    """A signal whose times rise: samples are put in order, of equal times the last one counts, and what is not a number is none."""
     time, values = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
-    order = np.argsort(time, kind="stable")
+    known = np.flatnonzero(np.isfinite(time) & np.isfinite(values))
+    order = known[np.argsort(time[known], kind="stable")]
     time, values = time[order], values[order]
     last = np.append(np.diff(time) > 0.0, True)[: time.size]
     return Signal(name, unit, time[last], values[last])

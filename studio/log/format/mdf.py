@@ -31,7 +31,7 @@ def whole(file, path: Path) -> None:
     """Refuses a file whose data end before its head says."""
     size = path.stat().st_size
     for group in file.groups:
-        last = max((block.address + block.block_size for block in group.get_data_blocks()), default=0)
+        last = max((block.address + block.compressed_size for block in group.get_data_blocks()), default=0)
         if last > size:
             raise refused(path, f"is cut off: data until byte {last}, the file has {size}", "copy it again, or record again")
 
