@@ -7,7 +7,8 @@
       speed: {from: ["velocity[0]", "velocity[1]", "velocity[2]"], unit: m/s, combine: norm}
 
 Ours is sign · (recorded - offset), the offset in the recorded unit, brought to SI; of several recorded signals it is the mean, or as
-`combine: norm` the length of the vector that they are. A signal that comes `delay` seconds late has its times moved back. Without `unit` it is the one that the log gives.
+`combine: norm` the length of the vector that they are. A signal that comes `delay` seconds late has its times moved back. Without
+`unit` it is the one that the log gives.
 """
 
 from dataclasses import dataclass, field

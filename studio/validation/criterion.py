@@ -105,7 +105,7 @@ def judged(
         yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.lag)
     elif rule == "final":
         yield interval
-        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.final, abs(theirs))
+        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.final)
     else:
         yield within(maneuver, name, mean, 0.0, limits.fit)
 

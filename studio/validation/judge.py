@@ -41,7 +41,7 @@ class Comparison:
 
     def aligned(self, runs: Sequence[Recording], signal: str) -> tuple[np.ndarray, np.ndarray]:
         """Times after the reference [s] that all runs have, and the smoothed signal of each on them [run, time]."""
-        return aligned(runs, [each.reference for each in self.marks], signal)
+        return aligned(runs, self.marks, signal)
 
     def of_average(self, signal: str) -> tuple[np.ndarray, np.ndarray]:
         """Times after the reference [s] and the smoothed signal of the simulation of the averaged input."""
@@ -170,21 +170,22 @@ def inside(compared: Comparison, name: str, confidence: Confidence) -> float:
 # -- aligning --------------------------------------------------------------------------------------------
 
 
-def aligned(runs: Sequence[Recording], references: Sequence[float], name: str, smoothed: bool = True) -> tuple[np.ndarray, np.ndarray]:
-    """A signal of runs whose references lie on each other, over the time that all of them have; raises ScenarioError without one."""
-    since = max(-each for each in references)
-    until = min(float(run.time[-1]) - each for run, each in zip(runs, references, strict=True))
+def aligned(runs: Sequence[Recording], marks: Sequence[Marks], name: str, smoothed: bool = True) -> tuple[np.ndarray, np.ndarray]:
+    """A signal of runs whose references lie on each other, over the time that all of them have; raises ScenarioError without one.
+
+    What is aligned by itself, as the second half wave of a double lane change, follows the first where it does so on average.
+    """
+    references = np.array([[reference for reference, _ in each.anchors] for each in marks])
+    after = (references - references[:, :1]).mean(axis=0)
+    ends = np.array([[end for _, end in each.anchors] for each in marks]) - references[:, :1]
+    since = float(-references[:, 0].min())
+    until = float(min(run.time[-1] - each for run, each in zip(runs, references[:, -1], strict=True)) + after[-1])
     if until - since < 0.1:
-        problem = Problem(
-            ", ".join(run.name for run in runs[:4]),
-            "do not overlap when they are aligned",
-            remedy="cut them to the same part of the maneuver",
-        )
-        raise ScenarioError("The runs do not overlap.", [problem])
-    period = float(runs[0].time[1])
-    time = since + np.arange(int((until - since) / period + 1e-6) + 1) * period
-    found = [on(run, reference + time, name, smoothed) for run, reference in zip(runs, references, strict=True)]
-    return time, np.array(found)
+        what, remedy = "do not overlap when they are aligned", "cut them to the same part of the maneuver"
+        raise ScenarioError("The runs do not overlap.", [Problem(", ".join(run.name for run in runs[:4]), what, remedy=remedy)])
+    time = since + np.arange(int((until - since) / float(runs[0].time[1]) + 1e-6) + 1) * float(runs[0].time[1])
+    part = np.searchsorted(ends.mean(axis=0)[:-1], time, side="right")
+    return time, np.array([on(run, each[part] + time - after[part], name, smoothed) for run, each in zip(runs, references, strict=True)])
 
 
 def on(run: Recording, time: np.ndarray, name: str, smoothed: bool) -> np.ndarray:
@@ -202,9 +203,8 @@ def average(module: ModuleType, runs: Sequence[Recording], marks: Sequence[Marks
     """
     if len(runs) == 1 or not module.REPEATS:
         return runs[0]
-    references = [each.reference for each in marks]
     names = [name for name in QUANTITIES if all(name in run.signals for run in runs)]
-    found = {name: aligned(runs, references, name, smoothed=False) for name in names}
+    found = {name: aligned(runs, marks, name, smoothed=False) for name in names}
     signals = {name: np.median(values, axis=0).round() if name == "gear" else zone(values).mean for name, (_, values) in found.items()}
     time = next(iter(found.values()))[0]
     return Recording("the averaged input", time - time[0], signals)

@@ -23,12 +23,18 @@ class Part(NamedTuple):
 
 
 class Marks(NamedTuple):
-    """The reference [s], the time that is judged [s], and the parts."""
+    """The reference [s], the time that is judged [s], and the parts; `halves` are aligned each by itself: reference and end [s]."""
 
     reference: float
     since: float
     until: float
     parts: tuple[Part, ...] = ()
+    halves: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def anchors(self) -> tuple[tuple[float, float], ...]:
+        """What is aligned by itself: each with its reference and its end [s]."""
+        return self.halves or ((self.reference, np.inf),)
 
 
 class Lobe(NamedTuple):

@@ -57,7 +57,8 @@ def marks(recording: Recording) -> Marks:
         inside = (time >= begin) & (time <= max(time[one.peak], begin))
         half = crossing(time[inside], one.side * angle[inside], 0.5 * abs(angle[one.peak]))
         parts.append(Part(name, half, min(end, time[other.last - 1] + SETTLE), one.side))
-    return Marks(parts[0].since, parts[0].since, parts[1].until, tuple(parts))
+    halves = ((parts[0].since, middle), (parts[1].since, np.inf))
+    return Marks(parts[0].since, parts[0].since, parts[1].until, tuple(parts), halves)
 
 
 def measures(recording: Recording, at: Marks) -> dict:
