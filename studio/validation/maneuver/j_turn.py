@@ -3,7 +3,7 @@
 import numpy as np
 
 from studio.log.recording import Recording
-from studio.validation.marks import Marks, lacking, lobes, mean, steering
+from studio.validation.marks import Lobe, Marks, lacking, lobes, mean, steering
 from studio.validation.smooth import crossing
 
 TITLE = "J-turn"
@@ -14,6 +14,7 @@ HOLDS_SPEED = True
 REPEATS = True
 ZONES = JUDGED
 LEAD, HELD, LONGEST = 1.0, 2.5, 8.0  # [s] straight before, held at least, looked at at most
+SHARPNESS = 0.1  # [s] that smoothing reaches to both sides
 STEADY = 0.1  # [1] of the angle, by which it may vary while it is held
 
 
@@ -22,13 +23,19 @@ def find(recording: Recording) -> list[tuple[float, float]]:
     angle, time = steering(recording), recording.time
     found = []
     for lobe in lobes(recording, 0.5):
-        begin, end = time[lobe.first] - LEAD, min(time[lobe.last - 1], time[lobe.first] + LONGEST)
+        begin, end = time[lobe.first] - LEAD, min(released(time, angle, lobe), time[lobe.first] + LONGEST)
         held = angle[(time > time[lobe.first] + 0.5) & (time < end - 0.3)]
         before = angle[(time >= begin) & (time < begin + 0.6 * LEAD)]
         is_held = end - time[lobe.first] >= HELD and held.size and np.ptp(held) < 2 * STEADY * abs(held.mean())
         if begin >= 0.0 and is_held and np.abs(before).max() < STEADY * abs(held.mean()):
             found.append((float(begin), float(end)))
     return found
+
+
+def released(time: np.ndarray, angle: np.ndarray, lobe: Lobe) -> float:
+    """Until when the wheel is held at its angle [s]: what follows is the way back."""
+    held = np.abs(angle[lobe.first : lobe.last])
+    return float(time[lobe.first + np.flatnonzero(held > (1.0 - STEADY) * np.median(held))[-1]]) - SHARPNESS
 
 
 def marks(recording: Recording) -> Marks:
