@@ -23,11 +23,11 @@ def find(recording: Recording) -> list[tuple[float, float]]:
     angle, time = steering(recording), recording.time
     found = []
     for lobe in lobes(recording, 0.5):
-        begin, end = time[lobe.first] - LEAD, min(released(time, angle, lobe), time[lobe.first] + LONGEST)
+        begin, end = max(time[lobe.first] - LEAD, 0.0), min(released(time, angle, lobe), time[lobe.first] + LONGEST)
         held = angle[(time > time[lobe.first] + 0.5) & (time < end - 0.3)]
-        before = angle[(time >= begin) & (time < begin + 0.6 * LEAD)]
+        before = angle[(time >= begin) & (time < time[lobe.first] - 0.4 * LEAD)]
         is_held = end - time[lobe.first] >= HELD and held.size and np.ptp(held) < 2 * STEADY * abs(held.mean())
-        if begin >= 0.0 and is_held and np.abs(before).max() < STEADY * abs(held.mean()):
+        if before.size and is_held and np.abs(before).max() < STEADY * abs(held.mean()):
             found.append((float(begin), float(end)))
     return found
 
