@@ -24,5 +24,5 @@ def of(record: Record, row: int, name: str, span: dict[str, list[float]]) -> Fou
     far = np.maximum(np.maximum(low - values, values - high), 0.0) / np.maximum(high - low, 1e-9)
     far = np.where(takes_part, far, 0.0)
     which, when = np.unravel_index(int(far.argmax()), far.shape)
-    share = float((far > 0.0).any(axis=0)[takes_part].mean())
+    share = float(np.mean(far.max(axis=0)[takes_part] > 0.0))
     return Found(share, (name, list(CHANNELS.values())[which]) if share else (name, "speed"), float(record.time[when]) if share else np.nan)
