@@ -23,6 +23,8 @@ FLOORS = [
     {"job"},
     {"parcel"},
     {"rig"},
+    {"log"},
+    {"validation"},
     {"workshop"},
     {"warmup"},
     {"scene"},

@@ -11,7 +11,7 @@ import sys
 import typer
 
 from studio.cache import cache_root
-from studio.cli import deciding, keeping, kind, machine, mapping, running, serving, vehicle
+from studio.cli import deciding, keeping, kind, machine, mapping, running, serving, validating, vehicle
 from studio.errors import Problem, RunError, StoreError, StudioError
 
 app = typer.Typer(
@@ -21,7 +21,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
-for group in (serving, running, deciding, keeping, kind, vehicle, mapping, machine):
+for group in (serving, running, deciding, keeping, kind, vehicle, mapping, validating, machine):
     app.add_typer(group.commands)
 
 

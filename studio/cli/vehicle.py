@@ -49,8 +49,8 @@ def drive(
 
     Input columns, any subset: time_s, road_wheel_angle_rad (past the steering's actuator) or steering_wheel_angle_rad, throttle
     or engine_torque_request_Nm, brake, gear, drive_torque_Nm and brake_torque_Nm (sums put on the wheels, past powertrain and
-    hydraulics). Without throttle, engine torque or gear the gearbox stays in neutral. --set changes values of the vehicle by
-    path (body.mass=1200), and the road: road.friction=0.5, road.slope=0.1.
+    hydraulics), speed_mps (held so). Without throttle, engine torque or gear the gearbox stays in neutral. --set changes values of
+    the vehicle by path (body.mass=1200), and the road: road.friction=0.5, road.slope=0.1.
     """
     from studio.rig import drive as rig
     from studio.rig import table

@@ -10,12 +10,14 @@ from studio.world.setting import Setting
 
 
 class Manned(NamedTuple):
-    """A vehicle with its driver: the name of its model, the driver's kind and settings, the number of its way, and how it moves."""
+    """A vehicle with its driver: the name of its model, the driver's kind and settings, the number of its way, how it moves; and the span
+    that it was validated for, where its file says so: lowest and highest value of each quantity."""
 
     model: str
     driver: dict[str, Any]
     way: int
     dynamics: str = "full"  # or light
+    validated: dict[str, list[float]] | None = None
 
 
 class Leg(NamedTuple):
@@ -62,7 +64,9 @@ def cast(setting: Setting) -> Cast:
 
 def manned_of(car: Car, way: int) -> Manned:
     """One vehicle on the way of this number."""
-    return Manned(car.model.name, car.driver.model_dump(mode="json"), way, "light" if car.is_light else "full")
+    span = car.model.values.validated
+    dynamics = "light" if car.is_light else "full"
+    return Manned(car.model.name, car.driver.model_dump(mode="json"), way, dynamics, span.model_dump() if span else None)
 
 
 def way(path: Path, network: Network) -> Way:

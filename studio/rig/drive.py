@@ -8,6 +8,7 @@ Inputs are CSV with `time_s`, rising from 0, and any of these columns; between t
     gear                        -1 reverse, 0 neutral, 1 first ...; without the column the gearbox shifts by itself
     engine_torque_request_Nm    instead of the throttle
     drive_torque_Nm             sum at the wheels, put on them past the powertrain
+    speed_mps                   speed that is held, by a torque at the wheels past the powertrain
     brake_torque_Nm             sum at the wheels, put on them past the hydraulics
 
 Without throttle, engine torque or gear nobody uses the powertrain: it stays in neutral. The result has every state and force,
@@ -16,7 +17,6 @@ with units in the names of the columns; wheels 1 front left, 2 front right, 3 re
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import ceil
 from pathlib import Path
 from typing import Any
 
@@ -24,52 +24,13 @@ import numpy as np
 
 from studio.conventions import DEFAULT_STEP
 from studio.errors import Problem, RunError, ScenarioError, UnknownError, nearest
-from studio.rig import table
+from studio.rig import side, table
+from studio.rig.side import Order, Outcome
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.vehicle import broken, fleet
-from studio.vehicle.command import RING, U_APPLIED, U_APPLIED_BRAKE, U_BRAKE, U_ENGINE, U_GEAR, U_PEDAL, U_STEER
-from studio.vehicle.contact import SLOPE_X
-from studio.vehicle.fleet import Fleet, Start
-from studio.vehicle.parameter import BRAKE_MAX, DELAY_BRAKE, DELAY_DRIVE, G_RATIO, GEARS, IDLE, LIMIT, STEER_RATIO
-from studio.vehicle.state import (
-    A_X,
-    A_Y,
-    A_Z,
-    ACCELERATOR,
-    ALPHA,
-    CLUTCH,
-    DELTA,
-    F_X,
-    F_Y,
-    F_Z,
-    GEAR,
-    J_GEAR,
-    KAPPA,
-    M_Z,
-    NEXT_GEAR,
-    NEXT_RATIO,
-    OMEGA,
-    OMEGA_E,
-    PITCH,
-    PITCH_RATE,
-    PRESSURE_F,
-    PRESSURE_R,
-    PSI,
-    RATIO,
-    ROLL,
-    ROLL_RATE,
-    T_ENGINE,
-    TORQUE_BRAKE,
-    TORQUE_DRIVE,
-    TRAVEL,
-    V_X,
-    V_Y,
-    YAW_RATE,
-    X,
-    Y,
-    Z,
-)  # fmt: skip
+from studio.vehicle import fleet
+from studio.vehicle.parameter import G_RATIO, GEARS, LIMIT
+from studio.vehicle.state import OMEGA_E
 
 PERIOD = 0.01  # [s] between two rows of the result
 LONGEST = 3600.0  # [s] of inputs
@@ -86,22 +47,14 @@ INPUTS: table.Ranges = {
     "engine_torque_request_Nm": (-10_000.0, 10_000.0, "-10000 to 10000 [Nm]"),
     "drive_torque_Nm": (-200_000.0, 200_000.0, "-200000 to 200000 [Nm]"),
     "brake_torque_Nm": (0.0, 500_000.0, "0 to 500000 [Nm]"),
+    "speed_mps": (0.0, FASTEST, f"0 to {FASTEST:g} [m/s]"),
 }
-EXCLUSIVE = (("road_wheel_angle_rad", "steering_wheel_angle_rad"), ("throttle", "engine_torque_request_Nm"))
-USES_POWERTRAIN = ("throttle", "engine_torque_request_Nm", "gear")
+EXCLUSIVE = (
+    ("road_wheel_angle_rad", "steering_wheel_angle_rad"),
+    ("throttle", "engine_torque_request_Nm"),
+    ("drive_torque_Nm", "speed_mps"),
+)
 ROAD = {"road.friction": (0.01, 2.0, "0.01 to 2 [1]"), "road.slope": (-0.5, 0.5, "-0.5 to 0.5 [1], rising ahead")}
-
-BODY_COLUMNS = {
-    "x_m": X, "y_m": Y, "z_m": Z, "yaw_rad": PSI, "roll_rad": ROLL, "pitch_rad": PITCH, "vx_mps": V_X, "vy_mps": V_Y,
-    "yaw_rate_radps": YAW_RATE, "roll_rate_radps": ROLL_RATE, "pitch_rate_radps": PITCH_RATE, "ax_mps2": A_X, "ay_mps2": A_Y,
-    "az_mps2": A_Z, "road_wheel_angle_rad": DELTA, "gear": GEAR, "clutch": CLUTCH, "accelerator": ACCELERATOR,
-    "engine_speed_radps": OMEGA_E, "engine_torque_Nm": T_ENGINE, "drive_torque_Nm": TORQUE_DRIVE,
-    "brake_torque_Nm": TORQUE_BRAKE, "brake_pressure_front_Pa": PRESSURE_F, "brake_pressure_rear_Pa": PRESSURE_R,
-}  # fmt: skip
-WHEEL_COLUMNS = {
-    "Fz_N": F_Z, "Fx_N": F_X, "Fy_N": F_Y, "Mz_Nm": M_Z, "wheel_speed_radps": OMEGA, "slip_ratio": KAPPA,
-    "slip_angle_rad": ALPHA, "suspension_travel_m": TRAVEL,
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -149,8 +102,10 @@ def drive(
     model, road = prepared(vehicle, tyre, dict(changes or {}))
     given = given_inputs(inputs)
     check(model, speed, step, period)
-    rig = made(model, road, speed, given)
-    return recorded(model.name, rig, given, step, period, progress)
+    order = Order(model, given, speed, road)
+    check_gear(order)
+    (made,) = side.together([order], step=step, period=period, progress=progress)
+    return finished(model.name, made)
 
 
 # --- what is driven ------------------------------------------------------------------------------------------------------
@@ -190,27 +145,15 @@ def check(model: VehicleModel, speed: float, step: float, period: float) -> None
     fleet.check_step(model, step, "--step")
 
 
-def made(model: VehicleModel, road: Mapping[str, float], speed: float, given: Mapping[str, np.ndarray]) -> Fleet:
-    """The vehicle on its road, heading east, in neutral when nobody uses the powertrain."""
-    ground = fleet.level_ground(1, friction=road.get("road.friction", 1.0))
-    ground[SLOPE_X] = road.get("road.slope", 0.0)
-    rig = fleet.fleet([Start(model, 0.0, 0.0, 0.0, speed)], ground=ground)
-    if not any(name in given for name in USES_POWERTRAIN):
-        rig.commands[U_GEAR] = 0.0
-        rig.state[[GEAR, NEXT_GEAR, RATIO, NEXT_RATIO, J_GEAR]] = 0.0
-        rig.state[OMEGA_E] = rig.parameter[IDLE]
-    elif "gear" in given:
-        put_in_gear(rig, int(given["gear"][0]))
-    return rig
-
-
-def put_in_gear(rig: Fleet, gear: int) -> None:
-    """Starts in a gear; raises ScenarioError when there is none of this number."""
-    ratios = rig.gears[G_RATIO * GEARS : (G_RATIO + 1) * GEARS, 0]
+def check_gear(order: Order) -> None:
+    """The gear at the start must be there, and not over-rev the engine; raises ScenarioError."""
+    if "gear" not in order.inputs:
+        return
+    gear, ratios = int(order.inputs["gear"][0]), fleet.rows_of(order.model)[1][G_RATIO * GEARS : (G_RATIO + 1) * GEARS]
     gears = [g - 1 for g in range(GEARS) if ratios[g] != 0.0 or g == 1]
     if gear not in gears:
         raise ScenarioError("The vehicle has no such gear.", [Problem("gear", "does not exist", str(gear), f"{gears[0]} to {gears[-1]}")])
-    fleet.engage(rig, 0, gear)
+    rig = side.of([order])
     if abs(rig.state[OMEGA_E, 0]) > rig.parameter[LIMIT, 0] * OVERSPEED:
         what = f"over-revs at this speed: {rig.state[OMEGA_E, 0]:.0f} rad/s"
         problem = Problem("gear", what, str(gear), f"up to {rig.parameter[LIMIT, 0]:.0f} rad/s", "begin in a higher gear")
@@ -268,72 +211,14 @@ def pairs_problems(rows: table.Table) -> list[Problem]:
     ]
 
 
-def value_at(given: Mapping[str, np.ndarray], name: str, time: float) -> float:
-    """An input at a time: linear between the rows, a gear holds."""
-    if name == "gear":
-        return float(given[name][max(np.searchsorted(given["time_s"], time + 1e-9, side="right") - 1, 0)])
-    return float(np.interp(time, given["time_s"], given[name]))
-
-
-def command(rig: Fleet, given: Mapping[str, np.ndarray], delays: Mapping[str, float], k: int, time: float) -> None:
-    """Writes the inputs that reach the actuators in a step into its slot of the ring."""
-    slot, parameter = rig.commands[:, k % RING], rig.parameter[:, 0]
-    for name in given:
-        value = value_at(given, name, time - delays.get(name, 0.0))
-        if name == "road_wheel_angle_rad":
-            slot[U_STEER] = rig.state[DELTA, 0] = value
-        elif name == "steering_wheel_angle_rad":
-            slot[U_STEER] = value / parameter[STEER_RATIO]
-        elif name == "brake":
-            slot[U_BRAKE] = value * parameter[BRAKE_MAX]
-        elif name in ROWS:
-            slot[ROWS[name]] = value
-
-
-ROWS = {
-    "throttle": U_PEDAL, "gear": U_GEAR, "engine_torque_request_Nm": U_ENGINE, "drive_torque_Nm": U_APPLIED,
-    "brake_torque_Nm": U_APPLIED_BRAKE,
-}  # fmt: skip
-
-
-def take_delays(rig: Fleet) -> dict[str, float]:
-    """Dead times [s] of the inputs; the rig looks them up in its table, exactly, so the ring need not hold them."""
-    drive, brake = float(rig.parameter[DELAY_DRIVE, 0]), float(rig.parameter[DELAY_BRAKE, 0])
-    rig.parameter[[DELAY_DRIVE, DELAY_BRAKE]] = 0.0
-    return {"throttle": drive, "engine_torque_request_Nm": drive, "brake": brake}
-
-
 # --- the drive -----------------------------------------------------------------------------------------------------------
 
 
-def recorded(name: str, rig: Fleet, given: Mapping[str, np.ndarray], step: float, period: float, progress) -> Drive:
-    """Drives from the first to the last time of the inputs."""
-    every, steps = round(period / step), ceil(given["time_s"][-1] / step - 1e-6)
-    delays, rows = take_delays(rig), [sample(rig, 0.0)]
-    for k in range(steps):
-        command(rig, given, delays, k, k * step)
-        fleet.advance(rig, k, step, step)
-        if broken.columns(rig).size:
-            found = broken.first(rig, 0, k=k, tick=step, step=step)
-            raise RunError(f"{found.quantity} of {name} is not finite any more at {k * step + found.after:.3f} s.")
-        if (k + 1) % every == 0:
-            rows.append(sample(rig, (k + 1) * step))
-            progress((k + 1) / steps)
-    return Drive(name, dict(zip(column_names(), np.array(rows).T, strict=True)))
-
-
-def column_names() -> list[str]:
-    """Columns of the result."""
-    wheels = [f"{name}_{corner}" for name in WHEEL_COLUMNS for corner in (1, 2, 3, 4)]
-    return ["time_s", *BODY_COLUMNS, "steering_wheel_angle_rad", *wheels]
-
-
-def sample(rig: Fleet, time: float) -> np.ndarray:
-    """One row of the result."""
-    state, wheels = rig.state[:, 0], rig.wheels.copy()
-    wheels[ALPHA] = np.arctan(wheels[ALPHA])
-    handwheel = state[DELTA] * rig.parameter[STEER_RATIO, 0]
-    return np.concatenate([[time], state[list(BODY_COLUMNS.values())], [handwheel], wheels[list(WHEEL_COLUMNS.values())].ravel()])
+def finished(name: str, made: Outcome) -> Drive:
+    """A drive that came to its end; raises RunError for one that broke."""
+    if made.broke is not None:
+        raise RunError(f"{made.quantity} of {name} is not finite any more at {made.broke:.3f} s.")
+    return Drive(name, made.columns)
 
 
 def write(made_drive: Drive, out: Path) -> int:

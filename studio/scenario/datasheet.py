@@ -33,6 +33,8 @@ READ_AS_WELL = {"rad/s": {"1/min": RPM, "rpm": RPM}, "rad": {"deg": math.pi / 18
 LEAF = ("value", "unit", "origin", "source", "range")
 NEEDED = LEAF[:4]
 ASSUMED = "not given"  # source of a plain number
+FIRST = "left out: as the property file of the tyre has it"  # source of a value that a file need not give
+FIRST_RANGE = (0.5, 1.5)  # of such a scale on a car
 SHORT = reprlib.Repr()
 SHORT.maxlevel = 2  # aliases can nest a few bytes into gigabytes
 
@@ -117,7 +119,12 @@ def parse(data: bytes, where: str) -> Datasheet:
     if values is None or sheet.problems:
         found = sorted(sheet.problems, key=lambda each: each[0])
         raise ScenarioError(f"{where} is not a valid vehicle.", [problem for _, problem in found])
-    return Datasheet(values, sheet.origins)
+    return Datasheet(values, left_out(sheet.origins))
+
+
+def left_out(origins: dict[str, Origin]) -> dict[str, Origin]:
+    """Origins of all quantities: what a file need not say has its first value."""
+    return {path: origins.get(path, Origin(each.unit, "estimated", FIRST, FIRST_RANGE)) for path, each in quantities().items()}
 
 
 @dataclass

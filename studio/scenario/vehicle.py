@@ -228,10 +228,36 @@ class Air(Part):
 
 
 class Tyres(Part):
-    """Property files of the catalogue, or paths relative to the vehicle file."""
+    """Property files of the catalogue, or paths relative to the vehicle file; and what a real axle makes of them.
+
+    A tyre was measured on a bench. On a car, compliance of axle and steering takes some of its cornering stiffness away, and the road
+    is another one: the scales say how much (the factors LKY, LMUX and LMUY of the Magic Formula), and calibration finds them.
+    """
 
     front: str = Field(..., title="Tyres of the front axle")
     rear: str = Field(..., title="Tyres of the rear axle")
+    front_cornering: float = Field(1.0, title="Scale of cornering stiffness, front", json_schema_extra={"unit": "1"}, ge=0.2, le=3)
+    rear_cornering: float = Field(1.0, title="Scale of cornering stiffness, rear", json_schema_extra={"unit": "1"}, ge=0.2, le=3)
+    front_grip: float = Field(1.0, title="Scale of peak friction, front", json_schema_extra={"unit": "1"}, ge=0.2, le=2)
+    rear_grip: float = Field(1.0, title="Scale of peak friction, rear", json_schema_extra={"unit": "1"}, ge=0.2, le=2)
+
+
+def bounds(*, unit: str, title: str):
+    """Lowest and highest value of a quantity."""
+    return Field(..., min_length=2, max_length=2, title=title, json_schema_extra={"unit": unit})
+
+
+class Span(Part):
+    """What a vehicle was validated for against recorded drives (studio/validation): outside, nothing is said of it."""
+
+    speed: list[float] = bounds(unit="m/s", title="Speed")
+    acceleration: list[float] = bounds(unit="m/s²", title="Longitudinal acceleration")
+    lateral_acceleration: list[float] = bounds(unit="m/s²", title="Lateral acceleration")
+    yaw_rate: list[float] = bounds(unit="rad/s", title="Yaw rate")
+
+    @model_validator(mode="after")
+    def rises(self):
+        return refuse(self, *(low > high and f"{name} from {low:g} to {high:g}: the lower bound comes first" for name, (low, high) in self))
 
 
 class Vehicle(Part):
@@ -250,6 +276,7 @@ class Vehicle(Part):
     coupling: Coupling
     gearbox: Gearbox
     air: Air
+    validated: Span | None = Field(None, title="Validated span")
 
     @model_validator(mode="after")
     def fits_together(self):

@@ -11,6 +11,7 @@
     texts       digest → text                  files of kinds, and patches; equal ones stand once
     verdicts    run → verdict, reason, who, when; one after another, the last one counts
     remarks     run → name, tags, note
+    iterations  iteration → project, step, parent, changes, used, result   calibrations and validations of a vehicle, one after another
 
 SQLite in WAL mode: readers never wait for the writer. A number in `user_version` tells which layout a file has.
 """
@@ -25,7 +26,7 @@ from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
 
-LAYOUT = 6
+LAYOUT = 7
 PATIENCE = 30.0  # [s] for another process to finish writing
 
 TABLES = {
@@ -95,6 +96,23 @@ TABLES = {
     "texts": ({"digest": str, "text": str}, "digest", ()),
     "verdicts": ({"run": int, "verdict": str, "reason": str, "who": str, "when": str}, None, (("run", "runs", "run"),)),
     "remarks": ({"run": int, "name": str, "tags": str, "note": str}, "run", (("run", "runs", "run"),)),
+    "iterations": (
+        {
+            "iteration": int,
+            "project": str,
+            "step": str,
+            "parent": int,
+            "created": str,
+            "code_version": str,
+            "vehicle": str,
+            "document": str,
+            "changes": str,
+            "used": str,
+            "result": str,
+        },
+        "iteration",
+        (("parent", "iterations", "iteration"),),
+    ),
 }  # fmt: skip
 
 

@@ -148,8 +148,16 @@ def rows_of(model: VehicleModel) -> tuple[np.ndarray, np.ndarray, tuple[Tyre, Ty
 def computed_rows(name: str, values: str, folder):
     """The same, by content."""
     vehicle = catalogue.Vehicle.model_validate_json(values)
-    front, rear = (Tyre(*tir.coefficients(catalogue.find_tyre(tyre, folder=folder))) for tyre in (vehicle.tyres.front, vehicle.tyres.rear))
+    tyres = vehicle.tyres
+    front = tyre_of(tyres.front, folder, tyres.front_cornering, tyres.front_grip)
+    rear = tyre_of(tyres.rear, folder, tyres.rear_cornering, tyres.rear_grip)
     return parameter_rows(vehicle, front, rear), gearbox_rows(vehicle), (front, rear)
+
+
+def tyre_of(name: str, folder, cornering: float, grip: float) -> Tyre:
+    """The tyre of a property file, with its cornering stiffness and peak friction scaled."""
+    tyre = Tyre(*tir.coefficients(catalogue.find_tyre(name, folder=folder)))
+    return tyre._replace(LKY=tyre.LKY * cornering, LMUX=tyre.LMUX * grip, LMUY=tyre.LMUY * grip)
 
 
 def light_rows_of(model: VehicleModel) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

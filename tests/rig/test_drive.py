@@ -9,6 +9,7 @@ import yaml
 import studio
 from studio.errors import RunError, ScenarioError, UnknownError
 from studio.rig import drive as rig
+from studio.rig import side
 from studio.rig.drive import drive
 from studio.scenario import catalogue
 from studio.vehicle.parameter import MASS
@@ -211,14 +212,14 @@ def test_a_vehicle_too_heavy_for_its_tyres_is_refused():
 
 def test_a_state_that_is_none_ends_the_drive(monkeypatch):
     """It is told which quantity of which vehicle, and when."""
-    made = rig.made
+    made = side.of
 
     def poisoned(*arguments):
         fleet = made(*arguments)
         fleet.parameter[MASS] = np.nan
         return fleet
 
-    monkeypatch.setattr(rig, "made", poisoned)
+    monkeypatch.setattr(side, "of", poisoned)
     with pytest.raises(RunError, match=r"acceleration of suv is not finite any more at 0\.005 s"):
         drive("suv", STRAIGHT)
 

@@ -1,0 +1,248 @@
+"""A validation project: one YAML file that says which car, which recorded runs, which criteria. Paths in it start from its folder.
+
+title: BMW 320i against its multi-body model
+vehicle: bmw_320i                     # of the catalogue, or a vehicle file
+mapping: mapping.yaml
+confidence: two-sided                 # or one-sided, as the paper has it
+maneuvers:
+  j_turn_20:
+    kind: j_turn
+    calibration: [{log: logs/j_turn_01.csv}]
+    validation: [{log: logs/j_turn_02.csv}, {log: logs/day_2.csv, begin: 61.5, end: 68}]
+calibration:
+  parameters: {tyres.front_cornering: {low: 0.5, high: 1.5}, body.yaw_inertia: {low: 1200, high: 2400, prior: 1790, spread: 150}}
+overrides:
+  - {maneuver: j_turn_20, criterion: "steady yaw_rate, averaged simulation", reason: "the sensor was mounted askew that day"}
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import Field, ValidationError, model_validator
+
+from studio.errors import Problem, ScenarioError, nearest
+from studio.kind.settings import Name, number
+from studio.kind.settings import Part as Settings
+from studio.log import mapping, recording
+from studio.log.mapping import Known
+from studio.log.recording import Recording
+from studio.scenario import catalogue, edit
+from studio.scenario.catalogue import VehicleModel
+from studio.validation import known
+from studio.validation.criterion import Limits, Override
+from studio.validation.zone import Confidence
+
+SIZE_LIMIT = 1_000_000  # [B] of a project file
+
+
+class Run(Settings):
+    """A run: its log, and from when to when in it [s after its first sample]."""
+
+    log: str = Field(..., min_length=1, title="Log", description="relative to the project")
+    begin: float = number(0.0, unit="s", title="Begin", ge=0)
+    end: float | None = Field(None, title="End", description="left out: to the end of the log", gt=0, json_schema_extra={"unit": "s"})
+    mapping: str | None = Field(None, title="Mapping of this log", description="left out: that of the project")
+
+
+class Trial(Settings):
+    """A maneuver of the project: what kind it is, and its runs, apart for calibration and validation."""
+
+    kind: str = Field(..., title="Kind of maneuver")
+    calibration: list[Run] = Field([], title="Runs to calibrate with")
+    validation: list[Run] = Field([], title="Runs to validate with")
+
+    @model_validator(mode="after")
+    def has_runs(self):
+        if not self.calibration and not self.validation:
+            raise ValueError("has no runs: name them under `validation` or `calibration`")
+        return self
+
+
+class Wanted(Settings):
+    """A parameter that calibration looks for: between which bounds, and what is known of it beforehand."""
+
+    low: float = Field(..., title="Lowest")
+    high: float = Field(..., title="Highest")
+    prior: float | None = Field(None, title="Known beforehand", description="with `spread`; left out: nothing is")
+    spread: float | None = Field(None, title="Standard deviation of what is known", gt=0)
+
+    @model_validator(mode="after")
+    def is_a_range(self):
+        if self.low >= self.high:
+            raise ValueError(f"low {self.low:g} must be less than high {self.high:g}")
+        if (self.prior is None) != (self.spread is None):
+            raise ValueError("prior and spread belong together: give both, or none")
+        return self
+
+
+class Calibration(Settings):
+    """A step of calibration: what is looked for, with which maneuvers of the project."""
+
+    parameters: dict[str, Wanted] = Field(..., min_length=1, max_length=12, title="Parameters by path")
+    maneuvers: list[str] = Field([], title="Maneuvers", description="none named: all that have runs for calibration")
+
+
+class Project(Settings):
+    """All that a project says."""
+
+    title: str = Field(..., min_length=1, max_length=120, title="Title")
+    vehicle: str = Field(..., title="Vehicle")
+    changes: dict[str, Any] = Field({}, title="Changes of the vehicle by path")
+    road: dict[str, float] = Field({}, title="Road: road.friction, road.slope")
+    mapping: str | None = Field(None, title="Mapping", description="left out: logs have our names")
+    confidence: Confidence = Field("two-sided", title="Confidence")
+    criteria: Limits = Field(default_factory=Limits, title="Limits of the criteria")
+    maneuvers: dict[Name, Trial] = Field(..., min_length=1, title="Maneuvers")
+    calibration: dict[Name, Calibration] = Field({}, title="Steps of calibration, in their order")
+    overrides: list[Override] = Field([], title="What a person judged otherwise")
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A project with its vehicle and its runs: by maneuver, to calibrate and to validate with."""
+
+    project: Project
+    path: Path
+    model: VehicleModel
+    calibration: dict[str, list[Recording]] = field(default_factory=dict)
+    validation: dict[str, list[Recording]] = field(default_factory=dict)
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The project as plain data."""
+        return self.project.model_dump(mode="json")
+
+
+def read(path: Path) -> Project:
+    """What a project file says; raises ScenarioError with everything that is wrong."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise refused(path, [Problem(str(path), f"cannot be read: {error.strerror or error}")]) from None
+    if len(data) > SIZE_LIMIT:
+        raise refused(path, [Problem(str(path), "is too large", f"{len(data)} bytes", f"{SIZE_LIMIT} bytes")])
+    try:
+        made = Project.model_validate(yaml.safe_load(data))
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise refused(path, [Problem(str(path), f"is no YAML: {error}")]) from None
+    except ValidationError as error:
+        found = [
+            Problem(".".join(map(str, each["loc"])) or path.name, each["msg"].removeprefix("Value error, ")) for each in error.errors()
+        ]
+        raise refused(path, found) from None
+    names(made, path)
+    return made
+
+
+def names(made: Project, path: Path) -> None:
+    """Every name in a project must exist; raises ScenarioError."""
+    kinds = known.maneuvers()
+    found = [
+        Problem(f"maneuvers.{name}.kind", "is no maneuver", each.kind, ", ".join(kinds), nearest(each.kind, kinds))
+        for name, each in made.maneuvers.items()
+        if each.kind not in kinds
+    ]
+    asked = [
+        (f"calibration.{step}.maneuvers[{i}]", name) for step, each in made.calibration.items() for i, name in enumerate(each.maneuvers)
+    ]
+    asked += [(f"overrides[{i}].maneuver", each.maneuver) for i, each in enumerate(made.overrides)]
+    found += [
+        Problem(where, "is no maneuver of this project", name, remedy=nearest(name, made.maneuvers))
+        for where, name in asked
+        if name not in made.maneuvers
+    ]
+    if found:
+        raise refused(path, found)
+
+
+def load(path: Path) -> Loaded:
+    """A project with its logs read, mapped, cut, and looked at: nothing of it is used when one run is no good. Raises StudioError."""
+    made = read(path)
+    model = catalogue.find_vehicle(made.vehicle, made.changes, folder=path.parent)
+    parameters(made, model, path)
+    logs = Logs(path.parent, made.mapping)
+    calibration = {name: logs.runs(each.calibration, each.kind) for name, each in made.maneuvers.items() if each.calibration}
+    validation = {name: logs.runs(each.validation, each.kind) for name, each in made.maneuvers.items() if each.validation}
+    apart(calibration, validation)
+    return Loaded(made, path, model, calibration, validation)
+
+
+def parameters(made: Project, model: VehicleModel, path: Path) -> None:
+    """What is calibrated must be single numbers of the vehicle; raises ScenarioError."""
+    full = model.values.model_dump()
+    found = [
+        Problem(f"calibration.{step}.parameters.{name}", "is no single number of the vehicle", remedy=edit.nearest_path(full, name))
+        for step, each in made.calibration.items()
+        for name in each.parameters
+        if not (edit.has(full, name) and isinstance(edit.get(full, name), float))
+    ]
+    if found:
+        raise refused(path, found)
+
+
+@dataclass
+class Logs:
+    """The logs of a project, each read once."""
+
+    folder: Path
+    mapping: str | None
+    read: dict[tuple[str, str | None], Recording] = field(default_factory=dict)
+
+    def runs(self, asked: list[Run], kind: str) -> list[Recording]:
+        """The runs, cut; raises ScenarioError."""
+        found = [self.run(each) for each in asked]
+        for each in found:
+            known.check(each, known.find(kind))
+        return found
+
+    def run(self, asked: Run) -> Recording:
+        """One run."""
+        by = asked.mapping or self.mapping
+        if (asked.log, by) not in self.read:
+            self.read[asked.log, by] = recording.load(self.folder / asked.log, self.known(by))
+        whole = self.read[asked.log, by]
+        if asked.begin == 0.0 and asked.end is None:
+            return whole
+        return whole.between(asked.begin, asked.end if asked.end is not None else float(whole.time[-1]))
+
+    def known(self, name: str | None) -> Known | None:
+        """A mapping by its name."""
+        return mapping.read(self.folder / name) if name else None
+
+
+def apart(calibration: dict[str, list[Recording]], validation: dict[str, list[Recording]]) -> None:
+    """Refuses runs that are in both sets, whatever they are called, and cuts of one log that overlap; raises ScenarioError."""
+    used = [each for runs in calibration.values() for each in runs]
+    digests = {each.digest: each for each in used}
+    found = [
+        Problem(
+            f"maneuvers.{name}.validation[{i}]",
+            "was used for calibration",
+            each.name,
+            remedy="validate with another run, or calibrate without it",
+        )
+        for name, runs in validation.items()
+        for i, each in enumerate(runs)
+        if each.digest in digests or any(overlaps(each, other) for other in used)
+    ]
+    if found:
+        raise ScenarioError("A run that calibrates cannot validate: it would prove what it was fitted to.", found)
+
+
+def overlaps(a: Recording, b: Recording) -> bool:
+    """Whether two cuts of one log have a time in common."""
+    return a.name == b.name and a.start < b.start + b.time[-1] and b.start < a.start + a.time[-1] and shares(a, b)
+
+
+def shares(a: Recording, b: Recording) -> bool:
+    """Whether they hold the same samples there: logs in different folders may have one name."""
+    since = max(a.start, b.start)
+    one, other = (each.between(since - each.start, min(a.start + a.time[-1], b.start + b.time[-1]) - each.start) for each in (a, b))
+    return one.time.size == other.time.size and one.digest == other.digest
+
+
+def refused(path: Path, problems: list[Problem]) -> ScenarioError:
+    """What is told of a project that is none."""
+    return ScenarioError(f"{path.name} is not a valid project.", problems)

@@ -1,0 +1,112 @@
+"""One page about a validation, to be read and printed: span in words, verdicts, what was calibrated, figures with their zones.
+
+Everything stands in the one file: no script, no font, no picture is fetched from anywhere; a browser prints it as PDF.
+"""
+
+from collections.abc import Sequence
+from html import escape
+
+from studio.parcel.report import STYLE, listed, section, table, value
+from studio.validation import figure, span
+from studio.validation.calibration import Estimate
+from studio.validation.criterion import FAIL, OVERRIDDEN, Verdict
+from studio.validation.judge import Comparison, Result
+from studio.validation.project import Loaded
+from studio.validation.zone import WORDS
+
+TONE = {"pass": "good", FAIL: "bad", OVERRIDDEN: "dim"}
+HEAD = ("criterion", "ours", "theirs", "interval", "error", "limit", "verdict", "reason")
+METHOD = (
+    "The recorded inputs of real maneuvers drove the simulated vehicle open loop: once for every run, and once with the average of them. "
+    "A maneuver is valid where the mean of the simulations lies in the interval of the experiments and the simulation of the averaged "
+    "input keeps to its limit (M. Massow, I. Radusch, Journal of Advanced Transportation 2018, section 5)."
+)
+
+
+def report(loaded: Loaded, found: Result, estimates: dict[str, Estimate], number: int) -> str:
+    """The page, as HTML."""
+    title = f"{loaded.project.title}: iteration {number}"
+    failed = [each for each in found.verdicts if each.verdict == FAIL]
+    parts = [
+        f"<h1>{escape(title)}</h1>",
+        f'<p class="dim">{escape(loaded.model.values.title)}; {escape(WORDS[found.confidence])}</p>',
+        section("Verdict", summary(found, failed)),
+        section("Validated span", listed(span.told(found.span)) + limits(found)),
+        section("What a person judged otherwise", overridden(found.verdicts)),
+        section("What was calibrated", calibrated(estimates)),
+        *(section(f"{each.module.TITLE}: {each.name}", maneuver(each, found)) for each in found.comparisons),
+        section("Method", f"<p>{METHOD}</p>"),
+    ]
+    head = f'<meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{escape(title)}</title>'
+    return f'<!doctype html><html lang="en"><head>{head}<style>{STYLE}</style></head><body>{"".join(parts)}</body></html>\n'
+
+
+def summary(found: Result, failed: Sequence[Verdict]) -> str:
+    """Whether it is valid, in a sentence."""
+    passed = sum(each.verdict == "pass" for each in found.verdicts)
+    count = f"{passed} of {len(found.verdicts)} criteria are met"
+    others = [f"{len(failed)} failed" if failed else "", f"{n} overridden" if (n := len(found.verdicts) - passed - len(failed)) else ""]
+    word = '<b class="good">valid</b>' if found.is_valid else '<b class="bad">not valid</b>'
+    return f"<p>The vehicle is {word} for what these maneuvers ask: {count}{''.join(f', {each}' for each in others if each)}.</p>"
+
+
+def limits(found: Result) -> str:
+    """The span of every maneuver that met its criteria, and what was left out."""
+    rows = [
+        (escape(name), *(f"{low:.3g} to {high:.3g}" if low != high else "–" for low, high in each.model_dump().values()))
+        for name, each in found.spans.items()
+    ]
+    head = ["maneuver", *(f"{word} [{span.UNITS[name]}]" for name, word in span.WORDS.items())]
+    missing = [each.name for each in found.comparisons if each.name not in found.spans]
+    note = f'<p class="dim">Left out, for a criterion failed: {escape(", ".join(missing))}.</p>' if missing else ""
+    return table(head, rows) + note
+
+
+def overridden(verdicts: Sequence[Verdict]) -> str:
+    """What failed and counts all the same."""
+    rows = [(escape(each.maneuver), escape(each.criterion), escape(each.reason)) for each in verdicts if each.verdict == OVERRIDDEN]
+    return table(["maneuver", "criterion that failed", "why it counts as valid"], rows)
+
+
+def calibrated(estimates: dict[str, Estimate]) -> str:
+    """Values that were found, with their uncertainty."""
+    rows = [
+        (
+            escape(each.path),
+            value(each.start),
+            value(each.value),
+            f"± {2 * each.spread:.2g}",
+            escape(each.unit),
+            f"{each.low:g} to {each.high:g}",
+        )
+        for each in estimates.values()
+    ]
+    return table(["parameter", "before", "found", "two standard deviations", "unit", "allowed"], rows, numeric=[1, 2, 3])
+
+
+def maneuver(compared: Comparison, found: Result) -> str:
+    """Verdicts and figures of a maneuver."""
+    runs = f"<p>{len(compared.theirs)} runs: {escape(', '.join(each.name for each in compared.theirs))}</p>"
+    rows = [row(each) for each in found.verdicts if each.maneuver == compared.name]
+    return runs + table(HEAD, rows, numeric=[1, 2, 3, 4, 5]) + "".join(picture for _, picture in figure.figures(compared, found.confidence))
+
+
+def row(each: Verdict) -> tuple[str, ...]:
+    """A verdict as cells."""
+    interval = f"{each.low:.4g} to {each.high:.4g}" if each.low is not None and each.high is not None else ""
+    verdict = f'<b class="{TONE[each.verdict]}">{each.verdict}</b>'
+    return (
+        escape(each.criterion),
+        value(each.ours),
+        value(each.theirs),
+        interval,
+        value(each.error, signed=True),
+        limit(each),
+        verdict,
+        escape(each.reason),
+    )
+
+
+def limit(each: Verdict) -> str:
+    """The limit of a verdict."""
+    return "" if each.limit is None else value(each.limit)

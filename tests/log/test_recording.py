@@ -1,0 +1,142 @@
+"""From recorded signals to ours: units, signs, offsets, delays, clocks, gaps; and values that cannot be right."""
+
+import numpy as np
+import pytest
+import yaml
+
+from studio.errors import ScenarioError
+from studio.log import mapping, reading, recording
+from studio.log.signal import Log, signal
+from studio.log.unit import factor
+from tests.conftest import ROOT
+
+TIME = np.arange(0.0, 10.0, 0.02)
+
+
+def log(**signals):
+    return Log("drive", {name: signal(name, unit, time, values) for name, (unit, time, values) in signals.items()})
+
+
+def taken(document, found):
+    return recording.resampled("drive", mapping.apply(mapping.checked({"signals": document}, "mapping"), found))
+
+
+def refusal(document, found):
+    with pytest.raises(ScenarioError) as caught:
+        taken(document, found)
+    return str(caught.value)
+
+
+def test_units_signs_and_offsets():
+    """Ours is sign · (recorded - offset) in SI."""
+    found = log(Yaw=("deg/s", TIME, np.full(TIME.size, -17.5)), V=("km/h", TIME, np.full(TIME.size, 72.0)))
+    made = taken({"yaw_rate": {"from": "Yaw", "sign": -1, "offset": 0.5}, "speed": {"from": "V"}}, found)
+    assert np.allclose(made["yaw_rate"], np.radians(18.0)) and np.allclose(made["speed"], 20.0)
+
+
+@pytest.mark.parametrize(
+    ("unit", "ours", "value"),
+    [("rpm", "rad/s", 2 * np.pi / 60), ("mph", "m/s", 0.44704), ("g", "m/s²", 9.80665), ("%", "1", 0.01), ("DEG", "rad", np.pi / 180)],
+)
+def test_factors_are_those_of_the_units(unit, ours, value):
+    assert factor(unit, ours, "signal") == pytest.approx(value, rel=1e-12)
+
+
+def test_a_delay_moves_the_times_back():
+    """A yaw rate that comes 0.1 s late lies on the steering again."""
+    steer = np.sin(TIME)
+    found = log(Steer=("rad", TIME, steer), Yaw=("rad/s", TIME + 0.1, steer))
+    made = taken({"road_wheel_angle": {"from": "Steer"}, "yaw_rate": {"from": "Yaw", "delay": 0.1}}, found)
+    assert np.allclose(made["yaw_rate"], made["road_wheel_angle"], atol=1e-9)
+
+
+def test_clocks_of_three_rates_become_one_and_nothing_is_made_up_beyond_them():
+    fast, slow = np.arange(0.3, 9.0, 0.007), np.arange(-0.5, 8.0, 0.1)
+    found = log(A=("rad/s", fast, 0.1 * fast), B=("m/s", slow, 2.0 * slow), C=("m/s²", TIME, TIME))
+    made = taken({"yaw_rate": {"from": "A"}, "speed": {"from": "B"}, "acceleration": {"from": "C"}}, found)
+    assert made.start == pytest.approx(0.3) and made.start + made.time[-1] == pytest.approx(7.9, abs=0.011)
+    clock = made.start + made.time
+    assert np.allclose(np.diff(made.time), 0.01)
+    assert (
+        np.allclose(made["yaw_rate"], 0.1 * clock) and np.allclose(made["speed"], 2.0 * clock) and np.allclose(made["acceleration"], clock)
+    )
+
+
+def test_a_gap_stays_a_gap_and_a_gear_holds():
+    kept = (TIME < 4.0) | (TIME > 5.0)
+    found = log(
+        Yaw=("rad/s", TIME[kept], 0.1 * TIME[kept]),
+        Gear=("", np.array([0.0, 3.0, 6.0, 9.9]), np.array([1.0, 2.0, 3.0, 3.0])),
+    )
+    made = taken({"yaw_rate": {"from": "Yaw"}, "gear": {"from": "Gear"}}, found)
+    inside = (made.time > 3.985) & (made.time < 5.015)
+    assert np.isnan(made["yaw_rate"][inside]).all() and np.isfinite(made["yaw_rate"][~inside]).all()
+    ((since, until),) = made.gaps("yaw_rate")
+    assert since == pytest.approx(3.99) and until == pytest.approx(5.01)
+    assert set(made["gear"]) == {1.0, 2.0, 3.0} and made["gear"][made.time < 2.99].max() == 1.0
+
+
+def test_what_cannot_be_right_is_refused_with_the_unit_that_it_may_have():
+    found = log(Yaw=("rad/s", TIME, np.full(TIME.size, 500.0)))
+    told = refusal({"yaw_rate": {"from": "Yaw"}}, found)
+    assert "500 rad/s" in told and "deg/s" in told and "500 of 500 samples" in told
+
+
+@pytest.mark.parametrize(
+    ("document", "what"),
+    [
+        ({"yaw_rate": {"from": "Yaww"}}, "did you mean 'Yaw'?"),
+        ({"yaw_rat": {"from": "Yaw"}}, "did you mean 'yaw_rate'?"),
+        ({"yaw_rate": {"from": "Yaw", "unit": "km/h"}}, "is not a unit of this quantity"),
+        ({"yaw_rate": {"from": "Yaw", "unit": "furlongs"}}, "is not a unit that is read"),
+        ({"yaw_rate": {"from": "Yaw", "sign": 2}}, "signals.yaw_rate.sign"),
+        ({"yaw_rate": {"from": "Yaw"}, "speed": {"from": "V"}}, "do not overlap"),
+        ({}, "signals"),
+    ],
+)
+def test_mappings_that_are_none(document, what):
+    found = log(Yaw=("rad/s", TIME, 0.1 * TIME), V=("m/s", TIME + 100.0, TIME))
+    assert what in refusal(document, found)
+
+
+def test_a_mapping_is_a_file_and_a_recording_is_written_and_read_again(tmp_path):
+    (tmp_path / "m.yaml").write_text(yaml.safe_dump({"signals": {"yaw_rate": {"from": "Yaw", "unit": "deg/s"}}}))
+    (tmp_path / "drive.csv").write_text("t,Yaw\n" + "\n".join(f"{t:.2f},{10 * t:.4f}" for t in TIME if not 4 < t < 5))
+    made = recording.load(tmp_path / "drive.csv", mapping.read(tmp_path / "m.yaml"))
+    recording.write(made, tmp_path / "ours.csv.gz")
+    again = recording.load(tmp_path / "ours.csv.gz")
+    assert np.allclose(again["yaw_rate"], made["yaw_rate"], atol=1e-8, equal_nan=True) and again.time.size == made.time.size
+
+
+def test_content_tells_a_run_whatever_its_file_is_called(tmp_path):
+    lines = "\n".join(f"{t:.2f},{np.sin(t):.6f}" for t in TIME)
+    (tmp_path / "a.csv").write_text(f"t,yaw_rate [rad/s]\n{lines}")
+    (tmp_path / "b.csv").write_text(f"t;yaw_rate [rad/s]\n{lines.replace(',', ';')}")
+    np.savez(tmp_path / "c.npz", t=TIME, yaw_rate=np.round(np.sin(TIME), 6))
+    whole = {"yaw_rate": {"from": "yaw_rate", "unit": "rad/s"}}
+    known = mapping.Known(mapping.checked({"signals": whole}, "m"))
+    a, b, c = (recording.load(tmp_path / name, known) for name in ("a.csv", "b.csv", "c.npz"))
+    assert a.digest == b.digest == c.digest != a.between(1.0, 9.0).digest
+
+
+# -- a real drive ----------------------------------------------------------------------------------------
+
+
+def test_a_real_drive_of_three_clocks():
+    """comma2k19: speeds of satellites, bus and wheels agree as its facts say, the way is 1011.9 m long."""
+    path = ROOT / "tests" / "reference" / "comma2k19" / "drive.npz"
+    wheels = [f"CAN__wheel_speed[{i}]" for i in range(4)]
+    gnss = [f"pose_velocities[{i}]" for i in range(3)]
+    at = lambda names, **more: {"speed": {"from": names, "unit": "m/s", **more}}  # noqa: E731
+    found = reading.read(path)
+    kinds = {name: recording.resampled(name, mapping.apply(mapping.checked({"signals": each}, "m"), found)) for name, each in {
+        "bus": at("CAN__speed"), "wheels": at(wheels), "gnss": at(gnss, combine="norm"),
+    }.items()}  # fmt: skip
+    clock = np.arange(46409.0, 46468.0, 0.01)
+    bus, wheel, satellite = (np.interp(clock, each.start + each.time, each["speed"]) for each in kinds.values())
+    ratio = satellite / bus
+    assert ratio.mean() == pytest.approx(1.0085, abs=0.0005) and ratio.std() < 0.005
+    assert (wheel / satellite).mean() == pytest.approx(0.9916, abs=0.0005)
+    raw = found["pose_velocities[0]"].time
+    norm = np.linalg.norm([found[name].values for name in gnss], axis=0)
+    assert np.trapezoid(norm, raw) == pytest.approx(1011.9, abs=0.5)
