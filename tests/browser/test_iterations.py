@@ -74,6 +74,26 @@ def test_2_the_rows_are_tinted_against_a_baseline(page):
     assert page.locator("tr[data-run='1'] [data-stand]").count() == 0
     page.reload()
     expect(page.locator("tr[data-base]")).to_have_attribute("data-run", "1")
+    assert rows(page)[0] == 1  # it stands first
+
+
+def test_2_columns_are_hidden_and_moved_and_it_is_remembered(page):
+    heads = page.locator("thead tr:nth-child(2) th")
+    page.get_by_role("button", name="Columns").click()
+    page.get_by_label("Find a column").fill("headway")
+    page.get_by_role("button", name="Headway [s] first").click()
+    page.get_by_label("Find a column").fill("created")
+    page.get_by_role("checkbox", name="Created").uncheck()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Columns (1 hidden)")).to_be_visible()
+    page.reload()
+    expect(page.locator("tr[data-run]")).to_have_count(6)
+    names = [each.inner_text() for each in heads.all()]
+    assert "Created" not in names and names.index("Headway [s]") < names.index("Application")
+    page.get_by_role("button", name="Columns (1 hidden)").click()
+    page.get_by_role("button", name="As it was").click()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Columns", exact=True)).to_be_visible()
 
 
 def test_3_a_stroke_along_an_axis_is_the_filter(page):
@@ -157,7 +177,7 @@ def test_6_several_are_compared(page):
     expect(page.get_by_role("group", name="Baseline").get_by_role("combobox")).to_have_value("5")
     page.get_by_role("button", name="Take run 3 out").click()
     expect(page.get_by_label("Run 3", exact=True)).to_have_count(0)
-    page.get_by_label("Add a run").select_option("6")
+    page.get_by_test_id("compare-add").select_option("6")
     expect(page.get_by_test_id("compare-sources")).to_contain_text("#6 does not use the application cacc.")
     expect(page.get_by_test_id("compare-sources")).to_contain_text("#6 alone uses the application acc.")
 
@@ -167,10 +187,12 @@ def test_7_the_palette_leads_everywhere(page):
     search = page.get_by_label("Go to", exact=True)
     expect(search).to_be_focused()
     page.keyboard.type("board")
+    expect(page.get_by_text("candidates, discarded")).to_be_visible()
     page.keyboard.press("Enter")
     expect(page.get_by_role("region", name="Discarded")).to_contain_text("too near")
     page.keyboard.press("Control+k")
     page.keyboard.type("#4")
+    expect(page.get_by_role("dialog").get_by_text("#4", exact=False).first).to_be_visible()
     page.keyboard.press("Enter")
     expect(page).to_have_url(re.compile(r"/runs/4$"))
 

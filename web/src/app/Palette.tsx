@@ -4,7 +4,7 @@ import { Spotlight, type SpotlightActionData, type SpotlightActionGroupData, spo
 import "@mantine/spotlight/styles.css";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
-import { useState } from "react";
+import { type KeyboardEvent, useState } from "react";
 import { maps } from "../api/maps";
 import { runs, scenarios } from "../api/queries";
 import { Icon, type IconName } from "../ui/Icon";
@@ -33,11 +33,18 @@ export function Palette({ onKeys }: Props) {
         placeholder: "Go to a place, scenario, run or map …",
         leftSection: <Icon name="search" size={16} />,
         "aria-label": "Go to",
+        onKeyDown: takeFirst,
       }}
       onSpotlightOpen={() => setOpened(true)}
       onSpotlightClose={() => setOpened(false)}
     />
   );
+}
+
+/** Enter means the first one, when the list has changed since one was marked. */
+function takeFirst({ key, currentTarget }: KeyboardEvent<HTMLInputElement>): void {
+  const list = currentTarget.closest("[role=dialog]");
+  if (key === "Enter" && !list?.querySelector("[data-action][data-selected]")) list?.querySelector<HTMLElement>("[data-action]")?.click();
 }
 
 function useActions(onKeys: () => void, opened: boolean): SpotlightActionGroupData[] {

@@ -5,6 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useState } from "react";
 import { runs } from "../../api/queries";
+import { arranged } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
 import { filterOf } from "../../model/filter";
@@ -14,6 +15,7 @@ import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { Board } from "./Board";
+import { ColumnMenu, useArrangement } from "./ColumnMenu";
 import { useColumns } from "./columns";
 import { FilterField } from "./FilterField";
 import { Lineage } from "./Lineage";
@@ -73,7 +75,9 @@ const WAYS = [
 function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[] }) {
   const { q = "", scenario, only, as = "table" } = view;
   const [selected, setSelected] = useState<number[]>([]);
-  const columns = useColumns(all);
+  const every = useColumns(all);
+  const { arrangement, arrange } = useArrangement();
+  const columns = useMemo(() => arranged(every, arrangement), [every, arrangement]);
   const filter = useMemo(() => filterOf(q, columns, textOf), [q, columns]);
   const hits = useMemo(() => {
     const passes = filter.test ?? (() => true); // what cannot be read hides nothing
@@ -130,6 +134,7 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
               }
             />
           ) : null}
+          {as === "table" || as === "space" ? <ColumnMenu columns={every} arrangement={arrangement} onArrange={arrange} /> : null}
           <FilterField text={q} wrong={filter.wrong} columns={columns} onText={(next) => onView({ ...view, q: next || undefined })} />
           <CompareButton selected={selected} />
         </Group>
@@ -170,6 +175,7 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
           runs={shown}
           all={all}
           columns={columns}
+          hidden={arrangement.hidden}
           base={all.find(({ run }) => run === view.base)}
           hovered={hovered}
           view={view}

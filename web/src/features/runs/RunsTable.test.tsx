@@ -24,6 +24,7 @@ function Table() {
       runs={RUNS}
       all={RUNS}
       columns={RUN_COLUMNS}
+      hidden={[]}
       base={undefined}
       hovered={undefined}
       view={{}}

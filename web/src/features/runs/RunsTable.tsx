@@ -40,7 +40,9 @@ interface Props {
   /** The runs without the filter. */
   all: readonly ListedRun[];
   columns: readonly Column[];
-  /** The run that the others are tinted against. */
+  /** Ids of columns that somebody does not want to see. */
+  hidden: readonly string[];
+  /** The run that the others are tinted against; it stands first. */
   base: ListedRun | undefined;
   /** The run that is pointed at elsewhere. */
   hovered: number | undefined;
@@ -53,9 +55,9 @@ interface Props {
   onJudge: (run: ListedRun, word: Word) => void;
 }
 
-export function RunsTable({ runs, all, columns, base, hovered, view, selected, onView, onToggle, onJudge, onBase }: Props) {
+export function RunsTable({ runs, all, columns, hidden, base, hovered, view, selected, onView, onToggle, onJudge, onBase }: Props) {
   const sorting = readSort(view.sort);
-  const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0]), [runs, columns, view.sort]);
+  const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0], base), [runs, columns, view.sort, base]);
   const table = useTable({
     features,
     data,
@@ -63,7 +65,7 @@ export function RunsTable({ runs, all, columns, base, hovered, view, selected, o
     getRowId: (run: ListedRun) => String(run.run),
     manualSorting: true,
     enableMultiSort: false,
-    state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false) },
+    state: { sorting, columnVisibility: visibility(columns, all, view.varying !== false, hidden) },
     onSortingChange: (next) =>
       onView({ ...view, sort: writeSort(typeof next === "function" ? next(sorting) : next) }),
   });
@@ -193,11 +195,12 @@ function visibility(
   columns: readonly Column[],
   runs: readonly ListedRun[],
   varyingOnly: boolean,
+  hidden: readonly string[],
 ): Record<string, boolean> {
   return Object.fromEntries(
     columns.map((column) => [
       column.id,
-      ALWAYS.has(column.id) || !varyingOnly || runs.length < 2 || varies(column, runs),
+      !hidden.includes(column.id) && (ALWAYS.has(column.id) || !varyingOnly || runs.length < 2 || varies(column, runs)),
     ]),
   );
 }
@@ -215,9 +218,11 @@ function ordered(
   runs: readonly ListedRun[],
   columns: readonly Column[],
   sort: SortingState[number] | undefined,
+  base: ListedRun | undefined,
 ): ListedRun[] {
   const column = columns.find(({ id }) => id === sort?.id);
-  return column && sort ? sorted(runs, column, sort.desc) : [...runs];
+  const found = column && sort ? sorted(runs, column, sort.desc) : [...runs];
+  return base && found.includes(base) ? [base, ...found.filter((run) => run !== base)] : found;
 }
 
 interface HeaderProps {

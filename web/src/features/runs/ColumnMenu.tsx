@@ -1,0 +1,91 @@
+/** Which columns the table of runs has, and in which order; the browser remembers it. */
+
+import { ActionIcon, Button, Checkbox, Group, Popover, ScrollArea, Text, TextInput } from "@mantine/core";
+import { useLocalStorage } from "@mantine/hooks";
+import { useState } from "react";
+import { type Arrangement, arranged, AS_IT_IS, moved, toggled } from "../../model/arrangement";
+import type { Column } from "../../model/table";
+import { withUnit } from "../../model/units";
+import { Icon } from "../../ui/Icon";
+
+export function useArrangement() {
+  const [arrangement, arrange] = useLocalStorage<Arrangement>({
+    key: "columns of runs",
+    defaultValue: AS_IT_IS,
+    getInitialValueInEffect: false,
+  });
+  return { arrangement, arrange };
+}
+
+interface Props {
+  columns: readonly Column[];
+  arrangement: Arrangement;
+  onArrange: (arrangement: Arrangement) => void;
+}
+
+export function ColumnMenu({ columns, arrangement, onArrange }: Props) {
+  const [query, setQuery] = useState("");
+  const hidden = arrangement.hidden.filter((id) => columns.some((column) => column.id === id)).length;
+  const shown = arranged(columns, arrangement).filter(
+    ({ id, title, name }) => id !== "run" && `${title} ${name}`.toLowerCase().includes(query.toLowerCase()),
+  );
+  return (
+    <Popover width={340} position="bottom-end" withArrow shadow="md" trapFocus>
+      <Popover.Target>
+        <Button size="xs" variant="default" leftSection={<Icon name="columns" size={14} />}>
+          Columns{hidden ? ` (${hidden} hidden)` : ""}
+        </Button>
+      </Popover.Target>
+      <Popover.Dropdown>
+        <Group gap="xs" wrap="nowrap" mb={6}>
+          <TextInput
+            size="xs"
+            flex={1}
+            placeholder="Find a column"
+            aria-label="Find a column"
+            value={query}
+            onChange={(event) => setQuery(event.currentTarget.value)}
+          />
+          <Button size="compact-xs" variant="subtle" onClick={() => onArrange(AS_IT_IS)}>
+            As it was
+          </Button>
+        </Group>
+        <ScrollArea h={320} type="auto">
+          {shown.map((column) => (
+            <Entry key={column.id} column={column} columns={columns} arrangement={arrangement} onArrange={onArrange} />
+          ))}
+          {shown.length === 0 ? (
+            <Text size="sm" c="dimmed">
+              No column is called so.
+            </Text>
+          ) : null}
+        </ScrollArea>
+      </Popover.Dropdown>
+    </Popover>
+  );
+}
+
+function Entry({ column, columns, arrangement, onArrange }: Props & { column: Column }) {
+  const move = (by: number) => onArrange(moved(arrangement, columns, column.id, by));
+  const name = withUnit(column.title, column.unit);
+  return (
+    <Group gap={4} wrap="nowrap" title={column.name}>
+      <Checkbox
+        size="xs"
+        flex={1}
+        label={name}
+        checked={!arrangement.hidden.includes(column.id)}
+        onChange={() => onArrange(toggled(arrangement, column.id))}
+      />
+      <ActionIcon variant="subtle" size={24} aria-label={`${name} first`} title="To the beginning" onClick={() => move(-columns.length)}>
+        <Icon name="fit" size={12} />
+      </ActionIcon>
+      <ActionIcon variant="subtle" size={24} aria-label={`${name} to the left`} onClick={() => move(-1)}>
+        <Icon name="up" size={12} />
+      </ActionIcon>
+      <ActionIcon variant="subtle" size={24} aria-label={`${name} to the right`} onClick={() => move(1)}>
+        <Icon name="down" size={12} />
+      </ActionIcon>
+    </Group>
+  );
+}
