@@ -33,7 +33,7 @@ def page(request, tmp_path_factory, sample):
 
 PLACES = {
     "/studio/{sample}": "param-clock.duration",
-    "/studio/{sample}?run=1": "events",
+    "/studio/{sample}?run=1": "history-row",
     "/scenarios": "new-scenario",
     "/scenarios/{sample}/text": "",
     "/runs": "runs-table",
