@@ -170,7 +170,7 @@ def test_6_several_are_compared(page):
     metrics = page.get_by_test_id("compare-metrics")
     expect(metrics.locator("[data-verdict=better], [data-verdict=worse]").first).to_be_visible()
     few = metrics.locator("tr[data-metric]").count()
-    page.get_by_text("Also what is the same").click()
+    page.get_by_role("switch", name="Also what is the same").check()
     expect(differing).to_contain_text("clock.duration")
     expect(metrics.locator("[data-metric=arrivals]")).to_be_visible()
     assert metrics.locator("tr[data-metric]").count() > few

@@ -117,7 +117,7 @@ function Align({ kinds, chosen, onChoose }: AlignProps) {
       onChange={({ currentTarget: { value } }) => onChoose(value || undefined)}
       data={[
         { value: "", label: "Aligned by time" },
-        ...kinds.map((kind) => ({ value: kind, label: `by the first ${words(kind).toLowerCase()}` })),
+        ...kinds.map((kind) => ({ value: kind, label: `by the first “${words(kind).toLowerCase()}”` })),
       ]}
     />
   );
