@@ -270,7 +270,7 @@ function RunRow({ run, index, columns, base, hovered, selected, onToggle }: RowP
   };
   const onKey = (event: KeyboardEvent) => {
     if (event.key === "Enter" && event.target === event.currentTarget) open();
-    if (/^x$/i.test(event.key) && event.target === event.currentTarget) onToggle();
+    if (event.key === "x" && event.target === event.currentTarget) onToggle();
   };
   return (
     <tr
