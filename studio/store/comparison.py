@@ -140,6 +140,6 @@ def sources(runs: Runs, rows: Sequence[Row]) -> Iterator[dict[str, Any]]:
 def differing(old: dict[str, str], new: dict[str, str]) -> Iterator[tuple[str, str]]:
     """The files of a kind that differ, and how: a unified diff without its head."""
     for file in dict.fromkeys([*old, *new]):
-        diff = unified_diff(*(each.get(file, "").splitlines() for each in (old, new)), lineterm="", n=2)
-        if lines := list(diff)[2:]:
+        before, after = (each.get(file, "").splitlines() for each in (old, new))
+        if lines := list(unified_diff(before, after, lineterm="", n=2))[2:]:
             yield file, "\n".join(lines)
