@@ -24,7 +24,7 @@ from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
 from studio.store import trace
-from studio.store.comparison import beside
+from studio.store.comparison import beside, numbers
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
@@ -273,13 +273,12 @@ def compare(a: int, b: int, kept: KeptRuns) -> answer.Comparison:
 
 @router.get("/beside")
 def side_by_side(
-    runs: Annotated[str, Query(description="numbers of up to eight runs, with commas; the first is what the others are compared with",
-                               pattern=r"^\d{1,18}(,\d{1,18})*$")],
+    runs: Annotated[str, Query(description="numbers of up to eight runs, with commas; the first is what the others are compared with")],
     kept: KeptRuns,
     everything: Annotated[bool, Query(description="also the parameters and the environment that do not differ")] = False,
-) -> answer.SideBySide:  # fmt: skip
+) -> answer.SideBySide:
     """Several runs side by side."""
-    return answer.SideBySide(**beside(kept, [int(each) for each in runs.split(",")], everything=everything))
+    return answer.SideBySide(**beside(kept, numbers(runs), everything=everything))
 
 
 @router.get("/live")

@@ -10,12 +10,13 @@ from difflib import unified_diff
 from typing import Any
 
 from studio.assess import compare as assess
-from studio.errors import Problem, UnknownError
+from studio.errors import Problem, UnknownError, short
 from studio.kind import registry
 from studio.scenario.edit import flatten
 from studio.scenario.schema import Scenario, unit_at
 from studio.store.runs import Row, Runs
 
+DIGITS = 19  # that a number has which SQLite can count to
 MOST = 8  # runs beside each other: more than that nobody tells apart
 BESIDE = {"a": "worse", "b": "better", "same": "same", None: None}  # how the other one is, seen from the first
 
@@ -77,6 +78,15 @@ def beside(runs: Runs, numbers: Sequence[int], *, everything: bool = False) -> d
         "environment": [{"name": name, "values": values} for name, values in lined_up([environment(row) for row in rows], everything)],
         "sources": list(sources(runs, rows)),
     }
+
+
+def numbers(text: str) -> list[int]:
+    """Numbers of runs with commas between them; raises UnknownError for anything else."""
+    found = [each.strip() for each in text.split(",")]
+    if wrong := [each for each in found if not (each.isascii() and each.isdigit() and len(each) < DIGITS)]:
+        problem = Problem("runs", "is no number of a run", short(wrong[0]), f"1 to {MOST} numbers of runs with commas, such as 1,2,5")
+        raise UnknownError("These runs cannot stand beside each other.", [problem])
+    return [int(each) for each in found]
 
 
 def check_numbers(numbers: Sequence[int]) -> None:
