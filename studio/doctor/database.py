@@ -5,13 +5,12 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
-from sqlite_utils import Database
-
 from studio.doctor.finding import Finding, Patient, good, in_one_line, size
 from studio.errors import StoreError
 from studio.store import waiting
 from studio.store.backup import damage
 from studio.store.runs import KILLED, Runs, open_runs
+from studio.store.sqlite import Database
 from studio.store.tables import LAYOUT, checked_layout, connected, open_database, refuse_folder, unusable
 
 EMPTY_SHARE, EMPTY_LEAST = 0.25, 50e6  # of a file, and [B]: less of empty pages is soon used again

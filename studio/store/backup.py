@@ -15,11 +15,10 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from sqlite_utils import Database
-
 from studio.errors import Problem, StoreError, UnknownError
 from studio.store import waiting
 from studio.store.runs import Runs, read_runs
+from studio.store.sqlite import Database
 from studio.store.tables import checked_layout, connected, open_database, patiently, refuse_folder, refusing, reopen_database, unusable
 
 PAGES = 2048  # copied between two words about how far it is

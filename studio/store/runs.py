@@ -20,12 +20,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sqlite_utils import Database
-
 from studio.assess.metric import Measured
 from studio.errors import Problem, StoreError, StudioError, UnknownError, short
 from studio.execution.happening import Happening, Number
 from studio.store import owner, recording, waiting
+from studio.store.sqlite import Database
 from studio.store.tables import open_database, read_database, reopen_database, unusable
 
 if TYPE_CHECKING:

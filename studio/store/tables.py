@@ -22,9 +22,8 @@ from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
 
-from sqlite_utils import Database
-
 from studio.errors import Problem, StoreError
+from studio.store.sqlite import Database
 
 LAYOUT = 7
 PATIENCE = 30.0  # [s] for another process to finish writing

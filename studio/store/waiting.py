@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 import platformdirs
-from sqlite_utils import Database
 
 from studio.errors import Problem, StoreError
+from studio.store.sqlite import Database
 from studio.store.tables import TABLES
 
 Result = dict[str, list[dict[str, Any]]]  # rows by table

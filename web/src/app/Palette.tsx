@@ -12,6 +12,9 @@ import { Icon, type IconName } from "../ui/Icon";
 /** So many of what fits are shown. */
 const SHOWN = 12;
 
+/** Ctrl+K opens the palette from a field too: no tag is left out. */
+const EVERYWHERE: string[] = [];
+
 export const openPalette = spotlight.open;
 
 interface Props {
@@ -24,6 +27,7 @@ export function Palette({ onKeys }: Props) {
     <Spotlight
       actions={useActions(onKeys, opened)}
       shortcut="mod + K"
+      tagsToIgnore={EVERYWHERE}
       limit={SHOWN}
       scrollable
       maxHeight={420}
