@@ -13,17 +13,20 @@ Ours is sign · (recorded - offset), the offset in the recorded unit, brought to
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
-import yaml
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from studio.errors import Problem, ScenarioError, nearest
 from studio.kind.settings import Part, number
 from studio.log import unit
 from studio.log.quantity import QUANTITIES
 from studio.log.signal import Log, Signal, signal
+from studio.scenario import file
+from studio.scenario.text import source as text
+
+SIZE_LIMIT = 1_000_000  # [B] of a mapping file
 
 
 class Source(Part):
@@ -58,26 +61,20 @@ class Known:
 
 
 def read(path: Path) -> Known:
-    """A mapping of a file; raises ScenarioError with everything that is wrong with it."""
-    try:
-        document = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise refused(path.name, [Problem(str(path), f"cannot be read: {error.strerror or error}")]) from None
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise refused(path.name, [Problem(str(path), f"is no YAML: {error}")]) from None
-    return Known(checked(document, path.name), path.parent)
+    """A mapping of a file; raises ScenarioError with everything that is wrong with it, line by line."""
+    return Known(of_text(file.mapping(file.content(path, "mapping", SIZE_LIMIT), path.name, "mapping")), path.parent)
 
 
-def checked(document: Any, where: str) -> Mapping:
-    """A mapping of plain data; raises ScenarioError."""
-    try:
-        made = Mapping.model_validate(document)
-    except ValidationError as error:
-        found = [Problem(f"{where}: {'.'.join(map(str, each['loc']))}", each["msg"]) for each in error.errors()]
-        raise refused(where, found) from None
+def of_text(found: text.Source) -> Mapping:
+    """The mapping that stands in a text; raises ScenarioError."""
+    made = file.model(found, Mapping, "mapping")
     strange = [name for name in made.signals if name not in QUANTITIES]
-    if strange:
-        raise refused(where, [Problem(f"signals.{name}", "is none of our signals", remedy=nearest(name, QUANTITIES)) for name in strange])
+    with file.placed(found, found.where):
+        if strange:
+            problems = [
+                Problem(f"{found.where}: signals.{name}", "is none of our signals", remedy=nearest(name, QUANTITIES)) for name in strange
+            ]
+            raise refused(found.where, problems)
     return made
 
 

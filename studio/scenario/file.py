@@ -9,9 +9,9 @@ from collections.abc import Generator, Iterable
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from studio.errors import ConflictError, Problem, ScenarioError, StudioError, nearest
 from studio.scenario.finding import problems
@@ -22,6 +22,7 @@ from studio.scenario.text.pointer import kind
 from studio.scenario.text.source import Source
 
 SIZE_LIMIT = 4_000_000  # [B] of a scenario file
+Model = TypeVar("Model", bound=BaseModel)
 
 
 def read(path: Path) -> dict[str, Any]:
@@ -122,6 +123,15 @@ def move_new(path: Path, target: Path) -> None:
 def unwritten(path: Path, error: OSError) -> ScenarioError:
     """A refusal of the disk."""
     return ScenarioError(f"{path} cannot be written.", [Problem(str(path), error.strerror or str(error))])
+
+
+def model(found: Source, kind: type[Model], what: str) -> Model:
+    """What a source says as a model of another kind of file; raises ScenarioError with all that is wrong, line by line."""
+    with placed(found, found.where):
+        try:
+            return kind.model_validate(found.value)
+        except ValidationError as error:
+            raise ScenarioError(f"{found.where} is not a valid {what}.", problems(error, found.where, kind)) from None
 
 
 def validate(document: dict[str, Any], where: str) -> Scenario:

@@ -31,6 +31,7 @@ from studio.server import relay, routes
 from studio.server.desk import Desk
 from studio.server.maps import routes as map_routes
 from studio.server.scenarios import routes as scenario_routes
+from studio.server.validation import routes as validation_routes
 
 TITLE = "Cooperative ADAS Studio"
 METHODS = ["GET", "POST", "PUT", "PATCH", "DELETE"]
@@ -51,6 +52,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.include_router(routes.router)
     app.include_router(map_routes.router)
     app.include_router(scenario_routes.router)
+    app.include_router(validation_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.door))
     app.add_route(
         "/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE"], include_in_schema=False
@@ -69,6 +71,7 @@ async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
     await asyncio.to_thread(desk.warmup.close)
     await asyncio.to_thread(desk.lives.close)
     await asyncio.to_thread(desk.map_jobs.close)
+    await asyncio.to_thread(desk.project_jobs.close)
     await asyncio.to_thread(desk.stage.scene.stop)
 
 

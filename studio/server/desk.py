@@ -21,6 +21,8 @@ from studio.server.maps.job import MapJobs
 from studio.server.replay import Replay, replay
 from studio.server.scenarios import Scenarios
 from studio.server.stage import Stage
+from studio.server.validation import Projects
+from studio.server.validation.job import ProjectJobs
 from studio.server.worker import Order, pace_factor
 from studio.store import queue
 from studio.store.runs import Row, Runs, reopen_runs
@@ -44,6 +46,8 @@ class Desk:
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
+        self.projects = Projects(self.scenarios)
+        self.project_jobs = ProjectJobs(self.db, lambda: self.warmup.is_over)
         self._stage: Stage | None = None
         self._lock = threading.Lock()
 
@@ -79,6 +83,7 @@ class Desk:
                 raise ServerError("The samples cannot be copied to a folder of your own.", [problem]) from None
             self.scenarios = self.documents.folder = own
             self.maps = self.map_jobs.maps = Maps(own)
+            self.projects = Projects(own)
 
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """Frames go to the stage."""

@@ -19,8 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import yaml
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from studio.errors import Problem, ScenarioError, nearest
 from studio.kind.settings import Name, number
@@ -28,8 +27,9 @@ from studio.kind.settings import Part as Settings
 from studio.log import mapping, recording
 from studio.log.mapping import Known
 from studio.log.recording import Recording
-from studio.scenario import catalogue, edit
+from studio.scenario import catalogue, edit, file
 from studio.scenario.catalogue import VehicleModel
+from studio.scenario.text.source import Source
 from studio.validation import known
 from studio.validation.criterion import Limits, Override
 from studio.validation.zone import Confidence
@@ -94,7 +94,7 @@ class Project(Settings):
     mapping: str | None = Field(None, title="Mapping", description="left out: logs have our names")
     confidence: Confidence = Field("two-sided", title="Confidence")
     criteria: Limits = Field(default_factory=Limits, title="Limits of the criteria")
-    maneuvers: dict[Name, Trial] = Field(..., min_length=1, title="Maneuvers")
+    maneuvers: dict[Name, Trial] = Field({}, title="Maneuvers", description="none: there is nothing to validate with yet")
     calibration: dict[Name, Calibration] = Field({}, title="Steps of calibration, in their order")
     overrides: list[Override] = Field([], title="What a person judged otherwise")
 
@@ -116,45 +116,39 @@ class Loaded:
 
 
 def read(path: Path) -> Project:
-    """What a project file says; raises ScenarioError with everything that is wrong."""
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise refused(path, [Problem(str(path), f"cannot be read: {error.strerror or error}")]) from None
-    if len(data) > SIZE_LIMIT:
-        raise refused(path, [Problem(str(path), "is too large", f"{len(data)} bytes", f"{SIZE_LIMIT} bytes")])
-    try:
-        made = Project.model_validate(yaml.safe_load(data))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise refused(path, [Problem(str(path), f"is no YAML: {error}")]) from None
-    except ValidationError as error:
-        found = [
-            Problem(".".join(map(str, each["loc"])) or path.name, each["msg"].removeprefix("Value error, ")) for each in error.errors()
-        ]
-        raise refused(path, found) from None
-    names(made, path)
+    """What a project file says; raises ScenarioError with everything that is wrong, line by line."""
+    return of_text(file.mapping(file.content(path, "project", SIZE_LIMIT), path.name, "project"))
+
+
+def of_text(found: Source) -> Project:
+    """The project that stands in a text; raises ScenarioError."""
+    made = file.model(found, Project, "project")
+    with file.placed(found, found.where):
+        names(made, found.where)
     return made
 
 
-def names(made: Project, path: Path) -> None:
+def names(made: Project, where: str) -> None:
     """Every name in a project must exist; raises ScenarioError."""
     kinds = known.maneuvers()
     found = [
-        Problem(f"maneuvers.{name}.kind", "is no maneuver", each.kind, ", ".join(kinds), nearest(each.kind, kinds))
+        Problem(f"{where}: maneuvers.{name}.kind", "is no maneuver", each.kind, ", ".join(kinds), nearest(each.kind, kinds))
         for name, each in made.maneuvers.items()
         if each.kind not in kinds
     ]
     asked = [
-        (f"calibration.{step}.maneuvers[{i}]", name) for step, each in made.calibration.items() for i, name in enumerate(each.maneuvers)
+        (f"{where}: calibration.{step}.maneuvers.{i}", name)
+        for step, each in made.calibration.items()
+        for i, name in enumerate(each.maneuvers)
     ]
-    asked += [(f"overrides[{i}].maneuver", each.maneuver) for i, each in enumerate(made.overrides)]
+    asked += [(f"{where}: overrides.{i}.maneuver", each.maneuver) for i, each in enumerate(made.overrides)]
     found += [
-        Problem(where, "is no maneuver of this project", name, remedy=nearest(name, made.maneuvers))
-        for where, name in asked
+        Problem(place, "is no maneuver of this project", name, remedy=nearest(name, made.maneuvers))
+        for place, name in asked
         if name not in made.maneuvers
     ]
     if found:
-        raise refused(path, found)
+        raise refused(where, found)
 
 
 def load(path: Path) -> Loaded:
@@ -179,7 +173,7 @@ def parameters(made: Project, model: VehicleModel, path: Path) -> None:
         if not (edit.has(full, name) and isinstance(edit.get(full, name), float))
     ]
     if found:
-        raise refused(path, found)
+        raise refused(path.name, found)
 
 
 @dataclass
@@ -243,6 +237,6 @@ def shares(a: Recording, b: Recording) -> bool:
     return one.time.size == other.time.size and one.digest == other.digest
 
 
-def refused(path: Path, problems: list[Problem]) -> ScenarioError:
+def refused(name: str, problems: list[Problem]) -> ScenarioError:
     """What is told of a project that is none."""
-    return ScenarioError(f"{path.name} is not a valid project.", problems)
+    return ScenarioError(f"{name} is not a valid project.", problems)

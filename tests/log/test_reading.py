@@ -8,6 +8,7 @@ from studio.errors import ScenarioError
 from studio.log import mapping, reading, recording
 from studio.log.signal import Log, signal
 from studio.log.unit import factor
+from studio.scenario.text import source
 from tests.conftest import ROOT
 
 TIME = np.arange(0.0, 10.0, 0.02)
@@ -17,8 +18,13 @@ def log(**signals):
     return Log("drive", {name: signal(name, unit, time, values) for name, (unit, time, values) in signals.items()})
 
 
+def told(document):
+    """A mapping as its file has it."""
+    return mapping.of_text(source.read(yaml.safe_dump(document), "mapping"))
+
+
 def taken(document, found):
-    return recording.resampled("drive", mapping.apply(mapping.checked({"signals": document}, "mapping"), found))
+    return recording.resampled("drive", mapping.apply(told({"signals": document}), found))
 
 
 def refusal(document, found):
@@ -114,7 +120,7 @@ def test_content_tells_a_run_whatever_its_file_is_called(tmp_path):
     (tmp_path / "b.csv").write_text(f"t;yaw_rate [rad/s]\n{lines.replace(',', ';')}")
     np.savez(tmp_path / "c.npz", t=TIME, yaw_rate=np.round(np.sin(TIME), 6))
     whole = {"yaw_rate": {"from": "yaw_rate", "unit": "rad/s"}}
-    known = mapping.Known(mapping.checked({"signals": whole}, "m"))
+    known = mapping.Known(told({"signals": whole}))
     a, b, c = (recording.load(tmp_path / name, known) for name in ("a.csv", "b.csv", "c.npz"))
     assert a.digest == b.digest == c.digest != a.between(1.0, 9.0).digest
 
@@ -129,7 +135,7 @@ def test_a_real_drive_of_three_clocks():
     gnss = [f"pose_velocities[{i}]" for i in range(3)]
     at = lambda names, **more: {"speed": {"from": names, "unit": "m/s", **more}}  # noqa: E731
     found = reading.read(path)
-    kinds = {name: recording.resampled(name, mapping.apply(mapping.checked({"signals": each}, "m"), found)) for name, each in {
+    kinds = {name: recording.resampled(name, mapping.apply(told({"signals": each}), found)) for name, each in {
         "bus": at("CAN__speed"), "wheels": at(wheels), "gnss": at(gnss, combine="norm"),
     }.items()}  # fmt: skip
     clock = np.arange(46409.0, 46468.0, 0.01)

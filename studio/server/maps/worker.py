@@ -6,7 +6,6 @@ News go out over a pipe as tuples that begin with a word:
     in    go        the answer to commit: from here on the folder is written, and nobody ends the process any more
 """
 
-import sys
 import tempfile
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -16,8 +15,8 @@ from typing import Any
 
 from studio.errors import MapError, Problem, StudioError
 from studio.road.library import intake
+from studio.server.errand import MOST_MEMORY, ServerGone, confine, tell
 
-MOST_MEMORY = 6 * 2**30  # [B] of address space, for this process and for netconvert each
 SHARES = {"reading": 0.05, "building": 0.3, "placing": 0.7, "writing": 0.95}  # of the work, by the first word of a stage
 
 
@@ -31,31 +30,12 @@ class Order:
     given: dict[str, Any] = field(default_factory=dict)
 
 
-class ServerGone(Exception):
-    """Nobody listens any more."""
-
-
 def main(pipe: Connection, order: Order) -> None:
     """The process: does what it is ordered to do, and tells how it goes."""
     tempfile.tempdir = str(order.scratch)
     confine()
     with suppress(ServerGone):
         tell(pipe, *outcome(pipe, order))
-
-
-def confine() -> None:
-    """Takes no more memory than allowed, and is the first to go when the machine has none left."""
-    if sys.platform == "win32":
-        return  # knows no such limits
-    import resource
-
-    _, most = resource.getrlimit(resource.RLIMIT_AS)
-    limit = MOST_MEMORY if most == resource.RLIM_INFINITY else min(MOST_MEMORY, most)
-    with suppress(OSError, ValueError):
-        resource.setrlimit(resource.RLIMIT_AS, (limit, most))
-    if sys.platform == "linux":
-        with suppress(OSError):
-            Path("/proc/self/oom_score_adj").write_text("1000")
 
 
 def outcome(pipe: Connection, order: Order) -> tuple[Any, ...]:
@@ -85,14 +65,6 @@ def without(error: StudioError, order: Order) -> StudioError:
 
     problems = [replace(each, **{key: cleaned(value) for key, value in vars(each).items()}) for each in error.problems]
     return type(error)(cleaned(error.message), problems)
-
-
-def tell(pipe: Connection, *words: Any) -> None:
-    """Tells the server something; raises ServerGone."""
-    try:
-        pipe.send(words)
-    except OSError:
-        raise ServerGone from None
 
 
 def ask(pipe: Connection) -> None:

@@ -77,6 +77,7 @@ function useActions(onKeys: () => void, opened: boolean): SpotlightActionGroupDa
       action("queue", "Queue", "table", () => navigate({ to: "/queue" }), "g q"),
       action("compare", "Compare", "compare", () => navigate({ to: "/compare", search: {} }), "g c"),
       action("maps", "Maps", "map", () => navigate({ to: "/maps" }), "g m"),
+      action("validate", "Validation", "check", () => navigate({ to: "/validate" }), "g v"),
       action("kinds", "Kinds", "columns", () => navigate({ to: "/kinds" }), "g k"),
       action("keys", "Keyboard shortcuts", "help", onKeys, "?"),
     ]),

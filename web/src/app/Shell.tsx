@@ -40,6 +40,7 @@ export function Shell() {
     "g c": () => navigate({ to: "/compare", search: {} }),
     "g m": () => navigate({ to: "/maps" }),
     "g k": () => navigate({ to: "/kinds" }),
+    "g v": () => navigate({ to: "/validate" }),
   });
   return (
     <div className={classes.shell}>
@@ -125,7 +126,7 @@ function Navigation() {
   const { pathname } = useLocation();
   const broken = useQuery(kinds).data?.broken.length ?? 0;
   const waiting = useQuery(queue).data?.filter(({ status }) => status === "waiting").length ?? 0;
-  const place = (to: "/" | "/scenarios" | "/runs" | "/queue" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
+  const place = (to: "/" | "/scenarios" | "/runs" | "/queue" | "/compare" | "/maps" | "/validate" | "/kinds", testId: string, label: ReactNode) => {
     const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
     return (
       <Link
@@ -148,6 +149,7 @@ function Navigation() {
       {place("/queue", "nav-queue", <>Queue {waiting > 0 ? <WaitingBadge count={waiting} /> : null}</>)}
       {place("/compare", "nav-compare", "Compare")}
       {place("/maps", "nav-maps", "Maps")}
+      {place("/validate", "nav-validate", "Validation")}
       {place("/kinds", "nav-kinds", <>Kinds {broken > 0 ? <BrokenBadge count={broken} /> : null}</>)}
       <a href="/docs/" className={classes.nav} data-testid="nav-docs">
         Docs

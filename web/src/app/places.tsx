@@ -38,8 +38,8 @@ export function NotFound() {
       title="There is no such page"
       action={<Button onClick={() => navigate({ to: "/" })}>Open the studio</Button>}
     >
-      The address leads nowhere. The studio, the scenarios, the runs, the queue, the comparison, the maps and the kinds are in the head of
-      the page.
+      The address leads nowhere. The studio, the scenarios, the runs, the queue, the comparison, the maps, the validation and the kinds
+      are in the head of the page.
     </Empty>
   );
 }

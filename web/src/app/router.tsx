@@ -5,6 +5,7 @@ import { lazy, Suspense } from "react";
 import { ComparePage } from "../features/compare/ComparePage";
 import { numbersOf } from "../model/beside";
 import type { MapView } from "../features/maps/MapPage";
+import type { ProjectView, Tab } from "../features/validation/ProjectPage";
 import type { ScenariosView } from "../features/scenarios/ScenariosPage";
 import { QueuePage } from "../features/runs/QueuePage";
 import { RunPage } from "../features/runs/RunPage";
@@ -132,6 +133,47 @@ const textRoute = createRoute({
   },
 });
 
+const ValidationsPage = lazy(async () => ({
+  default: (await import("../features/validation/ValidationsPage")).ValidationsPage,
+}));
+const ProjectPage = lazy(async () => ({ default: (await import("../features/validation/ProjectPage")).ProjectPage }));
+
+const validateRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/validate",
+  component: () => (
+    <Suspense fallback={<Loading what="the projects" />}>
+      <ValidationsPage />
+    </Suspense>
+  ),
+});
+
+const TABS: readonly string[] = ["logs", "maneuvers", "calibration", "verdicts", "text"] satisfies Tab[];
+
+const projectRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/validate/$project",
+  validateSearch: ({ tab, log, at }: Record<string, unknown>): ProjectView => ({
+    tab: TABS.includes(String(tab)) ? (tab as Tab) : undefined,
+    log: text(log),
+    at: number(at),
+  }),
+  component: function OneProject() {
+    const { project } = projectRoute.useParams();
+    const navigate = useNavigate();
+    return (
+      <Suspense fallback={<Loading what="the project" />}>
+        <ProjectPage
+          key={project}
+          name={project}
+          view={projectRoute.useSearch()}
+          onView={(view) => navigate({ to: "/validate/$project", params: { project }, search: view, replace: true })}
+        />
+      </Suspense>
+    );
+  },
+});
+
 const KindsPage = lazy(async () => ({ default: (await import("../features/kinds/KindsPage")).KindsPage }));
 
 const mapsRoute = createRoute({
@@ -194,6 +236,8 @@ export const router = createRouter({
     mapsRoute,
     mapRoute,
     kindsRoute,
+    validateRoute,
+    projectRoute,
   ]),
 });
 

@@ -1,0 +1,301 @@
+"""The folder of validation projects beside the scenarios: each a folder with its project file, its logs and what came out.
+
+    scenarios/validation/my_car/project.yaml      what `studio validate` takes too
+                               /drive_1.mf4       logs, mappings, DBCs, vehicle files
+                               /results/12.html   report and courses of iteration 12
+
+A project and its files are found by name in listings and in no other way, and what is sent names no file outside of its folder.
+"""
+
+import json
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from threading import Lock
+from typing import Any
+
+from studio.errors import ConflictError, Problem, ScenarioError, StaleError, StudioError, UnknownError, nearest, short
+from studio.log import reading, unit
+from studio.log.quantity import QUANTITIES
+from studio.scenario import catalogue, file
+from studio.scenario.text import document as texts
+from studio.scenario.text import source
+from studio.scenario.text.document import digest
+from studio.scenario.text.patch import Operation
+from studio.scenario.text.source import Source
+from studio.server.scenarios import name as names
+from studio.server.validation import answer
+from studio.store import iteration
+from studio.store.iteration import VALIDATION, Iteration
+from studio.store.runs import Runs
+from studio.validation import known, project
+
+CALLED, PROJECT, RESULTS = "validation", "project.yaml", "results"
+OTHERS: dict[str, answer.FileKind] = {".yaml": "mapping", ".dbc": "dbc", ".tir": "tyre"}
+PATHS = ("log", "mapping", "dbc", "vehicle")  # what names a file in a project, a mapping or a vehicle
+LARGEST = 500 * 2**20  # [B] of a log that is sent
+
+
+@dataclass
+class Projects:
+    """The projects beside the scenarios."""
+
+    scenarios: Path
+    lock: Lock = field(default_factory=Lock)
+
+    @property
+    def folder(self) -> Path:
+        """Where the projects are."""
+        return self.scenarios / CALLED
+
+    def names(self) -> list[str]:
+        """All projects."""
+        found = sorted(self.folder.iterdir()) if self.folder.is_dir() else []
+        return [each.name for each in found if (each / PROJECT).is_file() and not each.name.startswith(".")]
+
+    def find(self, name: str) -> Path:
+        """The folder of a project; raises UnknownError."""
+        known_names = self.names()
+        if name not in known_names:
+            problem = Problem("project", "does not exist", short(name), remedy=nearest(name, known_names))
+            raise UnknownError(f"There is no validation project {short(name)}.", [problem])
+        return self.folder / name
+
+    def file(self, name: str, wanted: str) -> Path:
+        """A file of a project; raises UnknownError."""
+        folder = self.find(name)
+        there = {each.name for each in files(folder)}
+        if wanted not in there:
+            problem = Problem("file", "does not exist", short(wanted), remedy=nearest(wanted, there))
+            raise UnknownError(f"{name} has no file {short(wanted)}.", [problem])
+        return folder / wanted
+
+    # -- what is told ------------------------------------------------------------------------------
+
+    def rows(self, runs: Runs) -> list[answer.ProjectRow]:
+        """All projects for the list."""
+        return [self.row(each, runs) for each in self.names()]
+
+    def row(self, name: str, runs: Runs) -> answer.ProjectRow:
+        """A project; one that cannot be read says why."""
+        empty = {"name": name, "title": name, "vehicle": "", "maneuvers": 0, "runs": 0, "latest": None, "valid": None}
+        try:
+            found = project.read(self.folder / name / PROJECT)
+        except StudioError as error:
+            return answer.ProjectRow(**empty, problem=str(error))
+        history = iteration.history(runs, found.title)
+        judged = [each for each in history if not each.is_calibration]
+        return answer.ProjectRow(
+            name=name, title=found.title, vehicle=found.vehicle, maneuvers=len(found.maneuvers),
+            runs=sum(len(each.calibration) + len(each.validation) for each in found.maneuvers.values()),
+            latest=history[-1].iteration if history else None, valid=judged[-1].result["valid"] if judged else None, problem=None,
+        )  # fmt: skip
+
+    def detail(self, name: str, runs: Runs) -> answer.ProjectDetail:
+        """A project with everything about it; raises UnknownError."""
+        folder = self.find(name)
+        text = self.text(name)
+        try:
+            found, problems = project.of_text(source.read(text, PROJECT)), []
+            history = iteration.history(runs, found.title)
+        except StudioError as error:
+            found, problems, history = None, error.as_json()["problems"], []
+        return answer.ProjectDetail(
+            name=name, text=text, digest=digest(text), document=found.model_dump(mode="json") if found else None, problems=problems,
+            files=files(folder), iterations=[row_of(each, folder) for each in reversed(history)],
+        )  # fmt: skip
+
+    def text(self, name: str) -> str:
+        """The text of a project file; raises UnknownError, or ScenarioError when it is no text."""
+        return source.decoded(file.content(self.find(name) / PROJECT, "project", project.SIZE_LIMIT), PROJECT)
+
+    # -- what is done ------------------------------------------------------------------------------
+
+    def add(self, new: answer.NewProject) -> str:
+        """A new project without runs; its name. Raises ConflictError or ScenarioError."""
+        name = names.checked(new.name)
+        if new.vehicle not in catalogue.vehicle_names():
+            problem = Problem(
+                "vehicle", "is not in the catalogue", short(new.vehicle), remedy=nearest(new.vehicle, catalogue.vehicle_names())
+            )
+            raise ScenarioError("There is no such vehicle.", [problem])
+        self.make(name)
+        file.write_new(self.folder / name / PROJECT, begun(new.title or name, new.vehicle))
+        return name
+
+    def make(self, name: str) -> Path:
+        """An empty folder for a project; raises ConflictError when its name is taken, or ScenarioError."""
+        target = self.folder / name
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            check_free(name, [each.name for each in self.folder.iterdir()])
+            target.mkdir()
+        except OSError as error:
+            raise file.unwritten(target, error) from None
+        return target
+
+    def put(self, name: str, text: str, expected: str | None) -> str:
+        """Puts a text in the place of a project file if it is a project, and what stands there is expected; its digest.
+
+        Raises UnknownError, StaleError, or ScenarioError with the lines; then nothing was written.
+        """
+        with self.lock:
+            before = self.expected(name, expected)
+            self.write(name, before, checked(text, PROJECT))
+        return digest(text)
+
+    def patch(self, name: str, patch: list[Operation], expected: str | None) -> tuple[str, list[Operation]]:
+        """Changes a project file by a JSON patch that leaves it a project; its digest, and the inverse. Raises as `put` does."""
+        with self.lock:
+            before = self.expected(name, expected)
+            after, inverse = texts.applied(file.checked(source.read(before, PROJECT), "project"), patch)
+            self.write(name, before, after)
+        return digest(after.text), inverse
+
+    def expected(self, name: str, expected: str | None) -> str:
+        """The text that stands there, if it is the expected one."""
+        before = self.text(name)
+        if expected is not None and expected != digest(before):
+            problem = Problem(PROJECT, "is not as it was when you read it", remedy="read it again, then change it")
+            raise StaleError(f"The project {name} has changed meanwhile.", [problem])
+        return before
+
+    def write(self, name: str, before: str, after: Source) -> None:
+        """Writes a project that is one, and whose files are its own or were named before."""
+        project.of_text(after)
+        check_inside(after.value, named(before))
+        file.write(self.folder / name / PROJECT, after.text)
+
+    def delete_file(self, name: str, wanted: str) -> None:
+        """Removes a file; raises UnknownError, or ConflictError for the project itself and for what it names."""
+        path = self.file(name, wanted)
+        if wanted == PROJECT or wanted in named(self.text(name)):
+            problem = Problem("file", "is named by the project", wanted, remedy="take it out of the project first")
+            raise ConflictError(f"{wanted} is in use.", [problem])
+        try:
+            path.unlink()
+        except OSError as error:
+            raise file.unwritten(path, error) from None
+
+
+# -- parts -------------------------------------------------------------------------------------------
+
+
+def check_free(name: str, taken: list[str]) -> None:
+    """Raises ConflictError for a name that is taken; on many systems capitals make no difference."""
+    if (free := names.free(name, taken)) != name:
+        problem = Problem("name", "is taken", short(name), remedy=f"choose another name, such as {free}")
+        raise ConflictError(f"There is a validation project {short(name)} already.", [problem])
+
+
+def begun(title: str, vehicle: str) -> str:
+    """The text of a project that has no runs yet: what is missing is told when it is opened."""
+    return f"title: {json.dumps(title, ensure_ascii=False)}\nvehicle: {vehicle}\n# confidence: one-sided\nmaneuvers: {{}}\n"
+
+
+def checked(text: str, where: str) -> Source:
+    """A text as a mapping; raises ScenarioError."""
+    return file.checked(source.read(text, where), "project")
+
+
+def files(folder: Path) -> list[answer.ProjectFile]:
+    """The files in a project's folder."""
+    found = [each for each in sorted(folder.iterdir()) if each.is_file() and not each.name.startswith(".")]
+    return [answer.ProjectFile(name=each.name, bytes=each.stat().st_size, kind=kind_of(each)) for each in found]
+
+
+def kind_of(path: Path) -> answer.FileKind:
+    """What a file is, by its name; of a YAML file by what it says."""
+    if path.name == PROJECT:
+        return "project"
+    if reading.suffix(path) in reading.known():
+        return "log"
+    if path.suffix == ".yaml":
+        return "mapping" if b"signals:" in path.read_bytes()[:100_000] else "vehicle"
+    return OTHERS.get(path.suffix.lower(), "other")
+
+
+def endings() -> list[str]:
+    """Of files that are taken."""
+    logs = [each for each in reading.known() if not each.startswith("/")]
+    return [*logs, *(f"{each}{reading.PACKED}" for each in logs if each != ".npz"), *OTHERS]
+
+
+def kinds() -> answer.ValidationKinds:
+    """What a project may name."""
+    maneuvers = [
+        answer.ManeuverKind(name=name, title=each.TITLE, fed=list(each.FED), judged=list(each.JUDGED))
+        for name, each in known.maneuvers().items()
+    ]
+    signals = [
+        answer.SignalKind(name=name, unit=each.unit, meaning=each.meaning, units=list(unit.FACTORS[each.unit]))
+        for name, each in QUANTITIES.items()
+    ]
+    vehicles = [answer.CarName(name=each, title=catalogue.find_vehicle(each).values.title) for each in catalogue.vehicle_names()]
+    return answer.ValidationKinds(maneuvers=maneuvers, signals=signals, vehicles=vehicles, endings=endings())
+
+
+def row_of(each: Iteration, folder: Path) -> answer.ProjectIteration:
+    """An iteration for the list."""
+    return answer.ProjectIteration(
+        iteration=each.iteration, step=each.step, parent=each.parent, created=each.created, valid=each.result.get("valid"),
+        told=told(each), has_report=report_of(folder, each.iteration).is_file(),
+    )  # fmt: skip
+
+
+def told(each: Iteration) -> str:
+    """What came out, in a line."""
+    if each.step == VALIDATION:
+        verdicts = [verdict["verdict"] for verdict in each.result["verdicts"]]
+        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met"
+    return ", ".join(f"{found['path']} {found['value']:.5g} ± {2 * found['spread']:.2g}" for found in each.result["estimates"])
+
+
+def report_of(folder: Path, number: int) -> Path:
+    """The report of an iteration."""
+    return folder / RESULTS / f"{number}.html"
+
+
+def courses_of(folder: Path, number: int) -> Path:
+    """The courses of an iteration."""
+    return folder / RESULTS / f"{number}.json"
+
+
+# -- what is named -----------------------------------------------------------------------------------
+
+
+def named(text: str) -> set[str]:
+    """The files that a text names; none of one that cannot be read."""
+    try:
+        return set(dict(paths(source.read(text, PROJECT).value)).values())
+    except ScenarioError:
+        return set()
+
+
+def paths(value: Any, where: str = "") -> Iterator[tuple[str, str]]:
+    """Whatever may be a path to a file, and where it stands: fields that name files, and tyres."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, each in items:
+        place = f"{where}.{key}" if where else str(key)
+        if isinstance(each, str):
+            if key in PATHS or each.lower().endswith(".tir"):
+                yield place, each
+        else:
+            yield from paths(each, place)
+
+
+def check_inside(value: Any, before: Collection[str] = ()) -> None:
+    """Raises ScenarioError where a document that was sent names a file outside of its folder that it did not name before."""
+    found = [
+        Problem(place, "leads out of the project's folder", short(each), remedy="send the file, and name it without a folder")
+        for place, each in paths(value)
+        if each not in before and leads_out(each)
+    ]
+    if found:
+        raise ScenarioError("A project uses files of its own folder.", found)
+
+
+def leads_out(text: str) -> bool:
+    """Whether a path leaves the folder that it starts from, on any system."""
+    path = PurePosixPath(text.replace("\\", "/"))
+    return path.is_absolute() or ".." in path.parts or bool(PureWindowsPath(text).drive)

@@ -1,0 +1,144 @@
+/** Which recorded signal is which of ours, in what unit, with what sign, offset and delay; kept as mapping.yaml of the project. */
+
+import { Button, NativeSelect, Text } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
+import { useState } from "react";
+import { usePatch, usePutFile, validationKinds } from "../../api/validations";
+import { words } from "../../model/units";
+import { guesses, type Kinds, mappingText, type Project, type Said, type SourceEntry } from "../../model/validation";
+import { NumberEntry } from "../../ui/NumberEntry";
+import { notifyError } from "../../ui/notify";
+import { Loading } from "../../ui/State";
+import classes from "./Validation.module.css";
+
+const FILE = "mapping.yaml";
+
+interface Props {
+  project: Project;
+  said: Said | null;
+  recorded: readonly { name: string; unit: string }[];
+}
+
+export function MappingForm(props: Props) {
+  const kinds = useQuery(validationKinds).data;
+  return kinds ? <Form {...props} kinds={kinds} /> : <Loading what="our signals" />;
+}
+
+function Form({ project, said, recorded, kinds }: Props & { kinds: Kinds }) {
+  const [sources, setSources] = useState(() => guesses(recorded, kinds));
+  const put = usePutFile(project.name);
+  const patch = usePatch(project.name, project.digest);
+  const target = said?.mapping ?? FILE;
+  const exists = project.files.some(({ name }) => name === target);
+  const save = () =>
+    put.mutate(
+      { name: target, content: mappingText(sources), replace: true },
+      {
+        onError: notifyError,
+        onSuccess: () => {
+          if (said && said.mapping === null) patch.mutate([{ op: "add", path: "/mapping", value: target }], { onError: notifyError });
+        },
+      },
+    );
+  const set = (name: string, change: Partial<SourceEntry>) =>
+    setSources({ ...sources, [name]: { ...(sources[name] as SourceEntry), ...change } });
+  const taken = Object.values(sources).filter(({ from }) => from !== "").length;
+  return (
+    <div className={classes.stack}>
+      <div className={classes.scroll}>
+        <table className={classes.table} data-testid="mapping">
+          <thead>
+            <tr>
+              <th scope="col">Ours</th>
+              <th scope="col">Recorded signal</th>
+              <th scope="col">Recorded in</th>
+              <th scope="col">Sign</th>
+              <th scope="col">At rest it shows</th>
+              <th scope="col">Comes late by</th>
+            </tr>
+          </thead>
+          <tbody>
+            {kinds.signals.map(({ name, unit, units, meaning }) => {
+              const source = sources[name];
+              if (!source) return null;
+              const off = source.from === "";
+              return (
+                <tr key={name}>
+                  <th scope="row" title={`${meaning} [${unit}]`}>
+                    {words(name)}
+                  </th>
+                  <td>
+                    <NativeSelect
+                      size="xs"
+                      aria-label={`${words(name)} comes from`}
+                      value={source.from}
+                      data={[{ value: "", label: "–" }, ...recorded.map((each) => ({ value: each.name, label: each.name }))]}
+                      onChange={({ currentTarget: { value } }) => set(name, { from: value })}
+                    />
+                  </td>
+                  <td>
+                    <NativeSelect
+                      size="xs"
+                      aria-label={`${words(name)} is recorded in`}
+                      disabled={off}
+                      value={source.unit}
+                      data={units}
+                      onChange={({ currentTarget: { value } }) => set(name, { unit: value })}
+                    />
+                  </td>
+                  <td>
+                    <NativeSelect
+                      size="xs"
+                      aria-label={`Sign of ${words(name)}`}
+                      disabled={off}
+                      value={String(source.sign)}
+                      data={[
+                        { value: "1", label: "as ours" },
+                        { value: "-1", label: "turned round" },
+                      ]}
+                      onChange={({ currentTarget: { value } }) => set(name, { sign: value === "-1" ? -1 : 1 })}
+                    />
+                  </td>
+                  <td>
+                    <NumberEntry
+                      size="xs"
+                      w={110}
+                      aria-label={`Offset of ${words(name)}`}
+                      disabled={off}
+                      value={source.offset}
+                      unit={source.unit === "1" ? "" : source.unit}
+                      onNumber={(offset) => set(name, { offset })}
+                      onEmpty={() => set(name, { offset: 0 })}
+                    />
+                  </td>
+                  <td>
+                    <NumberEntry
+                      size="xs"
+                      w={100}
+                      aria-label={`Delay of ${words(name)}`}
+                      disabled={off}
+                      value={source.delay}
+                      unit="s"
+                      onNumber={(delay) => set(name, { delay })}
+                      onEmpty={() => set(name, { delay: 0 })}
+                    />
+                  </td>
+                </tr>
+              );
+            })}
+          </tbody>
+        </table>
+      </div>
+      <div className={classes.row}>
+        <Button size="xs" disabled={taken === 0} loading={put.isPending || patch.isPending} onClick={save}>
+          Save as {target}
+        </Button>
+        <Text size="xs" c="dimmed">
+          {taken === 0
+            ? "Choose at least one signal."
+            : `${taken} signals are taken; names were guessed, so look at each.${exists ? ` ${target} is replaced.` : ""}`}
+        </Text>
+      </div>
+    </div>
+  );
+}

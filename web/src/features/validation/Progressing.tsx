@@ -1,0 +1,35 @@
+/** A job on its way: what is being done, how far it is, and the way to end it; or why it came to nothing. */
+
+import { Button, Progress, Text } from "@mantine/core";
+import { useCancelJob } from "../../api/validations";
+import type { ProjectJob } from "../../model/validation";
+import { formatDuration } from "../../model/units";
+import { notifyError } from "../../ui/notify";
+import { Failure } from "../../ui/State";
+import classes from "./Validation.module.css";
+
+export function Progressing({ job, onDismiss }: { job: ProjectJob; onDismiss?: () => void }) {
+  const cancel = useCancelJob();
+  if (job.status === "failed" && job.problem) {
+    const error = Object.assign(new Error(job.problem.message), { problems: job.problem.problems });
+    return <Failure error={error} {...(onDismiss ? { onDismiss } : {})} />;
+  }
+  if (job.status !== "running") return null;
+  return (
+    <div className={classes.job} role="status" data-testid="validation-job">
+      <Text size="sm">
+        {job.stage} … {formatDuration(job.seconds)}
+      </Text>
+      <Progress
+        flex={1}
+        size="sm"
+        animated={job.share === null}
+        value={100 * (job.share ?? 1)}
+        aria-label={`How far: ${job.stage}`}
+      />
+      <Button size="compact-xs" variant="default" onClick={() => cancel.mutate(job.id, { onError: notifyError })}>
+        Cancel
+      </Button>
+    </div>
+  );
+}

@@ -1,0 +1,61 @@
+import { expect, test } from "vitest";
+import { addParameter, addRun, guesses, type Kinds, mappingText, removeRun, type Run, type Said } from "./validation";
+
+const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
+const said = (more: Partial<Said> = {}): Said => ({
+  title: "Mine",
+  vehicle: "bmw_320i",
+  mapping: null,
+  confidence: "two-sided",
+  maneuvers: {},
+  calibration: {},
+  overrides: [],
+  ...more,
+});
+const kinds = {
+  signals: [
+    { name: "yaw_rate", unit: "rad/s", meaning: "", units: ["rad/s", "deg/s"] },
+    { name: "speed", unit: "m/s", meaning: "", units: ["m/s", "km/h"] },
+  ],
+} as unknown as Kinds;
+
+test("the first run of a kind makes its maneuver, the next one joins it", () => {
+  const cut = { log: "day.csv", begin: 61.504, end: 68 };
+  expect(addRun(said(), "j_turn", "validation", cut)).toEqual([
+    { op: "add", path: "/maneuvers/j_turn", value: { kind: "j_turn", validation: [{ log: "day.csv", begin: 61.5, end: 68 }] } },
+  ]);
+  const having = said({ maneuvers: { turn: { kind: "j_turn", calibration: [], validation: [run("a.csv")] } } });
+  expect(addRun(having, "j_turn", "validation", cut)[0]?.path).toBe("/maneuvers/turn/validation/-");
+  expect(addRun(having, "j_turn", "calibration", cut)[0]).toEqual({
+    op: "add",
+    path: "/maneuvers/turn/calibration",
+    value: [{ log: "day.csv", begin: 61.5, end: 68 }],
+  });
+});
+
+test("the last run takes its maneuver along", () => {
+  const one = said({ maneuvers: { turn: { kind: "j_turn", calibration: [], validation: [run("a.csv")] } } });
+  expect(removeRun(one, "turn", "validation", 0)).toEqual([{ op: "remove", path: "/maneuvers/turn" }]);
+  const two = said({ maneuvers: { turn: { kind: "j_turn", calibration: [run("b.csv")], validation: [run("a.csv")] } } });
+  expect(removeRun(two, "turn", "validation", 0)).toEqual([{ op: "remove", path: "/maneuvers/turn/validation" }]);
+});
+
+test("a parameter makes its step where there is none", () => {
+  expect(addParameter(said(), "lateral", "body.mass", 1000, 2000)[0]?.path).toBe("/calibration");
+  const having = said({ calibration: { lateral: { parameters: {}, maneuvers: [] } } });
+  expect(addParameter(having, "lateral", "body.mass", 1, 2)[0]?.path).toBe("/calibration/lateral/parameters/body.mass");
+});
+
+test("a mapping is guessed by name, with the unit of the log where it is one", () => {
+  const found = guesses([{ name: "Gierrate", unit: "deg/s" }, { name: "VehicleSpeed", unit: "mph?" }], kinds);
+  expect(found.yaw_rate).toMatchObject({ from: "Gierrate", unit: "deg/s" });
+  expect(found.speed).toMatchObject({ from: "VehicleSpeed", unit: "m/s" });
+});
+
+test("a mapping is written without what goes without saying", () => {
+  const text = mappingText({
+    yaw_rate: { from: "Gierrate: links", unit: "deg/s", sign: -1, offset: 0.4, delay: 0 },
+    speed: { from: "", unit: "m/s", sign: 1, offset: 0, delay: 0 },
+  });
+  expect(text).toBe('signals:\n  yaw_rate: {from: "Gierrate: links", unit: "deg/s", sign: -1, offset: 0.4}\n');
+});

@@ -1,0 +1,166 @@
+/** Validation projects as the page shows them: what stands in them, the patches that change them, and courses as columns. */
+
+import type { Columns } from "../charts/TimeChart";
+import type { Server } from "./run";
+
+export type ProjectRow = Server["ProjectRow"];
+export type Project = Server["ProjectDetail"];
+export type ProjectJob = Server["ProjectJob"];
+export type Looked = Server["Looked"];
+export type Cut = Server["Cut"];
+export type Course = Server["Course"];
+export type Kinds = Server["ValidationKinds"];
+export type Operation = Pick<Server["Operation"], "op" | "path"> & { value?: unknown };
+
+/** A run of a project: its log, and from when to when in it [s]. */
+export interface Run {
+  log: string;
+  begin: number;
+  end: number | null;
+  mapping: string | null;
+}
+
+export interface Trial {
+  kind: string;
+  calibration: Run[];
+  validation: Run[];
+}
+
+export interface Wanted {
+  low: number;
+  high: number;
+  prior: number | null;
+  spread: number | null;
+}
+
+/** What a project says, as far as the page shows it in forms. */
+export interface Said {
+  title: string;
+  vehicle: string;
+  mapping: string | null;
+  confidence: string;
+  maneuvers: Record<string, Trial>;
+  calibration: Record<string, { parameters: Record<string, Wanted>; maneuvers: string[] }>;
+  overrides: { maneuver: string; criterion: string; reason: string }[];
+}
+
+export const SETS = ["calibration", "validation"] as const;
+export type RunSet = (typeof SETS)[number];
+
+/** Part of a JSON pointer. */
+const part = (text: string): string => text.replaceAll("~", "~0").replaceAll("/", "~1");
+
+/** A run as it is written: without what goes without saying. */
+const written = ({ log, begin, end }: Pick<Run, "log" | "begin" | "end">) => ({
+  log,
+  ...(begin > 0 ? { begin: round(begin) } : {}),
+  ...(end === null ? {} : { end: round(end) }),
+});
+
+const round = (seconds: number): number => Math.round(seconds * 100) / 100;
+
+/** The patch that puts a run into a maneuver of its kind, which is made when there is none. */
+export function addRun(said: Said, kind: string, set: RunSet, run: Pick<Run, "log" | "begin" | "end">): Operation[] {
+  const [name, trial] = Object.entries(said.maneuvers).find(([, each]) => each.kind === kind) ?? [];
+  if (name === undefined || trial === undefined) return [{ op: "add", path: `/maneuvers/${part(kind)}`, value: { kind, [set]: [written(run)] } }];
+  const place = `/maneuvers/${part(name)}/${set}`;
+  return [trial[set].length > 0 ? { op: "add", path: `${place}/-`, value: written(run) } : { op: "add", path: place, value: [written(run)] }];
+}
+
+/** The patch that takes a run out; of a maneuver without another run, the maneuver. */
+export function removeRun(said: Said, maneuver: string, set: RunSet, place: number): Operation[] {
+  const trial = said.maneuvers[maneuver];
+  if (!trial) return [];
+  if (trial.calibration.length + trial.validation.length === 1) return [{ op: "remove", path: `/maneuvers/${part(maneuver)}` }];
+  const list = `/maneuvers/${part(maneuver)}/${set}`;
+  return [{ op: "remove", path: trial[set].length === 1 ? list : `${list}/${place}` }];
+}
+
+/** The patch that gives a run other times. */
+export const cutRun = (maneuver: string, set: RunSet, place: number, run: Run): Operation[] => [
+  {
+    op: "replace",
+    path: `/maneuvers/${part(maneuver)}/${set}/${place}`,
+    value: { ...written(run), ...(run.mapping ? { mapping: run.mapping } : {}) },
+  },
+];
+
+/** The patch by which a person judges a criterion otherwise. */
+export const override = (said: Said, maneuver: string, criterion: string, reason: string): Operation[] => [
+  said.overrides.length > 0
+    ? { op: "add", path: "/overrides/-", value: { maneuver, criterion, reason } }
+    : { op: "add", path: "/overrides", value: [{ maneuver, criterion, reason }] },
+];
+
+/** The patch that adds a parameter to a step of calibration, which is made when there is none. */
+export function addParameter(said: Said, step: string, path: string, low: number, high: number): Operation[] {
+  const value = { low, high };
+  if (!said.calibration[step]) {
+    const made = { [step]: { parameters: { [path]: value } } };
+    return Object.keys(said.calibration).length === 0
+      ? [{ op: "add", path: "/calibration", value: made }]
+      : [{ op: "add", path: `/calibration/${part(step)}`, value: made[step] }];
+  }
+  return [{ op: "add", path: `/calibration/${part(step)}/parameters/${part(path)}`, value }];
+}
+
+// -- mapping ------------------------------------------------------------------------------------------
+
+/** Where one of our signals comes from; not taken without `from`. */
+export interface SourceEntry {
+  from: string;
+  unit: string;
+  sign: 1 | -1;
+  offset: number;
+  delay: number;
+}
+
+/** The text of a mapping file. */
+export function mappingText(sources: Readonly<Record<string, SourceEntry>>): string {
+  const lines = Object.entries(sources)
+    .filter(([, { from }]) => from !== "")
+    .map(([name, { from, unit, sign, offset, delay }]) => {
+      const more = [
+        `from: ${JSON.stringify(from)}`,
+        unit ? `unit: ${JSON.stringify(unit)}` : "",
+        sign === -1 ? "sign: -1" : "",
+        offset ? `offset: ${offset}` : "",
+        delay ? `delay: ${delay}` : "",
+      ];
+      return `  ${name}: {${more.filter(Boolean).join(", ")}}`;
+    });
+  return `signals:\n${lines.join("\n")}\n`;
+}
+
+/** A first guess: the recorded signal whose name says most of ours. */
+export function guesses(recorded: readonly { name: string; unit: string }[], kinds: Kinds): Record<string, SourceEntry> {
+  return Object.fromEntries(kinds.signals.map(({ name, units }) => [name, guess(name, units, recorded)]));
+}
+
+const ALIKE: Readonly<Record<string, RegExp>> = {
+  speed: /^(v|vx|vx_mps|speed|velocity|vehicle_?speed|geschwindigkeit)$/i,
+  yaw_rate: /yaw_?(rate|velocity|vel)|gierrate|psi_?dot/i,
+  lateral_acceleration: /^(ay|acc_?y|a_y)(_|$)|lat(eral)?_?acc|querbeschl/i,
+  acceleration: /^(ax|acc_?x|a_x)(_|$)|long(itudinal)?_?acc|l(ä|ae)ngsbeschl/i,
+  steering_wheel_angle: /steer(ing)?_?wheel|lenkrad|swa/i,
+  road_wheel_angle: /road_?wheel|^delta|wheel_?angle/i,
+  throttle: /throttle|accelerator|pedal/i,
+  brake: /^brake(_pedal)?$/i,
+  gear: /gear|gang/i,
+  engine_speed: /engine_?speed|rpm|motordrehzahl/i,
+};
+
+function guess(ours: string, units: readonly string[], recorded: readonly { name: string; unit: string }[]): SourceEntry {
+  const found = recorded.find(({ name }) => name === ours) ?? recorded.find(({ name }) => ALIKE[ours]?.test(name));
+  const unit = found && units.includes(found.unit) ? found.unit : (units[0] ?? "");
+  return { from: found?.name ?? "", unit, sign: 1, offset: 0, delay: 0 };
+}
+
+// -- courses ------------------------------------------------------------------------------------------
+
+/** The columns of a course in the order in which they are drawn: abscissa, bounds, and lines. */
+export const columnsOf = ({ at, low, high, theirs, ours, averaged }: Course): Columns =>
+  [at as number[], high, low, theirs, ours, ...(averaged ? [averaged] : [])] as Columns;
+
+/** Whether a job goes on. */
+export const goesOn = (job: Pick<ProjectJob, "status"> | undefined): boolean => job?.status === "running";
