@@ -44,6 +44,7 @@ PLACES = {
     "/queue": "",
     "/compare?runs=1,2": "compare-metrics",
     "/maps": "",
+    "/validate": "",
     "/kinds": "",
 }
 

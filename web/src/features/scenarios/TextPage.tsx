@@ -1,6 +1,6 @@
 /** A scenario as text: edited with its problems at their lines, saved, and kept apart from what others have done meanwhile. */
 
-import { Alert, Badge, Button, Group, Modal, Text, Title } from "@mantine/core";
+import { Alert, Badge, Button, Group, Text, Title } from "@mantine/core";
 import { useDebouncedValue } from "@mantine/hooks";
 import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { Link, useBlocker, useNavigate } from "@tanstack/react-router";
@@ -23,6 +23,7 @@ import { Icon } from "../../ui/Icon";
 import { NameDialog } from "../../ui/NameDialog";
 import { notify, notifyError } from "../../ui/notify";
 import { ProblemList, ProblemText } from "../../ui/Problems";
+import { LeaveQuestion } from "../../ui/LeaveQuestion";
 import { Failure, Loading } from "../../ui/State";
 import { useSaveKey } from "../../ui/shortcut";
 import { goTo, mark, openEditor, replaceAll } from "./editor";
@@ -311,34 +312,5 @@ function Refused({ id, saving, onTheirs, onAnother }: RefusedProps) {
         </Group>
       ) : null}
     </Alert>
-  );
-}
-
-interface LeaveProps {
-  leave: { status: string; proceed?: (() => void) | undefined; reset?: (() => void) | undefined };
-  pending: boolean;
-  onSave: () => void;
-  canSave: boolean;
-}
-
-/** Unsaved text is told before it is left. */
-function LeaveQuestion({ leave: { status, proceed, reset }, pending, onSave, canSave }: LeaveProps) {
-  return (
-    <Modal opened={status === "blocked"} onClose={() => reset?.()} title="Leave without saving?" size="sm">
-      <Text size="sm">What you have changed in this text is not saved.</Text>
-      <Group justify="flex-end" gap="xs" mt="md">
-        <Button size="xs" variant="default" onClick={() => reset?.()} data-autofocus>
-          Stay
-        </Button>
-        <Button size="xs" variant="default" onClick={() => proceed?.()}>
-          Leave, lose it
-        </Button>
-        {canSave ? (
-          <Button size="xs" loading={pending} onClick={onSave}>
-            Save, then leave
-          </Button>
-        ) : null}
-      </Group>
-    </Modal>
   );
 }

@@ -53,6 +53,10 @@ export function ProjectPage({ name, view, onView }: Props) {
 function Desk({ project, view, onView }: { project: Project; view: ProjectView; onView: (view: ProjectView) => void }) {
   const tab = view.tab ?? (project.document && hasRuns(project) ? "maneuvers" : "logs");
   const said = project.document as unknown as Said | null;
+  // Once it is open the text stays, for what is written there is not saved yet.
+  const [opened, setOpened] = useState(false);
+  const writing = opened || tab === "text";
+  useEffect(() => setOpened(writing), [writing]);
   const work = useWork(project.name, (job) => {
     const made = job.kept?.iterations.at(-1);
     if (made !== undefined) onView({ tab: job.task === "validate" ? "verdicts" : "calibration", at: made });
@@ -84,7 +88,7 @@ function Desk({ project, view, onView }: { project: Project; view: ProjectView; 
           <ProblemList problems={project.problems} />
         </section>
       ) : null}
-      <Tabs value={tab} onChange={(next) => onView({ ...view, tab: (next as Tab) ?? undefined })} keepMounted={false}>
+      <Tabs value={tab} onChange={(next) => onView({ ...view, tab: (next as Tab) ?? undefined })} keepMounted={false} keepMountedMode="display-none">
         <Tabs.List aria-label="Parts of the project">
           {TABS.map((each) => (
             <Tabs.Tab key={each} value={each}>
@@ -119,10 +123,12 @@ function Desk({ project, view, onView }: { project: Project; view: ProjectView; 
             <Unreadable />
           )}
         </Tabs.Panel>
-        <Tabs.Panel value="text" pt="sm">
-          <Suspense fallback={<Loading what="the text" />}>
-            <ProjectText project={project} />
-          </Suspense>
+        <Tabs.Panel value="text" pt="sm" keepMounted>
+          {writing ? (
+            <Suspense fallback={<Loading what="the text" />}>
+              <ProjectText project={project} />
+            </Suspense>
+          ) : null}
         </Tabs.Panel>
       </Tabs>
       <Iterations

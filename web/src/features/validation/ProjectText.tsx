@@ -2,10 +2,12 @@
 
 import { Button, Text } from "@mantine/core";
 import type { EditorView } from "@codemirror/view";
+import { useBlocker } from "@tanstack/react-router";
 import { useEffect, useRef, useState } from "react";
 import { usePutText } from "../../api/validations";
 import { Refusal } from "../../api/client";
 import type { Project } from "../../model/validation";
+import { LeaveQuestion } from "../../ui/LeaveQuestion";
 import { ProblemList } from "../../ui/Problems";
 import { useSaveKey } from "../../ui/shortcut";
 import { mark, openEditor, replaceAll } from "../scenarios/editor";
@@ -42,18 +44,30 @@ export function ProjectText({ project }: { project: Project }) {
     });
     if (editor.current) mark(editor.current, found);
   }, [put.error]);
-  const save = () => {
+  const save = (then?: () => void, otherwise?: () => void) => {
     if (!dirty || put.isPending) return;
     put.mutate(
       { text: now, digest: read.digest },
-      { onSuccess: ({ digest }) => setRead({ text: now, digest }) },
+      {
+        onSuccess: ({ digest }) => {
+          setRead({ text: now, digest });
+          then?.();
+        },
+        onError: () => otherwise?.(),
+      },
     );
   };
-  useSaveKey(save);
+  useSaveKey(() => save());
+  // Another tab of the project does not lose it: this one stays as it is.
+  const leave = useBlocker({
+    shouldBlockFn: ({ current, next }) => dirty && next.pathname !== current.pathname,
+    enableBeforeUnload: () => dirty,
+    withResolver: true,
+  });
   return (
     <section className={classes.card} aria-label="Text of the project">
       <div className={classes.row}>
-        <Button size="xs" disabled={!dirty} loading={put.isPending} onClick={save}>
+        <Button size="xs" disabled={!dirty} loading={put.isPending} onClick={() => save()}>
           Save
         </Button>
         <Text size="xs" c="dimmed" role="status">
@@ -69,6 +83,7 @@ export function ProjectText({ project }: { project: Project }) {
         </div>
       ) : null}
       <div ref={place} className={classes.editor} />
+      <LeaveQuestion leave={leave} pending={put.isPending} onSave={() => save(leave.proceed, leave.reset)} canSave />
     </section>
   );
 }

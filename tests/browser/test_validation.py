@@ -1,0 +1,159 @@
+"""Validation in the page, as a person goes through it: from the sample to a car that is valid, and a project of one's own from a log."""
+
+import re
+
+import numpy as np
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.browser import browser, watched
+from tests.browser.test_axe import AXE, CHECK, TAGS
+from tests.server.server import served
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory):
+    """A page, and what its console complained about."""
+    folder = tmp_path_factory.mktemp("validation")
+    (folder / "scenarios").mkdir()
+    with browser() as opened, served(folder) as (client, _, _):
+        page, complaints = watched(opened, base_url=str(client.base_url), viewport={"width": 1280, "height": 800})
+        page.add_init_script(path=AXE)
+        yield page, complaints
+        opened.close()
+
+
+@pytest.fixture(scope="module")
+def page(studio):
+    return studio[0]
+
+
+def test_1_the_sample_is_calibrated_and_then_valid(page):
+    page.goto("/validate")
+    expect(page.get_by_role("heading", name="No projects yet")).to_be_visible()
+    page.get_by_role("button", name="Make the sample").click()
+    expect(page.get_by_role("heading", name="A car with worn front tyres")).to_be_visible()
+    page.get_by_role("button", name="Validate", exact=True).click()
+    expect(page.get_by_role("region", name="Verdict")).to_contain_text("not valid")
+    expect(page.get_by_role("region", name="Verdict")).to_contain_text("Nothing is validated")
+    page.get_by_role("button", name="Calibrate", exact=True).click()
+    found = page.get_by_test_id("estimates").get_by_role("row", name="tyres.front_cornering")
+    expect(found).to_contain_text(re.compile(r"0\.8[45]\d+"))
+    page.get_by_role("button", name="Validate", exact=True).click()
+    verdict = page.get_by_role("region", name="Verdict")
+    expect(verdict).to_contain_text("6 of 6 criteria met")
+    expect(verdict).to_contain_text("With the values of iteration 2.")
+    expect(verdict).to_contain_text("Validated span: speed")
+    expect(page.get_by_role("figure", name="turn: yaw rate")).to_contain_text("6 recorded runs")
+    expect(page.get_by_test_id("iterations").get_by_role("row")).to_have_count(4)
+
+
+def test_2_the_report_is_the_page_of_that_iteration(page):
+    with page.expect_popup() as opened:
+        page.get_by_role("link", name="Open the report, to be read and printed").click()
+    report = opened.value
+    expect(report.get_by_role("heading", name="A car with worn front tyres: iteration 3")).to_be_visible()
+    assert report.locator("svg").count() == 2
+    report.close()
+
+
+def test_3_a_criterion_that_failed_is_judged_otherwise_with_a_reason(page):
+    page.get_by_test_id("iterations").get_by_role("button", name="1", exact=True).click()
+    row = page.get_by_test_id("verdicts").get_by_role("row").filter(has_text="steady yaw_rate, averaged simulation")
+    row.get_by_role("button", name="Judge otherwise …").click()
+    keep = page.get_by_role("button", name="Keep it")
+    expect(keep).to_be_disabled()
+    page.get_by_label("Why it counts as valid all the same").fill("the sensor was mounted askew that day")
+    keep.click()
+    page.get_by_role("tab", name="Text").click()
+    expect(page.get_by_label("Text of project.yaml")).to_contain_text("the sensor was mounted askew that day")
+
+
+def test_4_a_project_of_ones_own_from_a_log_in_other_units(page):
+    page.get_by_role("link", name="Validation").first.click()
+    page.get_by_role("button", name="New project").click()
+    page.get_by_label("Title").fill("Our own car")
+    page.get_by_role("button", name="Make it").click()
+    expect(page.get_by_role("heading", name="No logs yet")).to_be_visible()
+    page.set_input_files("input[type=file]", files=[log("turn.csv")])
+    signals = page.get_by_test_id("signals")
+    expect(signals.get_by_role("row", name="Gierrate")).to_contain_text("deg/s")
+    mapping = page.get_by_test_id("mapping")
+    expect(mapping.get_by_label("Yaw rate comes from")).to_have_value("Gierrate")
+    mapping.get_by_label("Road wheel angle comes from", exact=True).select_option("Radlenkwinkel")
+    mapping.get_by_label("Road wheel angle is recorded in").select_option("deg")
+    mapping.get_by_label("Speed comes from", exact=True).select_option("Tempo")
+    mapping.get_by_label("Speed is recorded in", exact=True).select_option("km/h")
+    mapping.get_by_label("Sign of Lateral acceleration").select_option("turned round")
+    page.get_by_role("button", name="Save as mapping.yaml").click()
+    cuts = page.get_by_role("region", name="Maneuvers in this log")
+    expect(cuts).to_contain_text("J-turn")
+    expect(signals.get_by_role("row", name="speed", exact=False).first).to_contain_text("20")
+    cuts.get_by_role("button", name="Take it").first.click()
+    page.get_by_role("tab", name="Maneuvers").click()
+    expect(page.get_by_role("region", name="Maneuver j_turn")).to_contain_text("turn.csv")
+    begin = page.get_by_label("Begin of turn.csv for validation")
+    begin.fill("0.5")
+    begin.press("Tab")
+    page.get_by_role("tab", name="Text").click()
+    expect(page.get_by_label("Text of project.yaml")).to_contain_text("begin: 0.5")
+
+
+def log(name):
+    """A J-turn as somebody else's logger writes it: decimal commas, km/h, degrees, the other side positive."""
+    time = np.arange(0.0, 6.0, 0.01)
+    wheel = np.clip((time - 1.5) / 0.15, 0.0, 1.0)
+    columns = {"t [s]": time, "Tempo [km/h]": 72.0 + 0 * time, "Radlenkwinkel [deg]": 2.0 * wheel}
+    columns |= {"Gierrate [deg/s]": 12.0 * wheel, "ay_sensor [m/s²]": -4.2 * wheel}
+    rows = [";".join(columns)] + [
+        ";".join(f"{value:.4f}".replace(".", ",") for value in row) for row in zip(*columns.values(), strict=True)
+    ]
+    return {"name": name, "mimeType": "text/csv", "buffer": "\n".join(rows).encode()}
+
+
+def test_5_what_is_wrong_in_the_text_is_told_and_nothing_is_lost(page):
+    editor = page.get_by_label("Text of project.yaml")
+    editor.click()
+    page.keyboard.press("Control+End")
+    page.keyboard.type("confidnce: one-sided\n")
+    page.get_by_role("button", name="Save", exact=True).click()
+    told = page.get_by_role("alert").filter(has_text="Your text is still here")
+    expect(told).to_contain_text("did you mean 'confidence'?")
+    expect(editor).to_contain_text("confidnce")
+
+
+def test_6_an_unreadable_log_says_why(page):
+    page.get_by_role("tab", name="Logs").click()
+    page.set_input_files("input[type=file]", files=[{"name": "bad.mf4", "mimeType": "", "buffer": b"MDF     4.10" + bytes(40)}])
+    expect(page.get_by_role("alert").filter(has_text="bad.mf4")).to_be_visible()
+    expect(page.get_by_role("button", name="turn.csv", exact=True)).to_be_visible()
+    page.get_by_role("tab", name="Text").click()
+    expect(page.get_by_label("Text of project.yaml")).to_contain_text("confidnce")
+
+
+def test_7_unsaved_text_is_not_lost_by_leaving(page):
+    page.get_by_role("link", name="Queue").click()
+    expect(page.get_by_role("dialog")).to_contain_text("is not saved")
+    page.get_by_role("button", name="Stay").click()
+    expect(page.get_by_label("Text of project.yaml")).to_contain_text("confidnce")
+    page.get_by_role("link", name="Queue").click()
+    page.get_by_role("button", name="Leave, lose it").click()
+    expect(page.get_by_role("heading", name="No run goes on or waits")).to_be_visible()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("tab", ["logs&log=turn_0.csv", "maneuvers", "calibration", "verdicts", "text"])
+def test_8_everybody_can_use_it(page, tab, scheme):
+    page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+    page.goto(f"/validate/known_truth?tab={tab}")
+    expect(page.get_by_test_id("iterations")).to_be_visible()
+    expect(page.get_by_test_id(SEEN[tab]) if tab in SEEN else page.get_by_role("tabpanel").filter(visible=True)).to_be_visible()
+    expect(page.get_by_role("status").filter(has_text="Loading")).to_have_count(0)
+    assert page.evaluate(CHECK, TAGS) == []
+
+
+SEEN = {"logs&log=turn_0.csv": "signals", "calibration": "estimates", "verdicts": "verdicts"}
+
+
+def test_9_the_console_was_quiet(studio):
+    assert studio[1] == []
