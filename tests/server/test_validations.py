@@ -3,6 +3,7 @@
 import time
 
 import pytest
+import yaml
 
 from tests.patience import PATIENCE
 from tests.server.server import served
@@ -80,6 +81,9 @@ def test_from_drives_to_a_validated_car(client, project):
     assert sum(inside) > 0.9 * len(inside)
     report = client.get(f"/api/validations/{project}/iterations/{judged}/report")
     assert report.status_code == 200 and report.text.count("<svg") == 2
+    car = yaml.safe_load(client.get(f"/api/validations/{project}/iterations/{judged}/vehicle").text)
+    assert car["validated"] == after["result"]["span"]["whole"]
+    assert car["tyres"]["front_cornering"]["value"] == estimate["value"] and "calibrated" in car["tyres"]["front_cornering"]["source"]
     rows = detail(client, project)["iterations"]
     assert [each["iteration"] for each in rows] == [judged, found, number] and [each["valid"] for each in rows] == [True, None, False]
     assert client.get("/api/validations").json()[0]["valid"] is True

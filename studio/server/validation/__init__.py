@@ -2,7 +2,7 @@
 
     scenarios/validation/my_car/project.yaml      what `studio validate` takes too
                                /drive_1.mf4       logs, mappings, DBCs, vehicle files
-                               /results/12.html   report and courses of iteration 12
+                               /results/12.html   report of iteration 12; its courses (.json), its vehicle (.yaml)
 
 A project and its files are found by name in listings and in no other way, and what is sent names no file outside of its folder.
 """
@@ -259,6 +259,11 @@ def report_of(folder: Path, number: int) -> Path:
 def courses_of(folder: Path, number: int) -> Path:
     """The courses of an iteration."""
     return folder / RESULTS / f"{number}.json"
+
+
+def vehicle_of(folder: Path, number: int) -> Path:
+    """The vehicle of an iteration, with its validated span."""
+    return folder / RESULTS / f"{number}.yaml"
 
 
 # -- what is named -----------------------------------------------------------------------------------

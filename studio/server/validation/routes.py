@@ -21,8 +21,8 @@ from studio.server import answer as answers
 from studio.server.routes import PAGE, AtDesk, AtOwnDesk, IfMatch, KeptRuns, expected
 from studio.server.scenarios import name as names
 from studio.server.scenarios.routes import BODY as YAML_BODY
-from studio.server.scenarios.routes import received
-from studio.server.validation import LARGEST, answer, check_inside, checked, courses_of, endings, kind_of, kinds, report_of
+from studio.server.scenarios.routes import YAML, received
+from studio.server.validation import LARGEST, answer, check_inside, checked, courses_of, endings, kind_of, kinds, report_of, vehicle_of
 from studio.store import iteration
 
 BYTES = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
@@ -164,6 +164,14 @@ def iteration_report(project: str, iteration: int, desk: AtDesk) -> Response:
 def iteration_courses(project: str, iteration: int, desk: AtDesk) -> answer.Courses:
     """Zones of the recorded runs with the simulations, signal by signal."""
     return answer.Courses.model_validate_json(result(courses_of(desk.projects.find(project), iteration), iteration))
+
+
+@router.get("/validations/{project}/iterations/{iteration}/vehicle", response_class=Response, responses=YAML)
+def iteration_vehicle(project: str, iteration: int, desk: AtDesk) -> Response:
+    """The vehicle file of a validation: what was calibrated with its provenance, and the validated span."""
+    text = result(vehicle_of(desk.projects.find(project), iteration), iteration)
+    named = {"Content-Disposition": f'attachment; filename="vehicle_{iteration}.yaml"'}
+    return Response(text, media_type="application/yaml", headers=named)
 
 
 def result(path: Path, number: int) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 
 from studio.errors import Problem, ScenarioError, StudioError
 from studio.server.errand import MOST_MEMORY, ServerGone, confine, tell
-from studio.server.validation import PROJECT, RESULTS, courses_of, report_of
+from studio.server.validation import PROJECT, RESULTS, courses_of, report_of, vehicle_of
 from studio.server.validation.answer import NewJob
 
 POINTS = 1500  # of a signal that is drawn
@@ -139,9 +139,9 @@ def calibrate(pipe: Connection, order: Order) -> dict[str, Any]:
 
 
 def validate(pipe: Connection, order: Order) -> dict[str, Any]:
-    """All criteria, with report and courses beside the project."""
+    """All criteria, with report, courses and vehicle file beside the project."""
     from studio.store.runs import open_runs
-    from studio.validation import course, iterate, project
+    from studio.validation import course, iterate, project, sheet
     from studio.validation.report import report
     from studio.validation.zone import WORDS
 
@@ -152,7 +152,9 @@ def validate(pipe: Connection, order: Order) -> dict[str, Any]:
     tell(pipe, "stage", "drawing", 1.0)
     (order.folder / RESULTS).mkdir(exist_ok=True)
     put(courses_of(order.folder, number), json.dumps({"interval": WORDS[found.confidence], "courses": course.courses(found)}))
-    put(report_of(order.folder, number), report(step.loaded, found, iterate.estimates(runs, number), number))
+    estimates, title = iterate.estimates(runs, number), loaded.project.title
+    sheet.write(step.loaded.model, vehicle_of(order.folder, number), title=title, estimates=estimates, span=found.span)
+    put(report_of(order.folder, number), report(step.loaded, found, estimates, number))
     return {"iterations": [number]}
 
 

@@ -56,6 +56,10 @@ export const projectJob = (id: number | undefined) =>
 export const reportOf = (project: string, number: number): string =>
   `/api/validations/${encodeURIComponent(project)}/iterations/${number}/report`;
 
+/** Where the vehicle file of a validation is downloaded from. */
+export const vehicleOf = (project: string, number: number): string =>
+  `/api/validations/${encodeURIComponent(project)}/iterations/${number}/vehicle`;
+
 /** Everything that may say something else when a project has changed, or a job is over. */
 export function useRefreshed(project: string) {
   const kept = useQueryClient();
