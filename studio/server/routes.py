@@ -19,6 +19,7 @@ from studio.scenario.text.patch import Operation, operations
 from studio.scenario.text.source import Source
 from studio.server import answer
 from studio.server.desk import Desk, check_pace
+from studio.server.listing import listing
 from studio.server.live import Listener, plain
 from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
@@ -29,8 +30,7 @@ from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
 from studio.store.queue import queue
-from studio.store.runs import Runs
-from studio.store.setting import settings
+from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
@@ -173,13 +173,18 @@ def measure_of(kind: Kind) -> answer.Measure:
     return answer.Measure(name=kind.name, title=kind.title, unit=kind.module.UNIT, goal=kind.module.BETTER, explanation=kind.explanation)
 
 
-@router.get("/runs")
-def runs(kept: KeptRuns, scenario: str | None = None, limit: Annotated[int, Query(ge=1, le=10_000)] = 1000) -> list[answer.ListedRun]:
+@router.get("/runs", response_model=list[answer.ListedRun])
+def runs(
+    kept: KeptRuns,
+    scenario: str | None = None,
+    limit: Annotated[int, Query(ge=1, le=10_000)] = 1000,
+    before: Annotated[int | None, Query(ge=1, le=LARGEST_RUN, description="only runs with a smaller number")] = None,
+) -> Response:
     """Runs, newest first, with what they were set to."""
-    where, values = ("scenario = ?", [scenario]) if scenario else ("1", [])
-    rows = kept.select(where=where, values=values, limit=limit)
-    had = settings(kept, rows)
-    return [answer.ListedRun(**row.as_json(), settings=had[row.run]) for row in rows]
+    wanted = {"scenario = ?": scenario, "run < ?": before}
+    conditions = {text: value for text, value in wanted.items() if value is not None}
+    where = " and ".join(conditions) or "1"
+    return Response(listing(kept, where=where, values=list(conditions.values()), limit=limit), media_type="application/json")
 
 
 @router.post("/runs", status_code=202)

@@ -8,6 +8,7 @@ import pytest
 
 from studio import job
 from studio.kind.sort import SORTS
+from studio.server import answer
 from studio.store.runs import open_runs
 from tests.broken import EVERY
 from tests.patience import until
@@ -331,3 +332,19 @@ def test_a_database_is_closed_when_its_request_is_over(client, pair, server):
         client.get(f"/api/{address}")
     process = psutil.Process(server[2].pid)
     until(lambda: not [each for each in process.open_files() if "runs.db" in each.path], "the database to be closed")
+
+
+def test_the_list_of_runs_is_what_each_run_says_of_itself(client, pair):
+    """SQLite writes its metrics as text: to the last bit what is kept, and what is described."""
+    _, later = pair
+    listed = next(each for each in client.get("/api/runs").json() if each["run"] == later["run"])
+    answer.ListedRun.model_validate(listed)
+    assert len(listed["metrics"]) > 20 and all(listed[name] == later[name] for name in listed if name != "settings")
+
+
+def test_runs_come_in_pages(client, pair):
+    every = [each["run"] for each in client.get("/api/runs").json()]
+    assert every == sorted(every, reverse=True) and len(every) >= 2
+    (first,) = client.get("/api/runs?limit=1").json()
+    assert [first["run"], *(each["run"] for each in client.get(f"/api/runs?before={first['run']}").json())] == every
+    assert client.get("/api/runs?before=0").status_code == 422

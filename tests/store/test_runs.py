@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from studio import job
 from studio.errors import ScenarioError, StoreError, UnknownError
 from studio.execution.happening import Happening, happening
+from studio.provenance import Provenance
 from studio.scenario.schema import json_schema
 from studio.store import trace
 from studio.store.comparison import beside, compare
@@ -372,3 +373,23 @@ def test_a_damaged_digest_is_told(sample, tmp_path):
     runs.database.conn.commit()
     with pytest.raises(StoreError, match=f"Run {row.run} is damaged"):
         runs.sources(runs.find(row.run))
+
+
+def test_metrics_written_by_sqlite_are_those_that_are_kept(tmp_path):
+    """To the last bit from 1e-12 to 1e12; what is no number is none, and what is damaged of one does not hold up the list."""
+    runs = open_runs(tmp_path / "runs.db")
+    run = runs.begin(
+        scenario="stern", title="Stern", document={}, scenario_hash="0" * 64, map_digest="", parent=None, seed=1,
+        parameters={}, provenance=Provenance((), "1", "host", {}, ()),
+    )  # fmt: skip
+    random = np.random.default_rng(1)
+    values = [*(random.uniform(-1, 1, 400) * 10.0 ** random.integers(-12, 12, 400)), float("inf"), None, 0.0]
+    told = {"run": run, "unit": "m", "goal": None, "subject": '["a"]', "time": None, "kind": "m", "about": 'é"'}
+    rows = [told | {"name": f"m{i}", "value": value} for i, value in enumerate(values)]
+    rows.append(rows[0] | {"name": "damaged", "subject": "[", "time": 0.1 + 0.2})
+    with runs.writing():
+        runs.database.table("metrics").insert_all(rows)
+    found = json.loads(runs.metrics_as_text([run])[run])
+    assert [found[f"m{i}"]["value"] for i in range(len(values))] == [None if value == float("inf") else value for value in values]
+    assert found["m0"]["subject"] == ["a"] and found["m0"]["about"] == 'é"' and found["damaged"]["subject"] == []
+    assert found["damaged"]["time"] == 0.1 + 0.2

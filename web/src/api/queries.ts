@@ -51,6 +51,33 @@ export const runs = (filter: { scenario?: string; limit?: number } = {}) =>
     placeholderData: keepPreviousData,
   });
 
+/** So many runs come at once. */
+export const PAGE = 1000;
+/** Runs before those that are asked for often: asked for once, and again when so many new ones have come. */
+const BUCKET = 500;
+
+/** All runs that are older than the newest page, piece by piece: of the newest page's oldest one there may be none. */
+export const olderRuns = (filter: { scenario?: string }, newest: readonly { run: number }[] | undefined) => {
+  const oldest = newest?.at(-1)?.run ?? 0;
+  const before = (Math.floor(oldest / BUCKET) + 1) * BUCKET;
+  return queryOptions({
+    queryKey: ["runs", "older", filter, before],
+    queryFn: async () => {
+      const found: ListedRun[] = [];
+      for (let from = before, last = PAGE; last === PAGE; from = found.at(-1)?.run ?? 0) {
+        const query = { ...filter, limit: PAGE, before: from };
+        const page = (await answer(client.GET("/api/runs", { params: { query } }))) as ListedRun[];
+        found.push(...page);
+        last = page.length;
+      }
+      return found;
+    },
+    enabled: (newest?.length ?? 0) >= PAGE,
+    staleTime: Number.POSITIVE_INFINITY,
+    placeholderData: keepPreviousData,
+  });
+};
+
 /** Runs that go on or wait for their turn. */
 export const queue = queryOptions({
   queryKey: ["queue"],

@@ -5101,6 +5101,8 @@ export interface operations {
             query?: {
                 scenario?: string | null;
                 limit?: number;
+                /** @description only runs with a smaller number */
+                before?: number | null;
             };
             header?: never;
             path?: never;

@@ -4,7 +4,7 @@ import { Badge, Button, Group, Modal, SegmentedControl, Switch, Text, Title } fr
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useState } from "react";
-import { runs } from "../../api/queries";
+import { olderRuns, runs } from "../../api/queries";
 import { arranged } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
@@ -44,11 +44,25 @@ interface Props {
 }
 
 export function RunsPage({ view, onView }: Props) {
-  const { data, error, refetch } = useQuery(runs(view.scenario ? { scenario: view.scenario } : {}));
+  const filter = view.scenario ? { scenario: view.scenario } : {};
+  const { data, error, refetch } = useQuery(runs(filter));
+  const older = useQuery(olderRuns(filter, data));
+  const all = useMemo(() => joined(data ?? [], older.data ?? []), [data, older.data]);
   if (error && !data) return <Failure error={error} onRetry={() => void refetch()} />;
   if (!data) return <Loading what="runs" />;
   if (data.length === 0) return <NoRuns />;
-  return <Listed runs={data} view={view} onView={onView} />;
+  return (
+    <>
+      {older.error ? <Failure error={older.error} onRetry={() => void older.refetch()} /> : null}
+      <Listed runs={all} isPart={older.isLoading} view={view} onView={onView} />
+    </>
+  );
+}
+
+/** The newest runs, and those before them. */
+function joined(newest: readonly ListedRun[], older: readonly ListedRun[]): ListedRun[] {
+  const oldest = newest.at(-1)?.run ?? 0;
+  return [...newest, ...older.filter(({ run }) => run < oldest)];
 }
 
 function NoRuns() {
@@ -72,7 +86,13 @@ const WAYS = [
   { value: "board", label: "Board" },
 ];
 
-function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[] }) {
+interface ListedProps extends Props {
+  runs: readonly ListedRun[];
+  /** Older ones are on their way. */
+  isPart: boolean;
+}
+
+function Listed({ runs: all, isPart, view, onView }: ListedProps) {
   const { q = "", scenario, only, as = "table" } = view;
   const [selected, setSelected] = useState<number[]>([]);
   const every = useColumns(all);
@@ -101,6 +121,7 @@ function Listed({ runs: all, view, onView }: Props & { runs: readonly ListedRun[
         </Title>
         <Text size="sm" c="dimmed">
           {shown.length === all.length ? all.length : `${shown.length} of ${all.length}`}
+          {isPart ? ", older ones are being loaded …" : ""}
         </Text>
         <SegmentedControl
           size="xs"
