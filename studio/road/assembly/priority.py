@@ -40,7 +40,7 @@ class Law:
     """What a place says about who goes first.
 
     `yields` are netconvert's answers, `equal` the junctions without major road, `signs` the rules that signs set at the ends of
-    roads, `left_first` whether the left goes before the right at equal roads.
+    roads, `left_first` whether the left goes before the right at equal roads. With `by_side` two of which nothing is said go by side.
     """
 
     yields: dict[Pair, frozenset[Pair]]
@@ -48,6 +48,7 @@ class Law:
     signs: dict[str, str]
     left_hand: bool
     left_first: bool
+    by_side: bool = False
 
 
 @dataclass(frozen=True)
@@ -133,7 +134,14 @@ def goes_first(ground: Ground, j: int, i: int) -> bool:
         return own[0] in signs
     if (own[0] in rings) != (other[0] in rings):
         return other[0] in rings
-    return comes_first(ground, j, i) if ground.is_equal(i) else other in ground.law.yields.get(own, ())
+    if ground.is_equal(i) or is_open(ground.law, own, other):
+        return comes_first(ground, j, i)
+    return other in ground.law.yields.get(own, ())
+
+
+def is_open(law: Law, own: Pair, other: Pair) -> bool:
+    """Whether a law leaves open which of two ways goes first."""
+    return law.by_side and other not in law.yields.get(own, ()) and own not in law.yields.get(other, ())
 
 
 def comes_first(ground: Ground, j: int, i: int) -> bool:
@@ -182,19 +190,34 @@ def mapped_law(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box:
     return Law(net.yields, equal, signs_of(net, ways, nodes, box), left_hand, country in LEFT_FIRST)
 
 
-def law_by_limits(net: Net, *, country: str, left_hand: bool) -> Law:
-    """The law of a map that says nothing of it: of two roads that meet, the one with the higher limit is the major one."""
+def law_by_limits(net: Net, *, country: str, left_hand: bool, signs: dict[str, str], before: frozenset[tuple[Pair, Pair]]) -> Law:
+    """The law of a map that says little of it: who has a sign, then the higher limit. `before` are pairs of which the first goes first."""
     at = defaultdict(set)
     for c in net.connections:
         start, end = net.lanes[c.from_lane].road, net.lanes[c.to_lane].road
         at[net.roads[start].to_junction].add((start, end))
-    yields = {
-        own: frozenset(other for other in pairs if net.roads[other[0]].speed > net.roads[own[0]].speed + 0.1)
-        for pairs in at.values()
-        for own in pairs
-    }
+    yields = {own: frozenset(other for other in pairs if is_major(net, signs, other[0], own[0])) for pairs in at.values() for own in pairs}
+    for first, second in sorted(before):
+        yields[second] |= {first}
+        yields[first] -= {second}
     equal = frozenset(name for name, pairs in at.items() if not any(yields[pair] for pair in pairs))
-    return Law(yields, equal, {}, left_hand, country in LEFT_FIRST)
+    return Law(yields, equal, stopping(signs, at), left_hand, country in LEFT_FIRST, by_side=True)
+
+
+def is_major(net: Net, signs: dict[str, str], road: str, other: str) -> bool:
+    """Whether a road goes before another: by their signs, else by their limits."""
+    ranks = [{"priority": 2, "yield": 0, "stop": 0}.get(signs.get(name, ""), 1) for name in (road, other)]
+    return ranks[0] > ranks[1] or (ranks[0] == ranks[1] and net.roads[road].speed > net.roads[other].speed + 0.1)
+
+
+def stopping(signs: dict[str, str], at: dict[str, set[Pair]]) -> dict[str, str]:
+    """The signs at which one waits; where all that come to a junction of three and more stop, who came first goes first."""
+    found = {road: rule for road, rule in signs.items() if rule != "priority"}
+    for pairs in at.values():
+        roads = {start for start, _ in pairs}
+        if len(roads) > 2 and all(signs.get(road) == "stop" for road in roads):
+            found |= dict.fromkeys(roads, "all_way_stop")
+    return found
 
 
 def equal_junctions(net: Net, ways: list[Way]) -> frozenset[str]:
