@@ -52,7 +52,7 @@ def samples(road: XRoad, stations: list[float]) -> Samples:
 
 def strip_line(road: str, section: Section, lane: int, along: Samples) -> Line:
     """A lane beside the reference line; raises MapError where it lies too far from it."""
-    s, (x, y, heading) = along.s - section.s, along.line
+    s, (x, y, heading) = np.maximum(along.s - section.s, 0.0), along.line
     inner = sum((strip.width.at(s) for strip in section.inside(lane)), np.zeros_like(s))
     width = np.maximum(section.strips[lane].width.at(s), 0.0)
     t = along.offset + (1 if lane > 0 else -1) * (inner + 0.5 * width)
