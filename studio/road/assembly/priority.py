@@ -205,8 +205,8 @@ def law_by_limits(net: Net, *, country: str, left_hand: bool, signs: dict[str, s
 
 
 def is_major(net: Net, signs: dict[str, str], road: str, other: str) -> bool:
-    """Whether a road goes before another: by their signs, else by their limits."""
-    ranks = [{"priority": 2, "yield": 0, "stop": 0}.get(signs.get(name, ""), 1) for name in (road, other)]
+    """Whether a road goes before another: by their signs and as part of a roundabout, else by their limits."""
+    ranks = [2 if name in net.rings else {"priority": 2, "yield": 0, "stop": 0}.get(signs.get(name, ""), 1) for name in (road, other)]
     return ranks[0] > ranks[1] or (ranks[0] == ranks[1] and net.roads[road].speed > net.roads[other].speed + 0.1)
 
 
