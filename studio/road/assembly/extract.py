@@ -10,6 +10,7 @@ from studio.errors import MapError
 from studio.road.assembly.plan import Plan, Wish
 from studio.road.formats import osm
 from studio.road.formats.correction import Corrections
+from studio.road.formats.identity import shown
 from studio.road.network import Net
 
 ENDINGS = tuple(osm.FORMATS)
@@ -137,5 +138,5 @@ def signalled(found, ways: list, box, net) -> frozenset[int]:
 def of_ways(net: Net, ways: list) -> Net:
     """The network whose roads know the mapped ways that they are made of."""
     mapped = {way.id: way.mapped for way in ways}
-    names = {road: dict.fromkeys(mapped[way] for way in net.origins.get(road, ()) if way in mapped) for road in net.roads}
+    names = {road: dict.fromkeys(shown(mapped[way]) for way in net.origins.get(road, ()) if way in mapped) for road in net.roads}
     return replace(net, roads={name: replace(road, ways=tuple(names[name])) for name, road in net.roads.items()})

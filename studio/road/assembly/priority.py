@@ -23,7 +23,8 @@ import numpy as np
 import shapely
 
 from studio.road.assembly.alignment import direction_at, turned
-from studio.road.formats.osm import Box, Way
+from studio.road.formats.osm import Box
+from studio.road.formats.way import Way
 from studio.road.network import Connection, Net, Pair, curve
 from studio.road.network.signals import SIGHT, Signals
 

@@ -13,7 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from studio.road.formats.osm import Box, Way
+from studio.road.formats.identity import named
+from studio.road.formats.osm import Box
+from studio.road.formats.way import Way
 from studio.road.network import Connection, Net
 from studio.road.network.report import Notes, Spot
 
@@ -39,7 +41,7 @@ def restricted(net: Net, relations, ways: Sequence[Way], box: Box, notes: Notes)
     bans = []
     for each in restrictions(relations, ways, box):
         roads = roads_of(each, net)
-        spot = Spot(f"relation {each.id}", *box.degrees(each.entry[:, None])[0][::-1])
+        spot = Spot(named("relation", each.id), *box.degrees(each.entry[:, None])[0][::-1])
         reason = "its roads are not built" if roads is None else ""
         if roads is not None and len(roads) > 2:
             bans.append(roads)

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from studio.road.formats.osm import Way, spot_of
+from studio.road.formats.way import Way, spot_of
 from studio.road.network.report import Notes
 
 MILE, KNOT = 1.609344, 1.852  # [km]
