@@ -12,6 +12,7 @@ from studio.road.formats import osm
 from studio.road.formats.correction import Corrections
 from studio.road.formats.identity import shown
 from studio.road.network import Net
+from studio.road.network.report import Spot
 
 ENDINGS = tuple(osm.FORMATS)
 ATTRIBUTION = "© OpenStreetMap contributors"
@@ -68,7 +69,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     found = osm.survey(path, data, parking_aisles=kept.parking_aisles, corrections=kept.corrections)
     box = clipped(path, found, kept.radius, kept.box)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
-    cut = cut_ways(path, found, box, ids)
+    box, cut = cut_ways(path, found, box, kept.radius, ids)
     country = country_at(*box.centre)
     side = drive_side(cut, country)
     left_hand = side.side == "left"
@@ -98,12 +99,21 @@ def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
         raise MapError(f"{path}: {error.message}") from None
 
 
-def cut_ways(path: Path, found, box, ids) -> list:
-    """The ways within that part; raises MapError when there is none."""
+def cut_ways(path: Path, found, box, radius: float | None, ids) -> tuple:
+    """The part that is kept, and the ways within it; raises MapError when there is none.
+
+    Where no road is within a radius of the middle of what is mapped, the middle of the roads is taken.
+    """
     ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
+    if not ways and radius is not None:
+        box = osm.around_roads(found, radius)
+        ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
+        what = f"the {radius:g} m around {box.centre[0]:.5f}°, {box.centre[1]:.5f}°"
+        source = "no road lies that near to the middle of what is mapped"
+        found.notes.guess("part", what, Spot("the middle of the roads", *box.centre), source=source, sure="medium")
     if not ways:
         raise MapError(f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox")
-    return ways
+    return box, ways
 
 
 def tagged(ways: list, found, country: str, left_hand: bool) -> list:

@@ -26,6 +26,7 @@ from studio.road.formats import access, identity, overpass
 from studio.road.formats.correction import Corrections, Corrector, element_of
 from studio.road.formats.identity import named
 from studio.road.formats.kind import OPENINGS, area_kind, hidden, line_kind, point_kind
+from studio.road.formats.turn_rule import is_rule, kind_of
 from studio.road.formats.way import Way
 from studio.road.network.report import Notes, Spot
 
@@ -67,6 +68,7 @@ OTHER_WAYS = {  # highway=… that cars use, and why it is not built
     "services": "is an area",
     "rest_area": "is an area",
 }
+NO_PROGRAMME = {"blinker", "blink_mode", "blinking", "emergency", "level_crossing", "rail_crossing", "tram_priority", "no"}
 ALONG = ("forward", "backward", "conditional")
 
 
@@ -350,7 +352,7 @@ def note(found: Survey, thing) -> None:
         note_way(found, thing)
     elif thing.is_area():
         note_area(found, thing)
-    elif thing.is_relation() and thing.tags.get("type") == "restriction":
+    elif thing.is_relation() and is_rule(thing.tags):
         members = [(member.type, member.ref, member.role) for member in thing.members]
         found.restrictions.append((thing.id, members, dict(thing.tags)))
     elif thing.is_relation() and thing.tags.get("type") == "multipolygon" and (kind := area_kind(thing.tags)):
@@ -367,11 +369,22 @@ def note_node(found: Survey, node) -> None:
     place = (node.lon, node.lat)
     found.places.append(place)
     note_parking(found, node.tags, place)
-    found.nodes[node.id] = dict(node.tags)
+    found.nodes[node.id] = node_tags(found, node, place)
     if kind := point_kind(node.tags):
         found.points.append(Thing([place], kind, found.nodes[node.id], named("node", node.id)))
     elif barrier := node.tags.get("barrier"):
         note_barrier(found, barrier)
+
+
+def node_tags(found: Survey, node, place: tuple[float, float]) -> dict[str, str]:
+    """The tags of a node; lights that do not go through green, amber and red are none here, and told."""
+    own = dict(node.tags)
+    if own.get("highway") == "traffic_signals" and own.get("traffic_signals") in NO_PROGRAMME:
+        name = named("node", node.id)
+        what = f"traffic_signals={own['traffic_signals']}"
+        found.notes.skip("signal", what, Spot(name, place[1], place[0], name), "has no programme of green, amber and red")
+        del own["highway"]
+    return own
 
 
 def note_way(found: Survey, way) -> None:
@@ -467,6 +480,14 @@ def clip_box(found: Survey, *, radius: float | None, bbox: Box | None = None) ->
         return bbox
     core = found.mapped or core_box(found.places)
     return checked(core.grown(REACH) if radius is None else core.around(radius), "the mapped place")
+
+
+def around_roads(found: Survey, radius: float) -> Box:
+    """The box about the road point that lies nearest to the middle of all of them, `radius` [m] to every side."""
+    points = np.array([point for way in found.ways for point in way.points])
+    middle = np.median(points, axis=0)
+    longitude, latitude = points[np.abs(points - middle).sum(axis=1).argmin()].tolist()
+    return checked(Box(latitude, longitude, latitude, longitude).around(radius), "the middle of the roads")
 
 
 def checked(box: Box, name: str) -> Box:
@@ -578,8 +599,9 @@ def clean_xml(found: Survey, ways: list[Way]) -> str:
         lines += element("way", {"id": way.id, "version": 1}, content)
     kept = {"w": {way.id for way in ways}, "n": set(places), "r": set()}
     for name, members, text in found.restrictions:
-        if all(ref in kept[kind] for kind, ref, _ in members):
-            lines += element("relation", {"id": name, "version": 1}, [*map(member, members), *tags(text)])
+        if (kind := kind_of(text)) and all(ref in kept[form] for form, ref, _ in members):
+            rule = {"type": "restriction", "restriction": kind}
+            lines += element("relation", {"id": name, "version": 1}, [*map(member, members), *tags(rule)])
     return "\n".join([*lines, "</osm>"])
 
 
