@@ -62,6 +62,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     from studio.road.assembly.alignment import aligned
     from studio.road.assembly.priority import mapped_law
     from studio.road.assembly.side import drive_side
+    from studio.road.formats import vocabulary
     from studio.road.formats.country import country_at
     from studio.road.scenery import scenery
     from studio.road.scenery.site import Site
@@ -70,6 +71,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     box = clipped(path, found, kept.radius, kept.box)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
     box, cut = cut_ways(path, found, box, kept.radius, ids)
+    vocabulary.tell(cut, found.nodes, found.notes)
     country = country_at(*box.centre)
     side = drive_side(cut, country)
     left_hand = side.side == "left"
