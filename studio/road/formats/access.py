@@ -104,7 +104,8 @@ def drawn_along(way: Way, notes: Notes) -> Way:
         return turned(way.with_tags({**tags, "oneway": "yes"}))
     if value == "reversible":
         notes.skip("one way", "oneway=reversible", spot_of(way), "its direction does not change with time; it is built as drawn")
-        return way.with_tags({**tags, "oneway": "yes"})
+        # netconvert takes motorways so by themselves; arrows of such lanes hold at times too
+        return way.with_tags({**tags, "oneway": "reversible" if tags["highway"].startswith("motorway") else "yes"})
     if value == "alternating":
         notes.skip("one way", "oneway=alternating", spot_of(way), "directions do not take turns; both are built side by side")
     elif value not in ("yes", "no"):

@@ -28,8 +28,8 @@ class Way:
 
 
 def is_one_way(way: Way) -> bool:
-    """Whether a way is driven in its own direction only; motorways and roundabouts are by themselves."""
-    default = way.tags.get("junction") in ("roundabout", "circular") or way.tags.get("highway") in ("motorway", "motorway_link")
+    """Whether a way is driven in its own direction only; roundabouts are by themselves."""
+    default = way.tags.get("junction") in ("roundabout", "circular")
     return way.tags["oneway"] in ("yes", "true", "1") if "oneway" in way.tags else default
 
 
