@@ -46,7 +46,7 @@ def without_shared_lanes(way: Way, notes: Notes) -> Way:
 
 def with_room_to_meet(way: Way, notes: Notes) -> Way:
     """A two-way street with one lane gets two narrow ones: nobody who drives here waits where a road gets narrow."""
-    if is_one_way(way) or way.tags.get("lanes") != "1":
+    if is_one_way(way) or way.tags["highway"].startswith("motorway") or way.tags.get("lanes") != "1":
         return way
     others = {key: value for key, value in way.tags.items() if key not in COUNTS}
     source = "lanes=1 for both directions: cars pass each other, they do not wait for each other there"
