@@ -162,7 +162,14 @@ def limited(way: Way, country: str, notes: Notes) -> Way:
         mapped["maxspeed"] = zone
     if "maxspeed" not in mapped and not {"maxspeed:forward", "maxspeed:backward"} <= set(mapped):
         mapped["maxspeed"] = guessed(way, country, notes)
-    return way.with_tags({**others, **{key: f"{limit:.3f}" for key, limit in mapped.items()}})
+    return way.with_tags({**others, **{key: f"{limit:.3f}" for key, limit in by_direction(mapped).items()}})
+
+
+def by_direction(mapped: dict[str, float]) -> dict[str, float]:
+    """Limits as netconvert takes them: that of the way's own direction without a direction, which it would leave aside beside one."""
+    usual = mapped.get("maxspeed", 0.0)
+    forward, backward = (mapped.get(key, usual) for key in KEYS[1:])
+    return {"maxspeed": forward} | ({"maxspeed:backward": backward} if backward != forward else {})
 
 
 def readable(way: Way, notes: Notes) -> Iterator[tuple[str, float]]:
