@@ -10,8 +10,8 @@ from studio.errors import MapError
 from studio.road.assembly.plan import Plan, Wish
 from studio.road.formats import osm
 from studio.road.formats.correction import Corrections
-from studio.road.formats.identity import shown
-from studio.road.network import Net
+from studio.road.formats.identity import named, shown
+from studio.road.network import Connection, Net
 from studio.road.network.report import Spot
 
 ENDINGS = tuple(osm.FORMATS)
@@ -58,7 +58,7 @@ def part(path: Path, wish: Wish) -> Part:
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
     """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road.assembly import audit, elevation, turn
+    from studio.road.assembly import audit, elevation, narrow, turn
     from studio.road.assembly.alignment import aligned
     from studio.road.assembly.priority import mapped_law
     from studio.road.assembly.side import drive_side
@@ -78,7 +78,8 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
-    net = of_ways(elevation.raised(aligned(raw), found, cut, box), ways)
+    net = narrow.driven(aligned(raw), lambda each: end_of(raw, each, ways, box), found.notes)
+    net = of_ways(elevation.raised(net, found, cut, box), ways)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),
@@ -91,6 +92,16 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
         report=lambda network: audit.report(network, found, ways, box, raw, turns=turn.count(net, forks), side=side, country=country.name),
         bans=bans,
     )
+
+
+def end_of(net: Net, connection: Connection, ways: list, box) -> Spot:
+    """Where a connection begins, with the mapped way that leads there."""
+    lane = net.lanes[connection.from_lane]
+    mapped = {way.id: way.mapped for way in ways}
+    origins = [mapped[way] for way in net.origins.get(lane.road, ()) if way in mapped]
+    element = named("way", origins[-1]) if origins else ""
+    longitude, latitude = box.degrees(lane.centre[:, -1:])[0]
+    return Spot(element or f"road {lane.road}", latitude, longitude, element)
 
 
 def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
