@@ -1,10 +1,6 @@
-"""Turns that are drawn narrower than a car's lock. What cars drive there is wider, as `ways/path.py` draws it; where even that cannot be
-driven, the turn is left out if other ways lead on and in. Both are told.
-"""
+"""Turns that are drawn narrower than a car's lock: cars drive a wider line there, as `ways/path.py` draws it, and the report says so."""
 
-from collections import Counter
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
@@ -13,38 +9,20 @@ from studio.road.network import Connection, Net, curve
 from studio.road.network.report import Notes, Spot
 from studio.road.ways.path import CORRIDOR, Draft, curvature_of, smooth
 
-BEYOND = 0.3  # [1/m] of the line that is driven: a car with its wheels at full lock would leave its lane by more than a metre
 REACH = 40.0  # [m] of the lanes before and behind
 
 
-def driven(net: Net, spot: Callable[[Connection], Spot], notes: Notes) -> Net:
-    """The network without turns that no car can take."""
-    tight = [each for each in net.connections if each.direction != "turn" and sharpest(net, each) > curve.LOCK]
-    ways_on, ways_in = (Counter(net.lanes[lane(each)].road for each in net.connections if each.direction != "turn") for lane in ENDS)
-    gone = set()
-    for each in tight:
-        start, end = (net.lanes[lane(each)].road for lane in ENDS)
+def tell(net: Net, spot: Callable[[Connection], Spot], notes: Notes) -> None:
+    """Tells every such turn with what is driven; where that is still too sharp, between roads of a few metres, cars leave their lane."""
+    for each in net.connections:
+        drawn = sharpest(net, each)
+        if each.direction == "turn" or drawn <= curve.LOCK:
+            continue
+        start, end = (net.lanes[lane].road for lane in (each.from_lane, each.to_lane))
         bend = bend_of(net, each)
-        lone = ways_on[start] < 2 or ways_in[end] < 2
-        what = f"from road {start} to road {end}, drawn with a radius of {1.0 / sharpest(net, each):.1f} m, driven with {1.0 / bend:.1f} m"
-        if bend > BEYOND and not lone:
-            gone.add(id(each))
-            ways_on[start] -= 1
-            ways_in[end] -= 1
-            notes.skip("narrow turn", what, spot(each), "no car can turn so sharply; it is left out")
-        elif bend > BEYOND:
-            notes.skip(
-                "narrow turn",
-                what,
-                spot(each),
-                "no car can turn so sharply; it is kept, since nothing else leads on or in",
-            )
-        else:
-            notes.guess("wider turn", what, spot(each), source="the map leaves less room than a car's lock needs", sure="medium")
-    return replace(net, connections=tuple(each for each in net.connections if id(each) not in gone)) if gone else net
-
-
-ENDS = (lambda each: each.from_lane, lambda each: each.to_lane)
+        what = f"from road {start} to road {end}, drawn with a radius of {1.0 / drawn:.1f} m, driven with {1.0 / bend:.1f} m"
+        source = "the map leaves less room than a car's lock needs" + ("; cars leave their lane" if bend > curve.LOCK else "")
+        notes.guess("wider turn", what, spot(each), source=source, sure="low" if bend > curve.LOCK else "medium")
 
 
 def bend_of(net: Net, connection: Connection) -> float:
