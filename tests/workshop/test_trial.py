@@ -76,11 +76,14 @@ def test_an_application_decides_with_its_own_parameters(tried):
     assert not tried(text) and not tried(text, gain=5.0) and tried(text, gain=-1.0)
 
 
-def test_it_is_called_for_a_while(tried):
+@pytest.mark.parametrize(
+    ("what", "limit", "is_found"),
+    [("sees.clock.time", (DRAWS - 2) * TICK, True), ("memory.t", DRAWS - 2, True), ("sees.clock.time", 2 * DRAWS * TICK, False)],
+)
+def test_it_is_called_for_a_while(tried, what, limit, is_found):
     """Time goes on, and memory is handed over from call to call."""
-    late = "return Memory(memory.t + 1.0), Does(accelerate(float('nan') if {} >= {:g} else 0.0))"
-    assert tried(late.format("sees.clock.time", (DRAWS - 2) * TICK)) and tried(late.format("memory.t", DRAWS - 2))
-    assert not tried(late.format("sees.clock.time", 100.0 * DRAWS * TICK))
+    text = f"return Memory(memory.t + 1.0), Does(accelerate(float('nan') if {what} >= {limit:g} else 0.0))"
+    assert bool(tried(text)) == is_found
 
 
 @pytest.mark.parametrize("name", ["acc", "cacc", "awareness", "perception", "cacc_direct"])
