@@ -107,7 +107,7 @@ class Does(NamedTuple):
 
 
 CAR = 4.5  # [m] from the middle of one car to its rear, and from the front of the next to its middle
-CALM = 0.05  # [m/s²] ten times what the noise of a radar makes of the request
+CALM = 0.01  # [m/s²] twice what the noise of a radar makes of the request
 HEADWAY_RATE = 0.1  # [s/s] how fast the headway in force moves to the wanted one, so that losing the link is no jolt
 
 
@@ -118,11 +118,11 @@ def approach(value, target, change):
 
 
 @compiled
-def ploeg_rate(p, h, u, u_ahead, own, front):
-    """du/dt [m/s³]."""
+def lagged(p, h, u, u_ahead, own, front, T):
+    """The request [m/s²] after a tick T [s], of the lag h: backward Euler, whose lag at low frequencies is h itself."""
     e = front.range - (p.standstill + h * own.speed)
     de = front.rate - h * own.acceleration
-    return (-u + p.k_p * e + p.k_d * de + u_ahead) / h
+    return (h * u + T * (p.k_p * e + p.k_d * de + u_ahead)) / (h + T)
 
 
 @compiled
@@ -134,9 +134,9 @@ def is_sender(p, own, front, message):
 
 
 @compiled
-def calmed(u, asked):
-    """What is asked of the car [m/s²], which must not change between drive and brakes for less than CALM."""
-    return 0.0 if u * asked < 0.0 and abs(u) < CALM else u
+def calmed(u, asked, calm):
+    """What is asked of the car [m/s²], which must not change between drive and brakes for less than `calm` [m/s²]."""
+    return 0.0 if u * asked < 0.0 and abs(u) < calm else u
 
 
 @compiled
@@ -151,8 +151,8 @@ def decide(parameters, memory, sees):
     h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * T)
     u_ahead = message.payload.intention if linked else ahead[2] if p.estimates else 0.0
     u_cruise = p.cruise_gain * (own.set_speed - own.speed)
-    u = min(memory.u + T * ploeg_rate(p, h, memory.u, u_ahead, own, front), u_cruise) if is_behind else u_cruise
+    u = min(lagged(p, h, memory.u, u_ahead, own, front, T), u_cruise) if is_behind else u_cruise
     u = min(max(u, -p.deceleration_max), p.acceleration_max)
-    command = calmed(u, memory.asked)
+    command = calmed(u, memory.asked, CALM)
     does = Does(accelerate(command), Log(1.0 if linked else 0.0, h, u_ahead if is_behind else 0.0))
     return Memory(u, h, memory.asked if command == 0.0 else command, ahead), does

@@ -4,7 +4,8 @@
 
 d_j gap to the car j + 1 places ahead, L length of a car, v_0 the leader's speed: M. di Bernardo, A. Salvi, S. Santini, Distributed
 consensus strategy for platooning of vehicles in the presence of time-varying heterogeneous communication delays, IEEE Trans. ITS 16
-(2015) 102, Eq. 7, with equal weights. The nearest is measured by radar; the others are where their messages say, drawn on by what they have
+(2015) 102, Eq. 7, with equal weights. The nearest is measured by radar, as studio/model/singer.py
+estimates it; the others are where their messages say, drawn on by what they have
 driven since, which makes up for the delay as tau v_0 does in the paper. Satellite errors move the car: they count 1/n of themselves.
 
 `listens_to` names for each car those ahead, the nearest first and the leader last, up to four: `[leader]` for the second car, then
@@ -26,6 +27,8 @@ KIND = "application"
 TITLE = "Cooperative adaptive cruise control (consensus)"
 COMMANDS = ACCELERATION
 PLACES = 3  # ahead, whose distance counts
+SLOW = 1.0  # [s] in which places by satellite come to count, so that their noise is not felt
+CALM = 0.1  # [m/s²] four times what the noise of a radar makes of the request
 
 
 class Parameters(Part):
@@ -33,7 +36,7 @@ class Parameters(Part):
 
     headway: float = number(0.4, unit="s", title="Time headway", description="h, of the leader's speed", ge=0, le=5)
     standstill: float = number(4.0, unit="m", title="Standstill distance", description="r", ge=0, le=20)
-    speed_gain: float = number(1.2, unit="1/s", title="Gain on the leader's speed", description="b", ge=0, le=5)
+    speed_gain: float = number(2.5, unit="1/s", title="Gain on the leader's speed", description="b", ge=0, le=5)
     gap_gain: float = number(0.3, unit="1/s²", title="Gain on the places", description="k", ge=0, le=5)
     timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
     fallback_headway: float = number(1.6, unit="s", title="Headway without link", ge=0.1, le=5)
@@ -49,6 +52,7 @@ class Memory(NamedTuple):
     """The headway in force, what is asked of the car, and what is estimated of the car ahead."""
 
     headway: Annotated[float, "s"] = -1.0  # negative before the first tick
+    beyond: Annotated[float, "m", "sum of how much too far behind all but the nearest it is"] = 0.0
     asked: Annotated[float, "m/s²", "last that was not 0"] = 0.0
     ahead: Annotated[Estimate, "1", "as studio/model/singer.py has it"] = singer.NOBODY
 
@@ -76,14 +80,14 @@ def gap_to(own, message):
 
 
 @compiled
-def misplaced(p, h, v_0, own, front, heard):
-    """Mean over those who are heard of how much too far behind them the car is [m]."""
-    total, n = front.range - p.standstill - h * v_0, 1
+def misplaced(p, h, v_0, own, heard):
+    """How much too far behind those who are heard of the car is, but for the nearest [m], sum and number."""
+    total, n = 0.0, 0
     for j in range(1, min(heard.count, PLACES)):
         if is_fresh(heard.message[j], p.timeout):
             total += gap_to(own, heard.message[j]) - (j + 1) * (p.standstill + h * v_0) - j * CAR
             n += 1
-    return total / n
+    return total, n
 
 
 @compiled
@@ -96,9 +100,12 @@ def decide(parameters, memory, sees):
     linked = is_fresh(first, p.timeout) and is_fresh(leader, p.timeout) and (not is_behind or is_sender(p, own, front, first))
     h = p.headway if memory.headway < 0.0 else approach(memory.headway, p.headway if linked else p.fallback_headway, HEADWAY_RATE * T)
     u, v_0 = p.cruise_gain * (own.set_speed - own.speed), leader.payload.speed
+    total, n = misplaced(p, h, v_0, own, heard)
+    beyond = memory.beyond + (total - memory.beyond) * T / (SLOW + T)
     if is_behind and linked:
-        u = min(u, p.speed_gain * (v_0 - own.speed) + p.gap_gain * misplaced(p, h, v_0, own, front, heard))
+        place = (ahead[0] - p.standstill - h * v_0 + beyond) / (n + 1)
+        u = min(u, p.speed_gain * (v_0 - own.speed) + p.gap_gain * place)
     elif is_behind:
-        u = min(u, alone(p.standstill, h, own, front, ahead[2]))
-    command = calmed(min(max(u, -p.deceleration_max), p.acceleration_max), memory.asked)
-    return Memory(h, memory.asked if command == 0.0 else command, ahead), Does(accelerate(command))
+        u = min(u, alone(p.standstill, h, own, ahead[0], ahead[1], ahead[2]))
+    command = calmed(min(max(u, -p.deceleration_max), p.acceleration_max), memory.asked, CALM)
+    return Memory(h, beyond, memory.asked if command == 0.0 else command, ahead), Does(accelerate(command))
