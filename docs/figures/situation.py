@@ -1,9 +1,10 @@
 """Two cars side by side on a straight road, and an obstacle that is suddenly there: the situation of CELC, with any of its figures.
 
-    situation(speed=..., distance=..., latency=...)     →  a scenario
-    survived(record)                                    →  whether nobody has touched anybody
-    formula(speed, latency)                             →  the least distance that theory has for it [m]
-    least([{...}, ...])                                 →  the least distances at which nobody does, of many situations at once [m]
+situation(speed=..., distance=..., latency=...)     →  a scenario
+survived(record)                                    →  whether nobody has touched anybody
+formula(speed, latency)                             →  the least distance that theory has for it [m]
+way_aside(record)                                   →  what A has driven until it is as far aside as the formula wants [m]
+least([{...}, ...])                                 →  the least distances at which nobody does, of many situations at once [m]
 """
 
 from typing import Any
@@ -19,7 +20,13 @@ LENGTH, FRONT = 4.261, 2.27  # [m] of the car, and from its reference point to i
 AHEAD = 2.1  # [m] by which A is ahead of B: half a car
 APPEARS = 1.0  # [s]
 START = 150.0  # [m] station of A
+CLEAR = 2.0  # [m] half of two cars' widths and the margin
 SIDE_MARGIN = 0.2  # [m] that is kept to each side of the obstacle: it is made wider by that
+SURPRISED = {
+    "kind": "attentive",
+    "surprised_reaction": 1.25,
+    "expected_reaction": 0.75,
+}  # [s] M. Green, Transportation Human Factors 2 (2000)
 AROUND = {"kind": "blind_spot", "forward": -2.0, "left": 0.0, "yaw": 0.0, "opening_angle": 6.28, "range": 60.0, "visible": 0.05,
           "noise": 0.05, "rate_noise": 0.05, "length_noise": 0.05}  # fmt: skip
 SENSORS = {
@@ -32,14 +39,32 @@ SENSORS = {
 def car(lane: int, along: float, speed: float) -> dict[str, Any]:
     """A car with all that the application wants."""
     place = {"road": "motorway", "lane": lane, "offset": along}
-    return {"route": "along", "model": "electric_compact", "position": place, "speed": speed, "sensors": SENSORS, "gps": {"drift": 0.0, "noise": 0.0}}
+    return {
+        "route": "along",
+        "model": "electric_compact",
+        "position": place,
+        "speed": speed,
+        "sensors": SENSORS,
+        "gps": {"drift": 0.0, "noise": 0.0},
+    }
 
 
 def situation(
-    *, speed: float, distance: float, latency: float = 0.02, loss: float = 0.0, parameters: dict[str, Any] | None = None, others: bool = False,
-    width: float = 1.8, friction: float = 1.0, application: bool = True, duration: float = 6.0, seed: int = 1, gap: float = 0.8,
+    *,
+    speed: float,
+    distance: float,
+    latency: float = 0.02,
+    loss: float = 0.0,
+    parameters: dict[str, Any] | None = None,
+    others: bool = False,
+    width: float = 1.8,
+    friction: float = 1.0,
+    application: bool = True,
+    duration: float = 6.0,
+    seed: int = 1,
+    gap: float = 0.8,
 ) -> dict[str, Any]:
-    """A in the left lane, B beside it, both at `speed` [m/s]; at 1 s an obstacle `width` [m] wide is `distance` [m] before A's front bumper.
+    """A in the left lane, B beside it, both at `speed` [m/s]; at 1 s an obstacle `width` [m] wide is `distance` [m] before A's bumper.
 
     `others`: a follower behind each, `gap` [s] of driving behind. The radio needs `latency` [s] from application to application.
     """  # fmt: skip
@@ -48,6 +73,8 @@ def situation(
     if others:
         back = LENGTH + gap * speed
         vehicles |= {"behind_A": car(1, START - back, speed), "behind_B": car(0, START - AHEAD - back, speed)}
+    if not application:
+        vehicles = {name: each | {"driver": SURPRISED} for name, each in vehicles.items()}
     hears = {"A": ["B"], "B": ["A"], "behind_A": ["A"], "behind_B": ["B"]}
     group = {
         "application": "celc", "units": list(vehicles), "listens_to": [hears[each] for each in vehicles], "cycle": 0.005,
@@ -67,6 +94,17 @@ def situation(
 def survived(record: Record) -> bool:
     """Whether nobody has touched anybody or anything."""
     return not any(each.kind == "collision" for each in record.happenings)
+
+
+def way_aside(record: Record) -> float:
+    """Way [m] that A drives from the moment at which the obstacle is visible until its middle is CLEAR aside, as the formula counts."""
+    aside = -record.trace("A.lateral_offset")
+    if not np.any(aside >= CLEAR):
+        return float("nan")
+    k = int(np.argmax(aside >= CLEAR))
+    at = np.interp(CLEAR, aside[k - 1 : k + 1], record.time[k - 1 : k + 1])
+    station = record.trace("A.station")
+    return float(np.interp(at, record.time, station) - np.interp(APPEARS, record.time, station))
 
 
 def formula(speed: float, latency: float, *, a_y: float = 6.0, b_B: float = 6.0) -> float:

@@ -13,8 +13,8 @@ takes follows from what it sees and hears:
     DONE     in the other lane; or ABORT: brakes instead                               repeated for a while
 
 All of it carries the number that who asked has given it. The safe default is to brake: when nobody answers in time or one refuses, when
-the other one was heard to brake but is not seen to, and where braking alone is enough. Who has accepted and hears no commitment until the
-deadline goes on as before.
+the other one was heard to brake but is not seen to, and where braking alone is enough. Who has accepted and hears no commitment until
+GRACE after the deadline goes on as before.
 
 What is in the way counts when the sensor is sure of it (`confidence`) and has been for `recognition`. The way aside is the quintic of
 studio/model/evasion.py, within `lateral` m/s²; it may brake meanwhile, within what the tyres have left of `grip`. It begins when the other
@@ -63,11 +63,13 @@ BEHIND, BEFORE = -14.0, 8.0  # [m] middles of cars ahead of the own front bumper
 CORRIDOR = 1.2  # [m] to each side of the middle of the lane: what comes in there is in the way
 SAME = 3.0  # [m] within which both see each other where the other says
 SURE = 0.25  # [s] after the other one's brakes should have acted, it must be seen
-CAR_LAG = 0.2  # [s] by which the car is behind its wheels' way: steering and yaw
+RESERVE = 0.07  # [s] between commitment and wheels: it is repeated thrice, and the other one may be later than it has told
+TURN_LAG, YAW_LAG = 0.01, 0.0065  # [s], [s²/m] per speed, by which a car takes up a bend late; estimated for the electric compact
 OMEGA = 3.0  # [1/s] both poles of the error
 STANDS, SLOWEST = 0.3, 3.0  # [m/s]
 ENOUGH, RESUMED = 6.0, 4.0  # [m] to who has gone ahead; [s] until it is the driver's again
 EARLY = 1e-6  # [s]
+GRACE = 0.3  # [s] in which a commitment that was given at the last moment may still come
 AGAIN = 1.5  # [m/s²] with which it goes on after it has braked for another one
 RESUME_HEADWAY, RESUME_GAP = 1.5, 3.0  # [s], [m]
 
@@ -168,6 +170,12 @@ class Beside(NamedTuple):
 
 
 @compiled
+def lag(v):
+    """By how much [s] the car is behind the way of its steering."""
+    return TURN_LAG + YAW_LAG * v
+
+
+@compiled
 def offset_of(sees, before):
     """Where the car is beside the middle of its first lane [m], to the left; as before where no lane is marked."""
     lane = sees.lane.target[0]
@@ -222,12 +230,13 @@ def answer(memory, heard):
 
 
 @compiled
-def plan(p, time, age, offered, beside):
+def plan(p, time, v, age, offered, beside):
     """When the wheels are to turn, and when the other one's brakes act [s]."""
     T, braked = evasion.change_time(p.width, p.lateral), time - age + BRAKE_LAG
     overlap = evasion.moment(min(max((abs(beside.left) - WIDTH - SIDE_MARGIN) / p.width, 0.0), 1.0))
-    clear = braked + evasion.clearing_time(LONG_MARGIN - fallen_back(beside), offered)
-    return max(time, clear - T * overlap - CAR_LAG), braked
+    lost = 0.5 * p.evasion_braking * (T * overlap) ** 2  # what the own braking takes of the way that the other one falls back
+    clear = braked + evasion.clearing_time(LONG_MARGIN - fallen_back(beside) + lost, offered)
+    return max(time, clear - T * overlap - lag(v)) + RESERVE, braked
 
 
 @compiled
@@ -290,13 +299,13 @@ def as_asking(p, m, sees, obstacle, beside, offset):
         if refused or time > m.deadline:
             return entered(m, BRAKING, time)
         if accepted >= max(beside.count, 1):
-            begin, braked = plan(p, time, age, offered, beside)
+            begin, braked = plan(p, time, v, age, offered, beside)
             return Memory(COMMITTED, time, m.identity, -1.0, m.deadline, -1.0, begin, braked, offered, 0.0, m.first, m.closed)
     if m.stage == COMMITTED and not is_braking(p, time, m, beside):
         return entered(m, BRAKING, time)
     if m.stage == COMMITTED and time >= m.begin:
         return started(m, time, offset)
-    if m.stage == EVADING and time > m.since + evasion.change_time(p.width, p.lateral) + CAR_LAG:
+    if m.stage == EVADING and time > m.since + evasion.change_time(p.width, p.lateral) + lag(v):
         return entered(m, ASIDE, time)
     if m.stage == BRAKING and v < STANDS and not obstacle.is_there:
         return over(m, IDLE, time)
@@ -350,7 +359,7 @@ def is_pressed(p, sees):
     for i in range(sees.around.count):
         target = sees.around.target[i]
         behind = -LENGTH - target.ahead - 0.5 * target.length
-        if abs(target.left) < CORRIDOR and 0.0 < behind + 0.5 * target.length < p.room:
+        if abs(target.left) < CORRIDOR and -0.5 * LENGTH < behind < p.room:
             return True
     return False
 
@@ -365,7 +374,7 @@ def as_asked(p, m, sees, obstacle):
         return over(m, IDLE, time)
     if m.stage == YIELDING:
         step, gap = last_step(m, heard), obstacle.gap
-        is_off = step in (DONE, ABORT) or (step < COMMIT and time > m.deadline)
+        is_off = step in (DONE, ABORT) or (step < COMMIT and time > m.deadline + GRACE)
         return over(m, RESUMING, time) if is_off or (time - m.since > 1.0 and gap > ENOUGH and gap < 30.0) else m
     if m.stage == FOLLOWING and not obstacle.is_there and last_step(m, heard) in (0, DONE):
         return over(m, RESUMING, time)
@@ -394,7 +403,7 @@ def way_aside(p, m, time):
 def steering(p, m, sees, offset):
     """Road wheel angle [rad]: what the bend takes, ahead of the car's lag, and what brings the car back to the way."""
     time, v, lane = sees.clock.time, max(sees.own.speed, SLOWEST), sees.lane.target[0]
-    y, dy, _ = way_aside(p, m, time - CAR_LAG)
+    y, dy, _ = way_aside(p, m, time - lag(v))
     bend = way_aside(p, m, time)[2] / (v * v)
     error = 2.0 * OMEGA / v * (lane.heading - dy / v) + OMEGA * OMEGA / (v * v) * (offset - y)
     kappa = p.steer_gain * bend + (lane.curvature - error if sees.lane.count > 0 else 0.0)
@@ -402,9 +411,10 @@ def steering(p, m, sees, offset):
 
 
 @compiled
-def evading(p, m, time):
-    """Acceleration [m/s²] while going around: no more braking than the tyres have left."""
-    return -min(p.evasion_braking, evasion.left_over(p.grip, abs(way_aside(p, m, time)[2])))
+def evading(p, m, own, time):
+    """Acceleration [m/s²] while going around: no more braking than the tyres have left, by the way and by what the car does."""
+    across = max(abs(way_aside(p, m, time)[2]), abs(own.yaw_rate * own.speed))
+    return -min(p.evasion_braking, evasion.left_over(p.grip, across))
 
 
 @compiled
@@ -412,7 +422,7 @@ def command(p, m, sees, obstacle, offset):
     """What is asked of the car in each stage."""
     time, stage = sees.clock.time, int(m.stage)
     if stage == EVADING:
-        return also(accelerate(evading(p, m, time)), steer(steering(p, m, sees, offset)))
+        return also(accelerate(evading(p, m, sees.own, time)), steer(steering(p, m, sees, offset)))
     if stage == ASIDE:
         return also(accelerate(drive_on(sees.own, obstacle)), steer(steering(p, m, sees, offset)))
     if stage in (ASKING, COMMITTED):
