@@ -4,12 +4,12 @@ run([convoy(...), ...])        →  Record, ...       side by side
 gain(record, frequency)        →  complex[hop]      A_i/A_{i-1} at the frequency that was driven
 """
 
+import json
 import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import yaml
 
 from studio import job
 from studio.execution.loop import as_fast_as_possible
@@ -85,7 +85,7 @@ def run(documents: list[dict[str, Any]]) -> list[Record]:
         (folder / "motorway.xodr").write_text(motorway(length=longest + 3000.0, lanes=2, radius=20_000.0), encoding="utf-8")
         prepared = []
         for i, document in enumerate(documents):
-            (folder / f"{i}.yaml").write_text(yaml.safe_dump(document), encoding="utf-8")
+            (folder / f"{i}.yaml").write_text(json.dumps(document, default=float), encoding="utf-8")
             prepared.append(job.prepare(job.load(folder / f"{i}.yaml")))
         running = simulation(*prepared)
         as_fast_as_possible(running)
