@@ -43,6 +43,8 @@ def draw_gain(axes, A) -> None:
     axes.plot(FREQUENCIES, abs(ploeg(A, 0.0, 1.6)), color="#777777", linewidth=1.0, linestyle="--", label="1.6 s, radar alone")
     axes.axhline(1.0, color="black", linewidth=0.6)
     axes.set(xscale="log", xlim=(0.02, 0.5), ylim=(0.5, 1.2), xlabel="frequency [Hz]", ylabel="gain from car to car [1]")
+    axes.set_xticks([0.02, 0.05, 0.1, 0.2, 0.5], ["0.02", "0.05", "0.1", "0.2", "0.5"])
+    axes.minorticks_off()
 
 
 def crossing(headways: np.ndarray, peaks: np.ndarray) -> float:
