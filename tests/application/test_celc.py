@@ -8,6 +8,7 @@ from scipy.optimize import minimize_scalar
 
 from docs.figures.convoy import run
 from docs.figures.situation import APPEARS, formula, least, situation, survived, way_aside
+from studio import job
 from studio.conventions import GRAVITY
 from studio.model.evasion import left_over
 
@@ -139,3 +140,24 @@ def test_a_slippery_road_is_too_much():
     """The parameters that work on a dry road fail at 0.25: the car cannot have 6 m/s² across."""
     dry, icy = run([together(), together(friction=0.25)])
     assert survived(dry) and not survived(icy)
+
+
+def sample(root, **changes):
+    """The sample of CELC, with changes by path."""
+    return job.run(job.load(root / "scenarios" / "celc.yaml", changes))
+
+
+def test_the_sample_is_solved(root):
+    outcome = sample(root)
+    assert outcome.status == "done" and not outcome.unmet
+    assert outcome.metrics["commit_time"].value == pytest.approx(0.1, abs=0.03) and outcome.metrics["maneuvers_aborted"].value == 0.0
+
+
+def test_what_fails_and_the_measure_that_tells(root):
+    """B that brakes too little: an impact at full speed though all agreed. A late radio: taken back, and an impact with braking."""
+    soft = sample(root, **{"applications.evasion.parameters.yielding": 3.0}).metrics
+    late = sample(root, **{"radio.delay": 0.2}).metrics
+    people = sample(root, applications={}).metrics
+    assert soft["commit_time"].value < 0.2 and soft["max_impact_speed"].value > 25.0
+    assert late["maneuvers_aborted"].value == 1.0 and late["max_impact_speed"].value < 20.0
+    assert people["collisions"].value == 2.0 and people["maneuvers_aborted"].value is None

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from docs.figures.convoy import SPEED, convoy, gain, heard, lines, run, settled, swing
+from studio import job
 from studio.assess.transfer import actuated, delayed, laplace, least_headway, ploeg
 from studio.kind import registry
 from studio.kind.number import numbers, tuple_of
@@ -151,3 +152,20 @@ def test_what_is_measured_is_settled():
     time = np.arange(0.0, 109.99, 0.02)
     kept = settled(time, 0.1)
     assert abs(np.mean(np.sin(2 * np.pi * 0.1 * time[kept]))) < 2e-3
+
+
+SAMPLES = ("cacc_sine", "cacc_brake", "cacc_step")
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_the_samples_meet_their_goals(root, name):
+    outcome = job.run(job.load(root / "scenarios" / f"{name}.yaml"))
+    assert outcome.status == "done" and not outcome.unmet, outcome.unmet
+
+
+def test_parameters_that_fail_are_told_by_the_gain(root):
+    """A headway of 0.3 s with a radio of 0.15 s: every car works harder than the one ahead, the last almost twice as hard as the leader."""
+    changes = {"applications.platoon.parameters.headway": 0.3, "radio.delay": 0.15}
+    outcome = job.run(job.load(root / "scenarios" / "cacc_sine.yaml", changes))
+    assert outcome.metrics["worst_hop_gain"].value > 1.05 and outcome.metrics["platoon_gain"].value > 1.5
+    assert len(outcome.unmet) == 2
