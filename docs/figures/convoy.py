@@ -77,12 +77,18 @@ def heard(application: str, cars: int) -> list[Any]:
     return names[:-1]
 
 
+def way(document: dict[str, Any]) -> float:
+    """How far [m] on the road the first car will come, at the mean speed of most of these scenarios."""
+    first = max(each["position"]["offset"] for each in document["vehicles"].values())
+    return first + SPEED * document["clock"]["duration"]
+
+
 def run(documents: list[dict[str, Any]]) -> list[Record]:
     """The records of scenarios that are run side by side."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        longest = max(SPEED * each["clock"]["duration"] for each in documents)
-        (folder / "motorway.xodr").write_text(motorway(length=longest + 3000.0, lanes=2, radius=20_000.0), encoding="utf-8")
+        longest = max(map(way, documents))
+        (folder / "motorway.xodr").write_text(motorway(length=longest + 2500.0, lanes=2, radius=20_000.0), encoding="utf-8")
         prepared = []
         for i, document in enumerate(documents):
             (folder / f"{i}.yaml").write_text(json.dumps(document, default=float), encoding="utf-8")

@@ -132,6 +132,15 @@ def test_the_platoon_brakes_and_comes_back(law):
     assert gaps[:, -1] == pytest.approx(LAWS[law], abs=1.0)
 
 
+def test_two_hundred_cars():
+    """4 km of platoon at 0.8 s, ten messages a second: the swing of the leader is less in every car, and gone in the last."""
+    points = [[0.0, SPEED], [2.0, SPEED], [5.0, SPEED - 6.0], [8.0, SPEED], [60.0, SPEED]]
+    (record,) = run([convoy("cacc", points, gap=R + 0.8 * SPEED, cars=200, period=0.1, radio={"delay": 0.02}, parameters={"headway": 0.8})])
+    swings = np.array([SPEED - record.trace(f"car_{i}.speed").min() for i in range(0, 200, 10)])
+    assert swings[0] > 5.0 and np.all(np.diff(swings) < 0.05) and swings[-1] < 1.0
+    assert not any(each.kind == "collision" for each in record.happenings)
+
+
 def test_weights_of_leader_and_predecessor():
     """0.5, 0.5, -0.3, -0.1, -0.04 with Plexe's C_1, xi and omega, exactly (M. Segata et al., VNC 2014)."""
     module = registry.find("application", "cacc_leader").module
