@@ -19,7 +19,7 @@ WIDTH = 3.75  # [m] of a lane of the motorway
 LENGTH, FRONT = 4.261, 2.27  # [m] of the car, and from its reference point to its front bumper
 AHEAD = 2.1  # [m] by which A is ahead of B: half a car
 APPEARS = 1.0  # [s]
-START = 150.0  # [m] station of A
+START = 150.0  # [m] station of the last car, or of A
 CLEAR = 2.0  # [m] half of two cars' widths and the margin
 SIDE_MARGIN = 0.2  # [m] that is kept to each side of the obstacle: it is made wider by that
 SURPRISED = {
@@ -56,7 +56,7 @@ def situation(
     latency: float = 0.02,
     loss: float = 0.0,
     parameters: dict[str, Any] | None = None,
-    others: bool = False,
+    others: int = 0,
     width: float = 1.8,
     friction: float = 1.0,
     application: bool = True,
@@ -66,16 +66,18 @@ def situation(
 ) -> dict[str, Any]:
     """A in the left lane, B beside it, both at `speed` [m/s]; at 1 s an obstacle `width` [m] wide is `distance` [m] before A's bumper.
 
-    `others`: a follower behind each, `gap` [s] of driving behind. The radio needs `latency` [s] from application to application.
+    `others`: so many followers behind each, `gap` [s] of driving apart; all hear A, or B. The radio needs `latency` [s] from application
+    to application.
     """  # fmt: skip
-    near = START + FRONT + speed * APPEARS + distance
-    vehicles = {"A": car(1, START, speed), "B": car(0, START - AHEAD, speed)}
-    if others:
-        back = LENGTH + gap * speed
-        vehicles |= {"behind_A": car(1, START - back, speed), "behind_B": car(0, START - AHEAD - back, speed)}
+    start = START + others * (LENGTH + gap * speed)
+    near = start + FRONT + speed * APPEARS + distance
+    vehicles = {"A": car(1, start, speed), "B": car(0, start - AHEAD, speed)}
+    for i in range(1, others + 1):
+        back = i * (LENGTH + gap * speed)
+        vehicles |= {f"behind_A_{i}": car(1, start - back, speed), f"behind_B_{i}": car(0, start - AHEAD - back, speed)}
     if not application:
         vehicles = {name: each | {"driver": SURPRISED} for name, each in vehicles.items()}
-    hears = {"A": ["B"], "B": ["A"], "behind_A": ["A"], "behind_B": ["B"]}
+    hears = {"A": ["B"], "B": ["A"]} | {name: [name.split("_")[1]] for name in vehicles if "_" in name}
     group = {
         "application": "celc", "units": list(vehicles), "listens_to": [hears[each] for each in vehicles], "cycle": 0.005,
         "parameters": {"width": WIDTH, "recognition": 0.0, "confidence": 0.0} | (parameters or {}),

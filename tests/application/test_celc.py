@@ -92,7 +92,7 @@ def test_an_answer_that_comes_too_late_is_none():
 
 def test_who_is_pressed_refuses():
     """Somebody is 22 m behind B, who wants 30 m: it says no, and A brakes."""
-    (record,) = run([together(others=True, parameters={"room": 30.0})])
+    (record,) = run([together(others=1, parameters={"room": 30.0})])
     assert REFUSING in stages(record, "B") and YIELDING not in stages(record, "B")
     assert BRAKING in stages(record, "A") and EVADING not in stages(record, "A")
 
@@ -108,10 +108,18 @@ def test_a_partner_that_falls_silent():
 
 def test_followers_brake_with_those_ahead():
     """0.8 s behind, 100 km/h: who follows A stands before the obstacle, who follows B keeps off it; all by message."""
-    (record,) = run([together(others=True, duration=9.0)])
+    (record,) = run([together(others=1, duration=9.0)])
     assert survived(record)
-    assert FOLLOWING in stages(record, "behind_A") and FOLLOWING in stages(record, "behind_B")
-    assert record.trace("behind_A.speed")[-1] < 1.0
+    assert FOLLOWING in stages(record, "behind_A_1") and FOLLOWING in stages(record, "behind_B_1")
+    assert record.trace("behind_A_1.speed")[-1] < 1.0
+
+
+def test_twenty_cars():
+    """Nine behind each, 0.8 s apart: nobody touches anybody, those in A's lane slow down one behind the other, A drives on."""
+    (record,) = run([together(others=9, duration=16.0)])
+    assert survived(record) and record.trace("behind_A_1.speed")[-1] < 1.0
+    assert max(record.trace(f"behind_A_{i}.speed").min() for i in range(1, 10)) < 15.0
+    assert record.trace("A.speed")[-1] > 20.0
 
 
 def test_time_to_agree_over_loss():
