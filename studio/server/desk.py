@@ -14,6 +14,8 @@ from studio.job import Loaded
 from studio.road.library import place
 from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
+from studio.server.editing import Editing
+from studio.server.editing.history import History
 from studio.server.frame import Frame
 from studio.server.live import MOST_LIVE, LiveRun, Lives
 from studio.server.maps import Maps
@@ -41,6 +43,7 @@ class Desk:
         self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
         self.scenario_files = Scenarios(self.documents)
+        self.editing = Editing(self.documents, History(self.db.with_name(f"{self.db.stem}.edits.db")))
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
@@ -150,6 +153,7 @@ class Desk:
             renamed = self.scenario_files.rename(path, name, title, expected)
             if renamed.stem != scenario:
                 kept.rename_scenario(scenario, renamed.stem)
+                self.editing.history.rename(scenario, renamed.stem)
         return renamed
 
     def replay(self, runs: Runs, run: int) -> Replay:

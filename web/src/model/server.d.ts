@@ -960,6 +960,111 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/scenarios/{scenario}/editing": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Editing
+         * @description A scenario as it is edited: its document, where everything lies, what happens when, and what can be undone.
+         */
+        get: operations["editing_api_scenarios__scenario__editing_get"];
+        put?: never;
+        /**
+         * Edit
+         * @description Does an edit and writes the file: all of it if the result can be run, else nothing. One to an older revision is done to the present
+         *     one, unless somebody has changed the same.
+         */
+        post: operations["edit_api_scenarios__scenario__editing_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/editing/undo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Undo
+         * @description Takes the last step back, whoever has done it.
+         */
+        post: operations["undo_api_scenarios__scenario__editing_undo_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/editing/redo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Redo
+         * @description Does the step again that was undone last.
+         */
+        post: operations["redo_api_scenarios__scenario__editing_redo_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/plan": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Scenario Plan
+         * @description The map of a scenario from above, cut as the scenario cuts it.
+         */
+        get: operations["scenario_plan_api_scenarios__scenario__plan_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/way": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A Way
+         * @description The way through points on the map of a scenario; nothing is written. Where no way leads, the answer says why.
+         */
+        post: operations["a_way_api_scenarios__scenario__way_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1137,6 +1242,64 @@ export interface components {
         Driven: {
             /** Scenario */
             scenario: string;
+        };
+        /**
+         * Editing
+         * @description A scenario that is edited: the document, where everything lies, and what can be undone.
+         */
+        Editing: {
+            /** Scenario */
+            scenario: string;
+            /** Title */
+            title: string;
+            /**
+             * Revision
+             * @description grows with every change, also with undo
+             */
+            revision: number;
+            /**
+             * Digest
+             * @description of the file's text, as in its ETag
+             */
+            digest: string;
+            /**
+             * Sealed
+             * @description why it cannot be changed; empty when it can
+             */
+            sealed: string;
+            /**
+             * Document
+             * @description with all defaults
+             */
+            document: {
+                [key: string]: unknown;
+            };
+            /**
+             * Given
+             * @description as it stands in the file
+             */
+            given: {
+                [key: string]: unknown;
+            };
+            /**
+             * Duration
+             * @description of the run [s]
+             */
+            duration: number;
+            /** Items */
+            items: components["schemas"]["Item"][];
+            /** Turns */
+            turns: components["schemas"]["Turn"][];
+            /**
+             * Done
+             * @description what can be undone, the next one last
+             */
+            done: components["schemas"]["Step"][];
+            /**
+             * Undone
+             * @description what can be done again, the next one last
+             */
+            undone: components["schemas"]["Step"][];
         };
         /**
          * EndNews
@@ -1318,6 +1481,87 @@ export interface components {
             lines: string[];
         };
         /**
+         * Figure
+         * @description Something to be drawn: a body, a point, a line, a patch of road or an area.
+         */
+        Figure: {
+            /**
+             * Path
+             * @description of what it shows, in the document
+             */
+            path: string;
+            /**
+             * Shape
+             * @enum {string}
+             */
+            shape: "body" | "point" | "line" | "patch" | "area";
+            /**
+             * Looks
+             * @description of a body: pedestrian, box, tree …; empty: a vehicle
+             * @default
+             */
+            looks: string;
+            /**
+             * X
+             * @description middle of a body, or the point: east [m]
+             * @default 0
+             */
+            x: number;
+            /**
+             * Y
+             * @description north [m]
+             * @default 0
+             */
+            y: number;
+            /**
+             * Heading
+             * @description of its length [rad]
+             * @default 0
+             */
+            heading: number;
+            /**
+             * Length
+             * @description of a body [m]
+             * @default 0
+             */
+            length: number;
+            /**
+             * Width
+             * @description of a body [m]
+             * @default 0
+             */
+            width: number;
+            /**
+             * Anchor
+             * @description the place that the document gives: of a vehicle its centre of gravity [m]
+             */
+            anchor?: [
+                number,
+                number
+            ] | null;
+            /**
+             * Line
+             * @description outline of a patch or area; way of a body, a route [m]
+             * @default []
+             */
+            line: [
+                number,
+                number
+            ][];
+            /**
+             * Colour
+             * @description of a vehicle
+             * @default
+             */
+            colour: string;
+            /**
+             * Handles
+             * @description of a route
+             * @default []
+             */
+            handles: components["schemas"]["Handle"][];
+        };
+        /**
          * Given
          * @description A number that a kind gives; `size` of them under one name.
          */
@@ -1345,6 +1589,24 @@ export interface components {
              * @description [1] of the greater value: metrics of two runs that differ by less are the same
              */
             alike: number;
+        };
+        /**
+         * Handle
+         * @description A road that a route names, and a point to hold it by.
+         */
+        Handle: {
+            /** Road */
+            road: string;
+            /**
+             * X
+             * @description east [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description north [m]
+             */
+            y: number;
         };
         /**
          * Harmed
@@ -1391,6 +1653,67 @@ export interface components {
             scenarios_folder: string;
             /** @description what is compiled before the first run; null when that is done */
             compiling: components["schemas"]["Compiling"] | null;
+        };
+        /**
+         * Item
+         * @description Something of the scenario that can be chosen.
+         */
+        Item: {
+            /**
+             * Path
+             * @description in the document
+             */
+            path: string;
+            /**
+             * Group
+             * @enum {string}
+             */
+            group: "vehicle" | "person" | "object" | "friction" | "area" | "radio" | "station" | "event" | "route";
+            /** Name */
+            name: string;
+            /**
+             * Told
+             * @description what it is, in words
+             */
+            told: string;
+            /** Figures */
+            figures: components["schemas"]["Figure"][];
+            /**
+             * Vehicles
+             * @description that an entry of the script is about
+             * @default []
+             */
+            vehicles: string[];
+            /**
+             * Route
+             * @description of a vehicle
+             */
+            route?: string | null;
+            /**
+             * Road
+             * @description on which a vehicle starts
+             */
+            road?: string | null;
+            /**
+             * Lane
+             * @description of that road
+             */
+            lane?: number | null;
+            /**
+             * Offset
+             * @description from the start of that lane [m]
+             */
+            offset?: number | null;
+            /**
+             * Along
+             * @description its route [m], where the file says so
+             */
+            along?: number | null;
+            /**
+             * Station
+             * @description of a vehicle, on the line of its figure [m]
+             */
+            station?: number | null;
         };
         /**
          * KeptScenario
@@ -2203,6 +2526,45 @@ export interface components {
             replace: boolean;
         };
         /**
+         * NewEdit
+         * @description An edit by name: what is set by path, then a JSON patch, then what is taken out with all that is about it.
+         */
+        NewEdit: {
+            /**
+             * Name
+             * @example Move leader
+             */
+            name: string;
+            /**
+             * Base
+             * @description the revision that it was made to
+             */
+            base: number;
+            /**
+             * Who
+             * @default
+             */
+            who: string;
+            /**
+             * Set
+             * @default {}
+             */
+            set: {
+                [key: string]: unknown;
+            };
+            /**
+             * Patch
+             * @default []
+             */
+            patch: components["schemas"]["Operation"][];
+            /**
+             * Remove
+             * @description paths such as vehicles.leader
+             * @default []
+             */
+            remove: string[];
+        };
+        /**
          * NewLiveRun
          * @description A live run to start.
          */
@@ -2303,6 +2665,22 @@ export interface components {
             map: string;
         };
         /**
+         * NewTurn
+         * @description Who undoes or does again, and what he has seen last.
+         */
+        NewTurn: {
+            /**
+             * Base
+             * @description the revision at which the step stood last
+             */
+            base: number;
+            /**
+             * Who
+             * @default
+             */
+            who: string;
+        };
+        /**
          * NewVerdict
          * @description What somebody decides about a run that is over.
          */
@@ -2323,6 +2701,32 @@ export interface components {
              * @default
              */
             who: string;
+        };
+        /**
+         * NewWay
+         * @description Points on roads, in the order in which they are driven.
+         */
+        NewWay: {
+            /**
+             * Points
+             * @description [m] of the map
+             */
+            points: [
+                number,
+                number
+            ][];
+            /**
+             * Onwards
+             * @description go on straight behind the last point, as far as a car drives in half a minute or so
+             * @default false
+             */
+            onwards: boolean;
+            /**
+             * Roads
+             * @description roads that come before the points
+             * @default []
+             */
+            roads: string[];
         };
         /**
          * News
@@ -3162,6 +3566,26 @@ export interface components {
             real_time_factor: number;
         };
         /**
+         * Step
+         * @description A change of the file that can be undone, or done again.
+         */
+        Step: {
+            /** Revision */
+            revision: number;
+            /** Name */
+            name: string;
+            /**
+             * Who
+             * @description which browser, or another program
+             */
+            who: string;
+            /**
+             * Time
+             * @description ISO 8601, UTC
+             */
+            time: string;
+        };
+        /**
          * Template
          * @description A scenario to begin with, which is laid on a way through a map.
          */
@@ -3226,6 +3650,44 @@ export interface components {
             values: (number | null)[];
         };
         /**
+         * Turn
+         * @description When an entry of the script is expected to begin.
+         */
+        Turn: {
+            /** Entry */
+            entry: string;
+            /**
+             * Told
+             * @description what it does, in words
+             */
+            told: string;
+            /**
+             * Begins
+             * @description [s]; null: it depends on what happens
+             */
+            begins: number | null;
+            /**
+             * Ends
+             * @description [s]; null: with the run, or it depends
+             */
+            ends: number | null;
+            /**
+             * Is Exact
+             * @description whether the file says the time itself; else it is reckoned with free roads
+             */
+            is_exact: boolean;
+            /**
+             * Why
+             * @description what it waits for, in words
+             */
+            why: string;
+            /**
+             * Never
+             * @description why it can never begin; empty when it may
+             */
+            never: string;
+        };
+        /**
          * TurnCount
          * @description Lanes with turn:lanes where ways part, and how many lead just where the tag says.
          */
@@ -3254,6 +3716,32 @@ export interface components {
              * @description UTC (ISO 8601)
              */
             when: string;
+        };
+        /**
+         * Way
+         * @description A way along the roads.
+         */
+        Way: {
+            /**
+             * Roads
+             * @description as a route names them
+             */
+            roads: string[];
+            /**
+             * Line
+             * @description [m]
+             */
+            line: [
+                number,
+                number
+            ][];
+            /**
+             * Length
+             * @description [m]
+             */
+            length: number;
+            /** Handles */
+            handles: components["schemas"]["Handle"][];
         };
         /**
          * Wheel
@@ -9939,6 +10427,748 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["KeptScenario"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    editing_api_scenarios__scenario__editing_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    edit_api_scenarios__scenario__editing_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewEdit"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    undo_api_scenarios__scenario__editing_undo_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewTurn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    redo_api_scenarios__scenario__editing_redo_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewTurn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    scenario_plan_api_scenarios__scenario__plan_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapPlan"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    a_way_api_scenarios__scenario__way_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewWay"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Way"];
                 };
             };
             /** @description The body is no JSON. */

@@ -1,0 +1,76 @@
+"""What goes along when something is taken out of a scenario, so that nothing names it any more.
+
+A unit of a group goes out of its list, with whom it listens to; an entry of the script that is about what is gone goes too, and what is
+about that entry. The last unit takes its group along. Vehicles do not go with their route: that is refused when the result is checked.
+"""
+
+from typing import Any
+
+from studio.kind.settings import references
+from studio.scenario.schema import Scenario
+from studio.scenario.text import pointer
+from studio.scenario.text.patch import Operation, operation
+
+NAMED = {"vehicles": {"vehicle", "unit", "body"}, "stations": {"unit"}, "script": {"entry", "body"}, "applications": {"application"}}
+Path = tuple[str, ...]
+
+
+def removal(scenario: Scenario, given: dict[str, Any], wanted: list[Path]) -> list[Operation]:
+    """The patch that takes things out of a document, and all that is about them."""
+    gone = closure(scenario, wanted)
+    tops = {path for path in gone if not any(path[:depth] in gone for depth in range(1, len(path)))}
+    kept = [path for path in sorted(tops, key=backwards, reverse=True) if is_given(given, path)]
+    return [operation("remove", path) for path in kept]
+
+
+def closure(scenario: Scenario, wanted: list[Path]) -> set[Path]:
+    """All places that go when these do."""
+    gone, fresh = set(wanted), set(wanted)
+    while fresh:
+        fresh = (set().union(*(about(scenario, path) for path in fresh)) | emptied(scenario, gone)) - gone
+        gone |= fresh
+    return gone
+
+
+def about(scenario: Scenario, path: Path) -> set[Path]:
+    """The places that name what stands at a path, as far as they go when it does."""
+    sorts = NAMED.get(path[0], set()) if len(path) == 2 else set()
+    named = [each.path.split(".") for each in references(scenario) if each.what in sorts and each.name == path[1]]
+    return {place for each in named for place in goes(scenario, each)}
+
+
+def goes(scenario: Scenario, place: list[str]) -> list[Path]:
+    """What goes when the name at a place does: an entry of the script, or a unit of a group with whom it listens to."""
+    match place:
+        case ["script", entry, *_]:
+            return [("script", entry)]
+        case ["applications", group, "units" | "listens_to", number, *_]:
+            listens = [("applications", group, "listens_to", number)] if scenario.applications[group].listens_to else []
+            return [("applications", group, "units", number), *listens]
+    return []
+
+
+def emptied(scenario: Scenario, gone: set[Path]) -> set[Path]:
+    """Groups of which every unit goes."""
+    return {
+        ("applications", name)
+        for name, group in scenario.applications.items()
+        if all(("applications", name, "units", str(i)) in gone for i in range(len(group.units)))
+    }
+
+
+def backwards(path: Path) -> tuple:
+    """The last entries of a list first: the numbers of the others stay."""
+    return tuple((1, int(part), "") if part.isdecimal() else (0, 0, part) for part in path)
+
+
+def is_given(given: Any, path: Path) -> bool:
+    """Whether a place stands in the file."""
+    for part in path:
+        if isinstance(given, dict) and part in given:
+            given = given[part]
+        elif isinstance(given, list) and pointer.INDEX.fullmatch(part) and int(part) < len(given):
+            given = given[int(part)]
+        else:
+            return False
+    return True
