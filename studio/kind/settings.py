@@ -34,9 +34,12 @@ class Part(BaseModel):
 
 @dataclass(frozen=True)
 class Names:
-    """Of a text: it names something of the scenario, a vehicle for instance."""
+    """Of a text: it names something of the scenario, a vehicle for instance. The JSON schema says so too: `names`."""
 
     what: str
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return handler(schema) | {"names": self.what}
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from studio import job
 from studio.errors import ConflictError, Problem, ScenarioError, SealedError
 from studio.job import Loaded
 from studio.scenario import setup
+from studio.scenario.schema import Scenario
 from studio.scenario.text import source as sources
 from studio.scenario.text.document import digest
 from studio.scenario.text.migration import migrated
@@ -26,7 +27,7 @@ from studio.server.editing.figure import items
 from studio.server.editing.history import Change, History, steps
 from studio.server.editing.merge import conflicts
 from studio.server.editing.outlook import Outlook
-from studio.server.editing.removal import removal
+from studio.server.editing.removal import removal, renaming
 from studio.world.setting import Setting
 
 ELSEWHERE = "Changed as text or by another program"
@@ -93,10 +94,10 @@ class Editing:
             base = self.text_at(changes, new.base, before.text)
             patch = patch_of(sources.read(base, path.name), new, path)
             self.check_merge(patch, base, before, changes, new.base)
-            after, _ = changed(before, patch, path)
-            job.prepare(job.loaded(after, path))
-            if after.text != before.text:
-                self.write(path, "edit", new.name, new.who, before=before.text, after=after.text)
+            now, _ = changed(before, patch, path)
+            job.prepare(job.loaded(now, path))
+            if now.text != before.text:
+                self.write(path, "edit", new.name, new.who, before=before.text, after=now.text)
             return self.state(path)
 
     def undo(self, path: Path, asked: NewTurn) -> Edited:
@@ -147,13 +148,21 @@ def patch_of(base: sources.Source, new: NewEdit, path: Path) -> list[Operation]:
     """The patch that an edit comes to, in a file as it was when the edit was made. Raises ScenarioError."""
     patch = setup.patch_of(migrated(base)[0].value, new.set, path.name) if new.set else []
     patch += operations([each.as_json() for each in new.patch])
+    if new.rename:
+        scenario, given = after(base, patch, path)
+        patch += renaming(scenario, given, {tuple(each.split(".")): name for each, name in new.rename.items()})
     if new.remove:
-        given = patched(base.value, patch)
-        scenario = setup.complete(given, path.name)
+        scenario, given = after(base, patch, path)
         patch += removal(scenario, given, [tuple(each.split(".")) for each in new.remove])
     if not patch:
         raise ScenarioError("The edit changes nothing.", [Problem("edit", "has neither `set`, `patch` nor `remove`")])
     return patch
+
+
+def after(base: sources.Source, patch: list[Operation], path: Path) -> tuple[Scenario, dict[str, Any]]:
+    """What a file would be with a patch: the scenario, and what stands in the file. Raises ScenarioError."""
+    given = patched(base.value, patch)
+    return setup.complete(given, path.name), given
 
 
 def check_turn(pile: list[Change], asked: NewTurn, sort: str, changes: list[Change]) -> None:

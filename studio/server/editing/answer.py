@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from studio.kind.settings import Name
 from studio.scenario.text.patch import Operation
 from studio.server.answer import ChangesByPath, Problem
 
@@ -95,7 +96,7 @@ Pathname = Annotated[str, Field(min_length=1, max_length=300)]
 
 
 class NewEdit(BaseModel):
-    """An edit by name: what is set by path, then a JSON patch, then what is taken out with all that is about it."""
+    """An edit by name: what is set by path, then a JSON patch, new names, and what is taken out with all that is about it."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -104,6 +105,9 @@ class NewEdit(BaseModel):
     who: str = Field("", max_length=80)
     set: ChangesByPath = {}
     patch: list[Operation] = Field([], max_length=1000)
+    rename: dict[Pathname, Name] = Field(
+        {}, max_length=100, description="new names by path, such as vehicles.leader; who names it does so anew"
+    )
     remove: list[Pathname] = Field([], max_length=1000, description="paths such as vehicles.leader")
 
 

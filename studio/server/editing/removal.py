@@ -11,7 +11,13 @@ from studio.scenario.schema import Scenario
 from studio.scenario.text import pointer
 from studio.scenario.text.patch import Operation, operation
 
-NAMED = {"vehicles": {"vehicle", "unit", "body"}, "stations": {"unit"}, "script": {"entry", "body"}, "applications": {"application"}}
+NAMED = {
+    "routes": {"route"},
+    "vehicles": {"vehicle", "unit", "body"},
+    "stations": {"unit"},
+    "script": {"entry", "body"},
+    "applications": {"application"},
+}
 Path = tuple[str, ...]
 
 
@@ -21,6 +27,19 @@ def removal(scenario: Scenario, given: dict[str, Any], wanted: list[Path]) -> li
     tops = {path for path in gone if not any(path[:depth] in gone for depth in range(1, len(path)))}
     kept = [path for path in sorted(tops, key=backwards, reverse=True) if is_given(given, path)]
     return [operation("remove", path) for path in kept]
+
+
+def renaming(scenario: Scenario, given: dict[str, Any], names: dict[Path, str]) -> list[Operation]:
+    """The patch that gives things other names, also wherever they are named."""
+    moves = [operation("move", [path[0], name], **{"from": pointer.joined(path)}) for path, name in names.items() if path[-1] != name]
+    return [each for path, name in names.items() for each in mentioned(scenario, given, path, name)] + moves
+
+
+def mentioned(scenario: Scenario, given: dict[str, Any], path: Path, name: str) -> list[Operation]:
+    """Whoever names a thing names it anew."""
+    sorts = NAMED.get(path[0], set())
+    places = [tuple(each.path.split(".")) for each in references(scenario) if each.what in sorts and each.name == path[-1]]
+    return [operation("replace", place, value=name) for place in places if is_given(given, place)]
 
 
 def closure(scenario: Scenario, wanted: list[Path]) -> set[Path]:

@@ -2527,7 +2527,7 @@ export interface components {
         };
         /**
          * NewEdit
-         * @description An edit by name: what is set by path, then a JSON patch, then what is taken out with all that is about it.
+         * @description An edit by name: what is set by path, then a JSON patch, new names, and what is taken out with all that is about it.
          */
         NewEdit: {
             /**
@@ -2557,6 +2557,14 @@ export interface components {
              * @default []
              */
             patch: components["schemas"]["Operation"][];
+            /**
+             * Rename
+             * @description new names by path, such as vehicles.leader; who names it does so anew
+             * @default {}
+             */
+            rename: {
+                [key: string]: string;
+            };
             /**
              * Remove
              * @description paths such as vehicles.leader
