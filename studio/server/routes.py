@@ -341,6 +341,11 @@ def ordered(desk: Desk, run: int, *words: Any) -> answer.Live:
 @router.get("/live/{run}/socket", status_code=426, response_description="Upgrade Required", response_model=answer.Refusal, responses=SOCKET)
 def socket_only(run: int) -> Response:
     """A WebSocket (RFC 6455): news of a live run, everything so far, then as it comes. Asked for anything else, it refuses."""
+    return upgrade_required()
+
+
+def upgrade_required() -> Response:
+    """The refusal of whatever is no WebSocket."""
     refusal = answer.Refusal(
         message="This address speaks WebSocket only.",
         problems=[answer.Problem(where="socket", what="was asked for without an upgrade", value="", allowed="a WebSocket", remedy="")],

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, RootModel
 
 from studio.kind.settings import Name
 from studio.scenario.text.patch import Operation
@@ -139,8 +139,13 @@ class Way(BaseModel):
     handles: list[Handle]
 
 
+TOLD = ConfigDict(json_schema_serialization_defaults_required=True)  # the kind is always sent
+
+
 class Revised(BaseModel):
     """News: the scenario has been changed."""
+
+    model_config = TOLD
 
     type: Literal["revised"] = "revised"
     revision: int
@@ -151,6 +156,12 @@ class Revised(BaseModel):
 class Gone(BaseModel):
     """News: there is no such scenario any more, or it cannot be read."""
 
+    model_config = TOLD
+
     type: Literal["gone"] = "gone"
     message: str
     problems: list[Problem]
+
+
+class EditingNews(RootModel[Annotated[Revised | Gone, Field(discriminator="type")]]):
+    """One message of the socket of a scenario that is edited."""

@@ -4,16 +4,17 @@ import asyncio
 
 from fastapi import APIRouter, WebSocket
 from starlette.concurrency import run_in_threadpool
+from starlette.responses import Response
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
 from studio.errors import StudioError
 from studio.server import answer
 from studio.server.desk import Desk
-from studio.server.editing.answer import Editing, Gone, NewEdit, NewTurn, NewWay, Revised, Way
+from studio.server.editing.answer import Editing, EditingNews, Gone, NewEdit, NewTurn, NewWay, Revised, Way
 from studio.server.editing.way import way
 from studio.server.maps import plan_of
-from studio.server.routes import AtDesk, AtOwnDesk
+from studio.server.routes import AtDesk, AtOwnDesk, upgrade_required
 
 LOOKS = 0.25  # [s] between looks at a file that somebody has open
 NOTHING_FOUND = {"guesses": [], "skipped": [], "corrected": []}
@@ -56,6 +57,18 @@ def a_way(scenario: str, new: NewWay, desk: AtDesk) -> Way:
     """The way through points on the map of a scenario; nothing is written. Where no way leads, the answer says why."""
     network = job.prepare(desk.load(scenario)).network
     return way(network, new.points, onwards=new.onwards, before=new.roads)
+
+
+@router.get(
+    "/scenarios/{scenario}/editing/socket",
+    status_code=426,
+    response_description="Upgrade Required",
+    response_model=answer.Refusal,
+    responses={"1XX": {"model": EditingNews, "description": "101: a WebSocket from here on; each message is one of the news"}},
+)
+def socket_only(scenario: str) -> Response:
+    """A WebSocket (RFC 6455): news of every change of a scenario. Asked for anything else, it refuses."""
+    return upgrade_required()
 
 
 @router.websocket("/scenarios/{scenario}/editing/socket")

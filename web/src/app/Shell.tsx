@@ -126,7 +126,7 @@ function Navigation() {
   const broken = useQuery(kinds).data?.broken.length ?? 0;
   const waiting = useQuery(queue).data?.filter(({ status }) => status === "waiting").length ?? 0;
   const place = (to: "/" | "/scenarios" | "/runs" | "/queue" | "/compare" | "/maps" | "/kinds", testId: string, label: ReactNode) => {
-    const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
+    const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to) || (to === "/scenarios" && pathname.startsWith("/edit"));
     return (
       <Link
         to={to}

@@ -132,6 +132,21 @@ const textRoute = createRoute({
   },
 });
 
+const EditPage = lazy(async () => ({ default: (await import("../features/edit/EditPage")).EditPage }));
+
+const editRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/edit/$scenario",
+  component: function Edit() {
+    const { scenario } = editRoute.useParams();
+    return (
+      <Suspense fallback={<Loading what="the editor" />}>
+        <EditPage key={scenario} id={scenario} />
+      </Suspense>
+    );
+  },
+});
+
 const KindsPage = lazy(async () => ({ default: (await import("../features/kinds/KindsPage")).KindsPage }));
 
 const mapsRoute = createRoute({
@@ -187,6 +202,7 @@ export const router = createRouter({
     studioRoute,
     scenariosRoute,
     textRoute,
+    editRoute,
     runsRoute,
     runRoute,
     queueRoute,

@@ -203,6 +203,11 @@ function ScenarioHead({ id }: { id: string }) {
             navigate({ to: "/studio/$scenario", params: { scenario: event.currentTarget.value }, search: {} })
           }
         />
+        <Tooltip label="Edit it on the plan">
+          <Link to="/edit/$scenario" params={{ scenario: id }} className={classes.asText} aria-label="Edit this scenario on the plan">
+            <Icon name="pen" />
+          </Link>
+        </Tooltip>
         <Tooltip label="Edit its file as text">
           <Link
             to="/scenarios/$scenario/text"
