@@ -340,6 +340,7 @@ function ghostFor(what: Addition, ground: Point, lanes: readonly Lane[]): Ghost 
 const MOST_NAMES = 80;
 
 function Names({ items, chosen, hovered, view, size, all }: { items: readonly Item[]; chosen: readonly string[]; hovered: string | undefined; view: View; size: Size; all: boolean }) {
+  const isLit = ({ path }: Item) => path === hovered || chosen.includes(path);
   const shown = items
     .filter(({ path, group }) => (all && group !== "route") || path === hovered || chosen.includes(path))
     .flatMap((item) => {
@@ -348,7 +349,9 @@ function Names({ items, chosen, hovered, view, size, all }: { items: readonly It
       const seen = screen && screen.x > -20 && screen.y > -20 && screen.x < size.width + 20 && screen.y < size.height + 20;
       return seen ? [{ item, screen }] : [];
     })
-    .slice(0, MOST_NAMES);
+    .slice(0, MOST_NAMES)
+    .sort((a, b) => Number(isLit(b.item)) - Number(isLit(a.item)))
+    .reduce<Named[]>((kept, each) => (isLit(each.item) || kept.every((other) => !covers(other, each)) ? [...kept, each] : kept), []);
   return (
     <div className={classes.names}>
       {shown.map(({ item: { path, name, told }, screen }) => (
@@ -360,6 +363,20 @@ function Names({ items, chosen, hovered, view, size, all }: { items: readonly It
     </div>
   );
 }
+
+interface Named {
+  item: Item;
+  screen: Point;
+}
+
+/** About how wide a letter is, and how high a name [px]. */
+const LETTER = 6.5;
+const LINE = 17;
+
+/** Whether one name would lie on another. */
+const covers = (one: Named, other: Named): boolean =>
+  Math.abs(one.screen.y - other.screen.y) < LINE &&
+  Math.abs(one.screen.x - other.screen.x) < 5 + (LETTER * (one.item.name.length + other.item.name.length)) / 2;
 
 const Rectangle = ({ from, to }: { from: Point; to: Point }) => (
   <div
