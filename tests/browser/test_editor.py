@@ -1,4 +1,4 @@
-"""The editor in a real browser: things placed, dragged, turned, copied, deleted and brought back; routes, triggers, two browsers at once."""
+"""The editor in a real browser: things placed, dragged, copied, deleted and brought back; routes, triggers, two browsers at once."""
 
 import re
 import shutil

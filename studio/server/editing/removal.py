@@ -1,7 +1,8 @@
 """What goes along when something is taken out of a scenario, so that nothing names it any more.
 
-A unit of a group goes out of its list, with whom it listens to; an entry of the script that is about what is gone goes too, and what is
-about that entry. Who has listened to it listens to whom it listened to: a platoon closes its gap. The last unit takes its group along. Vehicles do not go with their route: that is refused when the result is checked.
+A unit of a group goes out of its list; who has listened to it listens to whom it listened to: a platoon closes its gap. An entry of the
+script that is about what is gone goes too, and what is about that entry. The last unit takes its group along. Vehicles do not go with
+their route: that is refused when the result is checked.
 """
 
 from collections.abc import Iterator
