@@ -216,15 +216,26 @@ def test_a_number_out_of_its_range_is_refused_in_its_field(page, path):
 
 
 def test_a_route_goes_on_where_one_clicks(page, path):
-    page.get_by_role("button", name="straight_on").dblclick()
+    """A car gets a route of its own, which is led on over the crossing, and back again by a click on its last point."""
+    row(page, "second").click()
     page.get_by_role("application").focus()
     page.keyboard.press("r")
-    roads = document(path)["routes"]["straight_on"]["roads"]
-    expect(page.get_by_test_id("tool-hint")).to_contain_text("straight_on goes on there")
+    expect(page.get_by_test_id("tool-hint")).to_contain_text("2 vehicles follow it")
+    page.get_by_role("button", name="A route of its own from here").click()
+    done(page, "New route of second")
+    expect(page.get_by_test_id("tool-hint")).to_contain_text("second_way goes on there")
+    assert len(document(path)["routes"]["second_way"]["roads"]) == 1
+    page.mouse.click(*spot(page, "script.cyclist"))
+    done(page, "Change route second_way")
+    roads = document(path)["routes"]["second_way"]["roads"]
+    assert len(roads) == 2 and document(path)["vehicles"]["second"]["route"] == "second_way"
     box = page.get_by_role("application").bounding_box()
-    page.mouse.click(box["x"] + 12, box["y"] + 12)  # beside all roads
+    page.mouse.click(box["x"] + 300, box["y"] + 400)  # beside all roads
     expect(page.get_by_role("alert").filter(has_text="No road is there")).to_be_visible()
-    assert document(path)["routes"]["straight_on"]["roads"] == roads
+    assert document(path)["routes"]["second_way"]["roads"] == roads
+    page.keyboard.press("Control+z")
+    expect(page.get_by_role("button", name="Redo: Change route second_way")).to_be_enabled()
+    assert len(document(path)["routes"]["second_way"]["roads"]) == 1
 
 
 def test_an_area_that_nobody_drives_through_is_told(page, path):

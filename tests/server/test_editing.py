@@ -1,9 +1,11 @@
 """Editing: named steps that can be undone, also after a restart; edits that meet; what goes along; ways; what can never happen."""
 
+import json
 import shutil
 
 import pytest
 import yaml
+from websockets.sync.client import connect
 
 from studio.errors import ConflictError, RouteError, SealedError, StudioError
 from studio.scenario.text.patch import operation
@@ -13,6 +15,7 @@ from studio.server.editing.history import Change, steps
 from studio.server.editing.merge import changed_places, conflicts
 from studio.server.editing.way import way
 from studio.store.runs import open_runs
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -99,8 +102,8 @@ def test_an_edit_of_what_somebody_else_has_changed_is_refused_and_nothing_is_los
     (problem,) = refusal.value.problems
     assert (problem.where, problem.value, problem.allowed) == ("vehicles.leader.position.along", "363", "360 before")
     assert path.read_bytes() == text and names(desk.editing.state(path).done) == ["Move leader"]
-    with pytest.raises(ConflictError):  # what was deleted cannot be moved
-        edit(desk, path, "Delete leader", 1, remove=["vehicles.leader"])
+    edit(desk, path, "Delete leader", 1, remove=["vehicles.leader"])
+    with pytest.raises(ConflictError, match="“Delete leader”"):
         edit(desk, path, "Move leader", 1, set=lead(path, 364))
     with pytest.raises(ConflictError, match="not as the edit expects"):
         edit(desk, path, "From nowhere", 99, set=lead(path, 364))
@@ -154,10 +157,8 @@ def test_what_names_a_thing_goes_with_it_or_is_named_anew(desk, path):
     assert "boss" in state.given["vehicles"] and state.given["script"]["hard_brake"]["do"]["vehicle"] == "boss"
     assert {each["route"] for each in state.given["vehicles"].values()} == {"main"}
     state = edit(desk, path, "Delete boss", 2, remove=["vehicles.boss"])
-    assert state.given["script"] == {} and state.given["applications"]["platoon"]["units"] == [
-        "follower_3",
-        "follower_4",
-    ]  # the entry was about nobody else
+    assert state.given["script"] == {}  # the entry was about nobody else
+    assert state.given["applications"]["platoon"]["units"] == ["follower_3", "follower_4"]  # the first has nobody to listen to
 
 
 def test_every_thing_has_its_place(desk, folder):
@@ -284,3 +285,31 @@ def test_the_history_goes_with_a_new_name(desk, folder, path):
     found = desk.rename("grosser_stern_platoon", "elsewhere", None, None)
     assert names(desk.editing.state(found).done) == ["Move leader"]
     assert yaml.safe_load(found.read_text())["vehicles"]["leader"]["position"]["along"] == 363
+
+
+def test_two_clients_hear_of_each_other(server, client):
+    """Over REST: one edits, the other hears of it at once, and takes the step back."""
+    place = "/api/scenarios/motorway_platoon/editing"
+    first = client.get(place).json()
+    with connect(f"{str(client.base_url).replace('http', 'ws', 1)}{place}/socket", proxy=None) as socket:
+        assert json.loads(socket.recv(PATIENCE))["revision"] == first["revision"]
+        new = {"name": "Longer", "base": first["revision"], "who": "one", "set": {"clock.duration": 77}}
+        done = client.post(place, json=new)
+        assert done.status_code == 200, done.text
+        news = json.loads(socket.recv(PATIENCE))
+        assert (news["type"], news["name"], news["who"], news["revision"]) == ("revised", "Longer", "one", first["revision"] + 1)
+        late = client.post(place, json=new | {"name": "Shorter", "set": {"clock.duration": 55}})
+        assert late.status_code == 409 and "“Longer”" in late.json()["message"]
+        undone = client.post(f"{place}/undo", json={"base": news["revision"], "who": "two"})
+        assert undone.status_code == 200 and undone.json()["document"]["clock"] == first["document"]["clock"]
+        assert json.loads(socket.recv(PATIENCE))["who"] == "two"
+    assert client.get(f"{place}/socket").status_code == 426
+
+
+def test_a_plan_and_a_way_over_rest(client):
+    plan = client.get("/api/scenarios/motorway_platoon/plan").json()
+    lane = next(each for each in plan["lanes"] if not each["internal"])
+    way = client.post("/api/scenarios/motorway_platoon/way", json={"points": [lane["centre"][0]]})
+    assert way.status_code == 200 and way.json()["roads"] == [lane["road"]]
+    nowhere = client.post("/api/scenarios/motorway_platoon/way", json={"points": [[90000, 90000]]})
+    assert nowhere.status_code == 422 and nowhere.json()["problems"][0]["where"] == "point 1"

@@ -96,7 +96,7 @@ class History:
             found.execute("UPDATE changes SET scenario = ? WHERE scenario = ?", (name, scenario))
 
     def forget(self, scenario: str) -> None:
-        """A new file has this name: what was done to an older one of that name is not its history."""
+        """A new file has this name: what was done to an older one is not its history."""
         with self.opened() as found:
             found.execute("DELETE FROM changes WHERE scenario = ?", (scenario,))
 

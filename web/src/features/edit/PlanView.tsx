@@ -206,6 +206,7 @@ export function PlanView(props: Props) {
     >
       <canvas ref={canvas} className={classes.canvas} aria-hidden="true" />
       {view ? <Names items={items} chosen={chosen} hovered={hovered?.path} view={view} size={size} all={names} /> : null}
+      {view && tool.is === "route" ? <Numbers points={grips.map(({ point }) => point)} view={view} size={size} /> : null}
       {press?.is === "rectangle" && press.moved && pointer ? <Rectangle from={press.from} to={pointer} /> : null}
       {view && tool.is === "measure" ? <Tape points={tool.points} to={ground} view={view} size={size} /> : null}
       <span className={classes.corner} aria-hidden="true">
@@ -377,6 +378,17 @@ const LINE = 17;
 const covers = (one: Named, other: Named): boolean =>
   Math.abs(one.screen.y - other.screen.y) < LINE &&
   Math.abs(one.screen.x - other.screen.x) < 5 + (LETTER * (one.item.name.length + other.item.name.length)) / 2;
+
+/** The points of a route, in the order in which they are driven. */
+const Numbers = ({ points, view, size }: { points: readonly Point[]; view: View; size: Size }) =>
+  points.map((point, number) => {
+    const { x, y } = toScreen(view, size, point);
+    return (
+      <span key={`${number} ${point.x}`} className={classes.name} data-chosen data-testid={`route-point-${number + 1}`} style={{ left: x, top: y }}>
+        {number + 1}
+      </span>
+    );
+  });
 
 const Rectangle = ({ from, to }: { from: Point; to: Point }) => (
   <div
