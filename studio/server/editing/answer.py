@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, RootModel
 
 from studio.kind.settings import Name
 from studio.scenario.text.patch import Operation
-from studio.server.answer import ChangesByPath, Problem
+from studio.server.answer import ChangesByPath, Problem, Refusal
 
 Point = tuple[float, float]
 Group = Literal["vehicle", "person", "object", "friction", "area", "radio", "station", "event", "route"]
@@ -131,8 +131,9 @@ class NewWay(BaseModel):
 
 
 class Way(BaseModel):
-    """A way along the roads."""
+    """A way along the roads, or why none leads there."""
 
+    problem: Refusal | None = Field(None, description="why there is no way; then the rest is empty")
     roads: list[str] = Field(description="as a route names them")
     line: list[Point] = Field(description="[m]")
     length: float = Field(description="[m]")

@@ -8,7 +8,7 @@ from starlette.responses import Response
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
-from studio.errors import StudioError
+from studio.errors import RouteError, StudioError
 from studio.server import answer
 from studio.server.desk import Desk
 from studio.server.editing.answer import Editing, EditingNews, Gone, NewEdit, NewTurn, NewWay, Revised, Way
@@ -56,7 +56,10 @@ def scenario_plan(scenario: str, desk: AtDesk) -> answer.MapPlan:
 def a_way(scenario: str, new: NewWay, desk: AtDesk) -> Way:
     """The way through points on the map of a scenario; nothing is written. Where no way leads, the answer says why."""
     network = job.prepare(desk.load(scenario)).network
-    return way(network, new.points, onwards=new.onwards, before=new.roads)
+    try:
+        return way(network, new.points, onwards=new.onwards, before=new.roads)
+    except RouteError as error:
+        return Way(problem=answer.Refusal(**error.as_json()), roads=[], line=[], length=0.0, handles=[])
 
 
 @router.get(

@@ -5,7 +5,7 @@ import { useEffect, useRef, useState } from "react";
 import type { Deed, Editing, Way } from "../model/editing/item";
 import type { Plan } from "../model/map";
 import type { Server } from "../model/run";
-import { answer, client } from "./client";
+import { answer, client, Refusal } from "./client";
 
 export const editing = (id: string) =>
   queryOptions({
@@ -26,8 +26,11 @@ export const scenarioPlan = (id: string, map: unknown) =>
   });
 
 /** The way through points; what is wrong with it comes as a refusal. */
-export const findWay = (id: string, body: Server["NewWay"]): Promise<Way> =>
-  answer(client.POST("/api/scenarios/{scenario}/way", { params: { path: { scenario: id } }, body })) as Promise<Way>;
+export async function findWay(id: string, body: Server["NewWay"]): Promise<Way> {
+  const found = (await answer(client.POST("/api/scenarios/{scenario}/way", { params: { path: { scenario: id } }, body }))) as Way;
+  if (found.problem) throw new Refusal(found.problem.message, found.problem.problems, 200);
+  return found;
+}
 
 /** What this window is called among those that edit: everybody hears who has done what. */
 export function whoAmI(): string {

@@ -3787,9 +3787,11 @@ export interface components {
         };
         /**
          * Way
-         * @description A way along the roads.
+         * @description A way along the roads, or why none leads there.
          */
         Way: {
+            /** @description why there is no way; then the rest is empty */
+            problem?: components["schemas"]["Refusal"] | null;
             /**
              * Roads
              * @description as a route names them

@@ -126,6 +126,7 @@ function Form({ state, path, name, schema, kinds, onDeed, middle }: FormProps) {
         </Alert>
       ) : null}
       <SchemaForm sections={titled(shown, path)} problems={problems} open={open} expanded={false} onOpen={setOpen} onChange={change} onExchange={exchange} />
+      {path.startsWith("script.") ? <Lists state={state} path={path} onDeed={onDeed} /> : null}
       {path.startsWith("script.") ? <Ends state={state} path={path} name={name} onDeed={onDeed} /> : null}
     </ScrollArea>
   );
@@ -142,6 +143,38 @@ function useCalm(changes: Changes, is: boolean, act: () => void): void {
     const timer = setTimeout(() => latest.current(), CALM_MS);
     return () => clearTimeout(timer);
   }, [changes, is]);
+}
+
+/** Conditions that are made of several: one more, or one less. */
+function Lists({ state, path, onDeed }: Pick<FormProps, "state" | "path" | "onDeed">) {
+  const name = path.split(".")[1] ?? "";
+  const found = listsIn(at(state.document, path), path);
+  const run = (label: string, op: object) => void onDeed({ name: label, patch: [op] as Deed["patch"] & object }).catch(() => undefined);
+  return found.map(({ path: place, count }) => (
+    <Group key={place} px="xs" py={4} gap={6} role="group" aria-label={`Conditions of ${place.split(".").slice(2).join(" ")}`}>
+      <Text size="xs">{count} conditions together:</Text>
+      <Button size="compact-xs" variant="default" disabled={count >= 16} onClick={() => run(`Add a condition to ${name}`, { op: "add", path: `${pointerOf(place)}/-`, value: { kind: "time", at: 0 } })}>
+        Add one
+      </Button>
+      {Array.from({ length: count }, (_, number) => number).map((number) => (
+        <Button key={number} size="compact-xs" variant="subtle" disabled={count < 2} onClick={() => run(`Take a condition out of ${name}`, { op: "remove", path: `${pointerOf(place)}/${number}` })}>
+          Take {number + 1} out
+        </Button>
+      ))}
+    </Group>
+  ));
+}
+
+const pointerOf = (path: string): string => `/${path.split(".").join("/")}`;
+
+/** Where lists of conditions stand within an entry. */
+function listsIn(value: Json | undefined, path: string): { path: string; count: number }[] {
+  if (Array.isArray(value)) return value.flatMap((each, number) => listsIn(each, `${path}.${number}`));
+  if (!isTree(value)) return [];
+  return Object.entries(value).flatMap(([key, each]) => [
+    ...(key === "of" && Array.isArray(each) ? [{ path: `${path}.of`, count: each.length }] : []),
+    ...listsIn(each, `${path}.${key}`),
+  ]);
 }
 
 /** An entry of the script may end by a condition of its own, or with its action. */

@@ -24,9 +24,27 @@ export function fitted(section: Section, state: Editing): Section {
   };
   return {
     ...section,
-    fields: section.fields.filter((field) => !isDrawn(field)).map(named),
+    fields: section.fields.filter((field) => !isDrawn(field) && !isOtherWay(field, section)).map(named),
     sections: section.sections.map((inner) => fitted(inner, state)),
   };
+}
+
+/**
+ * Where something is can be said in several ways, of which one is used: along a route or on a road, as a circle, by corners or on a road.
+ * The fields of the others are left out, for the plan is where one changes that.
+ */
+function isOtherWay(field: Field, { fields }: Section): boolean {
+  const valueOf = (key: string) => fields.find(({ path }) => path.endsWith(`.${key}`))?.value;
+  const key = field.path.slice(field.path.lastIndexOf(".") + 1);
+  const isSpot = "road along aside x y".split(" ").every((each) => valueOf(each) !== undefined);
+  const isPlace = !isSpot && "along road lane offset".split(" ").every((each) => valueOf(each) !== undefined);
+  const isArea = "x y radius corners road".split(" ").every((each) => valueOf(each) !== undefined);
+  if (isPlace) return (key === "along") !== (typeof valueOf("along") === "number") && !field.changed;
+  if (!isSpot && !isArea) return false;
+  const onRoad = typeof valueOf("road") === "string";
+  if ("road along aside lane start end".split(" ").includes(key)) return !onRoad;
+  if (key === "corners") return true;
+  return typeof valueOf("x") !== "number";
 }
 
 const isDrawn = ({ value, kind }: Field): boolean => kind === "list" && Array.isArray(value) && value.some((each) => Array.isArray(each));
