@@ -12,6 +12,7 @@ from tests.server.server import served
 
 SIZE = {"width": 1280, "height": 800}
 ID = "stepping_out"
+NEXT_ROAD = 120.0  # [m] to the east of the lane of the cars lies a lane of the next road, both to the north
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +76,12 @@ def beside(page, path, east, south):
     return x + east, y + south
 
 
+def metre(page):
+    """How large a metre is [px]: the two cars stand 20 m behind each other."""
+    (x, y), (u, v) = spot(page, "vehicles.first"), spot(page, "vehicles.second")
+    return ((x - u) ** 2 + (y - v) ** 2) ** 0.5 / 20.0
+
+
 def drag(page, start, end):
     """A press, a way, and letting go."""
     page.mouse.move(*start)
@@ -133,12 +140,13 @@ def test_a_car_is_dragged_along_its_way(page, path):
 
 def test_a_car_is_dragged_onto_another_road(page, path):
     """It gets a route of its own there, because its own does not come by."""
-    page.keyboard.press("Escape")
-    drag(page, spot(page, "vehicles.second"), beside(page, "vehicles.second", 256, -60))
+    drag(page, spot(page, "vehicles.second"), beside(page, "vehicles.second", NEXT_ROAD * metre(page), -25 * metre(page)))
     done(page, "Move second to another road")
     vehicle = document(path)["vehicles"]["second"]
     assert vehicle["route"] != "straight_on" and vehicle["position"]["road"] in document(path)["routes"][vehicle["route"]]["roads"]
-    page.mouse.click(*spot(page, "vehicles.second"))
+    expect(row(page, "second")).to_have_attribute("aria-pressed", "true")
+    page.reload()
+    expect(row(page, "second")).to_have_attribute("aria-pressed", "true")  # what is chosen stands in the address
 
 
 def test_a_car_beside_the_road_stays_where_it_is(page, path):

@@ -137,11 +137,18 @@ const EditPage = lazy(async () => ({ default: (await import("../features/edit/Ed
 const editRoute = createRoute({
   getParentRoute: () => root,
   path: "/edit/$scenario",
+  validateSearch: ({ at }: Record<string, unknown>): { at?: string | undefined } => ({ at: text(at) }),
   component: function Edit() {
     const { scenario } = editRoute.useParams();
+    const navigate = useNavigate();
     return (
       <Suspense fallback={<Loading what="the editor" />}>
-        <EditPage key={scenario} id={scenario} />
+        <EditPage
+          key={scenario}
+          id={scenario}
+          at={editRoute.useSearch().at}
+          onAt={(at) => void navigate({ to: "/edit/$scenario", params: { scenario }, search: { at }, replace: true })}
+        />
       </Suspense>
     );
   },

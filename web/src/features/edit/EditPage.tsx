@@ -24,13 +24,20 @@ import { Properties } from "./Properties";
 import { Timetable } from "./Timetable";
 import { Toolbar } from "./Toolbar";
 
-export function EditPage({ id }: { id: string }) {
+interface Props {
+  id: string;
+  /** What is chosen, paths with commas between them: it stands in the address. */
+  at: string | undefined;
+  onAt: (at: string | undefined) => void;
+}
+
+export function EditPage({ id, at, onAt }: Props) {
   const { state, plan } = useEdited(id);
   if (state.error && !state.data) return <Broken id={id} error={state.error} onRetry={() => void state.refetch()} />;
   if (plan.error) return <Failure error={plan.error} onRetry={() => void plan.refetch()} />;
   if (!state.data) return <Loading what="the scenario" />;
   if (!plan.data) return <Loading what="the map" />;
-  return <Editor id={id} state={state.data} plan={plan.data} />;
+  return <Editor id={id} at={at} onAt={onAt} state={state.data} plan={plan.data} />;
 }
 
 /** A file that is no scenario now can be mended as text. */
@@ -44,11 +51,13 @@ const Broken = ({ id, error, onRetry }: { id: string; error: Error; onRetry: () 
 );
 
 const SELECT: Tool = { is: "select" };
+const NOTHING: string[] = [];
 /** What was copied last, also from another scenario. */
 let clipboard: deeds.Copied[] = [];
 
-function Editor({ id, state, plan }: { id: string; state: Editing; plan: Plan }) {
-  const editor = useEditor(id, state, plan);
+function Editor({ id, at, onAt, state, plan }: Props & { state: Editing; plan: Plan }) {
+  const choosing = useMemo(() => ({ wanted: at ? at.split(",") : NOTHING, choose: (paths: string[]) => onAt(paths.length ? paths.join(",") : undefined) }), [at, onAt]);
+  const editor = useEditor(id, state, plan, choosing);
   const { tool, setTool, chosen, choose, items, veil, looker } = editor;
   const news = useNews(id);
   const [names, setNames] = useState(true);
@@ -153,12 +162,11 @@ function Actions({ editor }: { editor: Editor }) {
 export type Editor = ReturnType<typeof useEditor>;
 
 /** What is chosen and what is done with it. */
-function useEditor(id: string, state: Editing, plan: Plan) {
+function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: { wanted: string[]; choose: (paths: string[]) => void }) {
   const { edit, undo, redo } = useEditing(id);
   const looker = useRef<Looker>(null);
   const lanes: Lane[] = useMemo(() => strips(plan.lanes.filter(({ internal, open }) => !internal && open)), [plan]);
   const [veil, setVeil] = useLocalStorage<Veil>({ key: `veil ${id}`, defaultValue: OPEN, getInitialValueInEffect: false });
-  const [wanted, choose] = useState<string[]>([]);
   const [tool, setTool] = useState<Tool>(SELECT);
   const chosen = present(wanted, state.items);
   const items = useMemo(() => state.items.filter(({ path }) => !veil.hidden.includes(path)), [state.items, veil.hidden]);
@@ -176,7 +184,7 @@ function useEditor(id: string, state: Editing, plan: Plan) {
       if (!deed) return;
       attempt(deed).then(() => then.length && choose([...then]), notifyError);
     },
-    [attempt],
+    [attempt, choose],
   );
 
   const move = (held: Item[], drag: deeds.Drag) => {

@@ -40,7 +40,7 @@ export function Head({ state, news, onUndo, onRedo }: Props) {
 
 function saying(state: Editing, { connected, by, gone }: Props["news"]): string {
   if (gone) return gone.message;
-  if (!connected) return "The server does not answer. What is done here is safe once it does: it is asked again and again.";
+  if (!connected) return "The server does not answer. What was saved is safe; nothing more can be saved until it answers, and it is asked again and again.";
   if (state.sealed) return "Read only";
   if (by && by.revision === state.revision) return `“${by.name}” by ${by.who || "another program"}`;
   const last = state.done.at(-1);

@@ -134,10 +134,18 @@ function Form({ state, path, name, schema, kinds, onDeed, middle }: FormProps) {
 
 const titled = (shown: readonly Section[], path: string): Section[] => shown.map((each) => (path ? { ...each, title: "What is set" } : each));
 
-/** Calls when what is set has not changed for a while. */
+/** Calls when what is set has not changed for a while, or when one turns to something else. */
 function useCalm(changes: Changes, is: boolean, act: () => void): void {
   const latest = useRef(act);
   latest.current = act;
+  const pending = useRef(false);
+  pending.current = is && Object.keys(changes).length > 0;
+  useEffect(
+    () => () => {
+      if (pending.current) latest.current();
+    },
+    [],
+  );
   useEffect(() => {
     if (!is || Object.keys(changes).length === 0) return;
     const timer = setTimeout(() => latest.current(), CALM_MS);
