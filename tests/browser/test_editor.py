@@ -283,3 +283,43 @@ def test_the_menu_behind_the_right_button_and_the_way_to_the_studio(page, path):
     expect(page).to_have_url(re.compile(rf"/scenarios/{ID}/text$"))
     page.go_back()
     expect(on_plan(page, "vehicles.first")).to_be_visible()
+
+
+def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
+    add(page, "Wall")
+    page.mouse.click(*beside(page, "vehicles.first", 80, 0))
+    done(page, "Add wall")
+    page.get_by_role("button", name="Select").click()
+    before = document(path)["script"]["wall"]["do"]["heading"]
+    x, y = spot(page, "script.wall")
+    assert before == pytest.approx(1.571, abs=0.01)  # along the nearest road, which leads north; so its handle lies above it
+    drag(page, (x, y - 34), (x + 60, y))
+    done(page, "Turn wall")
+    assert document(path)["script"]["wall"]["do"]["heading"] == pytest.approx(0.0, abs=0.03)
+    add(page, "Area with a trigger")
+    corners = [(x - 30, y + 30), (x + 60, y + 30), (x + 60, y + 90)]
+    for corner in corners:
+        page.mouse.click(*corner)
+    page.keyboard.press("Enter")
+    done(page, "Add area")
+    reshaped = document(path)["script"]["area"]["when"]["area"]["corners"]
+    drag(page, corners[1], (x + 120, y + 30))
+    done(page, "Reshape area")
+    after = document(path)["script"]["area"]["when"]["area"]["corners"]
+    assert after[1][0] > reshaped[1][0] + 5 and after[0] == reshaped[0] and after[2] == reshaped[2]
+
+
+def test_a_trigger_is_made_of_what_the_kinds_offer(page, path):
+    """Another condition is chosen; what it needs is filled in from what there is, and its time is told."""
+    add(page, "Event")
+    done(page, "Add event")
+    form = page.get_by_role("region", name="Properties")
+    form.get_by_role("combobox", name="Condition").select_option(label="A vehicle has passed a place")
+    done(page, "Exchange condition of event")
+    assert document(path)["script"]["event"]["when"]["vehicle"] in document(path)["vehicles"]
+    form.get_by_role("textbox", name="Along its route").fill("140")
+    done(page, "Change along its route of event")
+    when = page.get_by_role("list", name="What happens when").get_by_role("listitem").filter(has=page.get_by_role("button", name="event"))
+    expect(when).to_contain_text("s at the earliest")
+    form.get_by_role("textbox", name="Along its route").fill("850")
+    expect(when).to_contain_text("never: first at the earliest comes at")

@@ -85,7 +85,6 @@ function Row({ item: { name, told, figures }, never, chosen, hidden, locked, onC
       <UnstyledButton
         className={classes.item}
         aria-pressed={chosen}
-        aria-label={name}
         title={never ? `${name} never begins: ${never}` : `${name}: ${told}`}
         onClick={(event) => onChoose(event.shiftKey || event.ctrlKey || event.metaKey)}
         onDoubleClick={onFocus}
@@ -95,7 +94,9 @@ function Row({ item: { name, told, figures }, never, chosen, hidden, locked, onC
             <Icon name="warning" size={13} />
           </span>
         ) : null}
-        <span className={classes.itemName}>{name}</span> <span className={classes.told}>{told}</span>
+        <span className={classes.itemName}>{name}</span> <span className={classes.told} aria-hidden="true">
+          {told}
+        </span>
       </UnstyledButton>
       {figures.length > 0 ? (
         <>
