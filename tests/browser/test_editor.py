@@ -290,12 +290,11 @@ def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
     page.mouse.click(*beside(page, "vehicles.first", 80, 0))
     done(page, "Add wall")
     page.get_by_role("button", name="Select").click()
-    before = document(path)["script"]["wall"]["do"]["heading"]
     x, y = spot(page, "script.wall")
-    assert before == pytest.approx(1.571, abs=0.01)  # along the nearest road, which leads north; so its handle lies above it
-    drag(page, (x, y - 34), (x + 60, y))
+    assert document(path)["script"]["wall"]["do"]["heading"] == 0  # to the east, where its handle lies
+    drag(page, (x + 34, y), (x, y - 60))
     done(page, "Turn wall")
-    assert document(path)["script"]["wall"]["do"]["heading"] == pytest.approx(0.0, abs=0.03)
+    assert document(path)["script"]["wall"]["do"]["heading"] == pytest.approx(1.571, abs=0.03)
     add(page, "Area with a trigger")
     corners = [(x - 30, y + 30), (x + 60, y + 30), (x + 60, y + 90)]
     for corner in corners:
