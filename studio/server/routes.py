@@ -391,4 +391,5 @@ def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneC
 @router.put("/scene/time")
 def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
     """Another time of the run that the scene plays back."""
-    return answer.Shown(shown=desk.stage.seek(moment.run, moment.time))
+    played = desk.stage.seek(moment.run, moment.time)
+    return answer.Shown(shown=played is not None, layers=played.layers(moment.time) if played and moment.layers else None)

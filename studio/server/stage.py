@@ -39,20 +39,26 @@ class Stage:
     def play(self, replay: Replay, time: float | None = None) -> dict[str, Any]:
         """Shows a run that is over at a time [s], by default at its end; returns who is to be seen, from when to when, and what is not."""
         first, last = float(replay.time[0]), float(replay.time[-1])
-        about = {"begin": first, "end": last, "step": (last - first) / max(replay.time.size - 1, 1), "notes": list(replay.notes)}
+        about = {
+            "begin": first,
+            "end": last,
+            "step": (last - first) / max(replay.time.size - 1, 1),
+            "notes": list(replay.notes),
+            "missing": replay.missing,
+        }
         with self.lock:
             self.set_up(replay.setting)
             self.showing, self.playing = None, replay
             self.draw(replay.frame(last if time is None else time))
         return described(replay.setting) | about
 
-    def seek(self, run: int, time: float) -> bool:
-        """Shows the run that is played back at another time [s]; False when it is another, or none."""
+    def seek(self, run: int, time: float) -> Replay | None:
+        """Shows the run that is played back at another time [s] and returns it; None when it is another, or none."""
         with self.lock:
             if self.playing is None or self.playing.run != run:
-                return False
+                return None
             self.draw(self.playing.frame(time))
-            return True
+            return self.playing
 
     def set_up(self, prepared: Setting) -> None:
         """City, vehicles and objects, as far as they are others than before; the weather."""
@@ -85,5 +91,17 @@ class Stage:
 
 def described(prepared: Setting) -> dict[str, Any]:
     """Who is to be seen, for the page."""
-    vehicles = [{"name": car.name, "index": i, "color": car.colour} for i, car in enumerate(prepared.cars)]
+    vehicles = [
+        {
+            "name": each.name,
+            "index": i,
+            "color": each.color,
+            "length": size.length,
+            "width": size.width,
+            "height": size.height,
+            "middle": size.centre,
+        }
+        for i, each in enumerate(looks(prepared))
+        for size in [each.dimensions]
+    ]
     return {"vehicles": vehicles, "attribution": prepared.network.attribution}
