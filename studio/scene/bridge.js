@@ -3,6 +3,7 @@
  * The page posts     {studio: "follow", vehicle: index|null}
  *                    {studio: "view", preset: "overview"|"top"|"driver"}
  *                    {studio: "theme", dark: bool}
+ *                    {studio: "rest", rest: bool}   nobody sees the scene: nothing is drawn
  * The bridge posts   {studio: "ready", follow: bool}, {studio: "picked", vehicle: index},
  *                    {studio: "key", key, code, ctrlKey, metaKey, shiftKey, altKey}
  *
@@ -233,7 +234,11 @@
 
   window.addEventListener("message", (event) => {
     if (event.origin !== location.origin || typeof event.data !== "object" || event.data === null) return;
-    const { studio, vehicle, preset, dark } = event.data;
+    const { studio, vehicle, preset, dark, rest } = event.data;
+    if (studio === "rest") {
+      resting = rest === true;
+      if (!resting) client()?.requestRender?.();
+    }
     if (studio === "follow") {
       if (view.mode === TOP && vehicle !== null) view.mode = CHASE;
       follow(vehicle);
@@ -245,13 +250,43 @@
     }
   });
 
+  // ---- rest: nothing is drawn while nobody sees it, nor over and over while nothing changes
+
+  const HEARTBEAT = 1000; // [ms] at which viser draws in case that somebody forgot to ask
+  const AWAKE = 5000; // [ms] after somebody has asked, in which it may
+  let stirred = performance.now();
+  let resting = false;
+  const stir = () => (stirred = performance.now());
+  const repeat = window.setInterval.bind(window);
+  window.setInterval = (call, every, ...rest) =>
+    repeat(every === HEARTBEAT && typeof call === "function" ? () => performance.now() - stirred < AWAKE && call() : call, every, ...rest);
+  for (const kind of ["pointerdown", "pointermove", "wheel", "resize", "keydown"]) window.addEventListener(kind, stir, true);
+
+  // who asks for a picture is heard, as before
+  function listenToRequests() {
+    const mutable = client();
+    if (!mutable?.requestRender || mutable.requestRender.studio) return;
+    const ask = mutable.requestRender;
+    mutable.requestRender = Object.assign(() => (stir(), ask()), { studio: true });
+  }
+
+  function restWhileUnseen(renderer) {
+    if (renderer.render.studio) return;
+    const draw = renderer.render.bind(renderer);
+    renderer.render = Object.assign((...what) => resting || draw(...what), { studio: true });
+  }
+
   // ---- the client comes up in its own time, and rebuilds its scene when it reconnects
 
   function hook() {
     const scene = client()?.scene;
+    listenToRequests();
     if (scene && !scene.userData.studio) {
       scene.userData.studio = true;
-      scene.onBeforeRender = beforeDrawing;
+      scene.onBeforeRender = (renderer) => {
+        restWhileUnseen(renderer);
+        beforeDrawing();
+      };
     }
   }
 

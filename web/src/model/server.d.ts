@@ -1475,6 +1475,195 @@ export interface components {
             lost: components["schemas"]["Lost"][];
         };
         /**
+         * LayerCar
+         * @description What is known of a car that the picture does not show.
+         */
+        LayerCar: {
+            /**
+             * Car
+             * @description its index in the scene
+             */
+            car: number;
+            /**
+             * Speed
+             * @description [m/s]
+             */
+            speed: number | null;
+            /**
+             * Brakes
+             * @description whether its brake lights are on
+             */
+            brakes: boolean;
+            /**
+             * Turns
+             * @description 1: its way bends to the left soon, -1: to the right; cars of the simulation have no indicators
+             */
+            turns: number;
+            /**
+             * Ahead
+             * @description index of the car ahead; null when there is none, or something else
+             */
+            ahead: number | null;
+            /**
+             * Gap
+             * @description [m] to what is ahead
+             */
+            gap: number | null;
+            /**
+             * Notice
+             * @description what its driver is shown
+             */
+            notice: string;
+        };
+        /**
+         * LayerEnd
+         * @description Who sends or hears: a car by its index, or a station at its place.
+         */
+        LayerEnd: {
+            /** Car */
+            car?: number | null;
+            /**
+             * X
+             * @description [m]
+             */
+            x?: number | null;
+            /**
+             * Y
+             * @description [m]
+             */
+            y?: number | null;
+        };
+        /**
+         * LayerField
+         * @description The field of a sensor, and what it says that it sees: in the frame of its car, x ahead and y to the left of its centre of gravity.
+         */
+        LayerField: {
+            /** Car */
+            car: number;
+            /** Sensor */
+            sensor: string;
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /**
+             * Yaw
+             * @description [rad]
+             */
+            yaw: number;
+            /**
+             * Range
+             * @description [m]
+             */
+            range: number;
+            /**
+             * Angle
+             * @description [rad] from edge to edge
+             */
+            angle: number;
+            /**
+             * Seen
+             * @description [m]
+             */
+            seen: [
+                number,
+                number
+            ][];
+        };
+        /**
+         * LayerLine
+         * @description A line on the map that belongs to a car.
+         */
+        LayerLine: {
+            /** Car */
+            car: number;
+            /**
+             * Points
+             * @description [m]
+             */
+            points: [
+                number,
+                number
+            ][];
+        };
+        /**
+         * LayerMessage
+         * @description The newest message from one to another, which was sent a moment ago.
+         */
+        LayerMessage: {
+            sender: components["schemas"]["LayerEnd"];
+            receiver: components["schemas"]["LayerEnd"];
+            /** Kind */
+            kind: string;
+            /** Lost */
+            lost: boolean;
+        };
+        /**
+         * Layers
+         * @description What can be drawn over the scene at a time.
+         */
+        Layers: {
+            /**
+             * Time
+             * @description [s]
+             */
+            time: number;
+            /** Cars */
+            cars: components["schemas"]["LayerCar"][];
+            /** Fields */
+            fields: components["schemas"]["LayerField"][];
+            /** Messages */
+            messages: components["schemas"]["LayerMessage"][];
+            /**
+             * Trails
+             * @description where cars came from, the oldest point first
+             */
+            trails: components["schemas"]["LayerLine"][];
+            /**
+             * Paths
+             * @description where their ways lead
+             */
+            paths: components["schemas"]["LayerLine"][];
+        };
+        /**
+         * LayersNews
+         * @description What can be drawn over the scene now.
+         */
+        LayersNews: {
+            /**
+             * Time
+             * @description [s]
+             */
+            time: number;
+            /** Cars */
+            cars: components["schemas"]["LayerCar"][];
+            /** Fields */
+            fields: components["schemas"]["LayerField"][];
+            /** Messages */
+            messages: components["schemas"]["LayerMessage"][];
+            /**
+             * Trails
+             * @description where cars came from, the oldest point first
+             */
+            trails: components["schemas"]["LayerLine"][];
+            /**
+             * Paths
+             * @description where their ways lead
+             */
+            paths: components["schemas"]["LayerLine"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "layers";
+        };
+        /**
          * Layout
          * @description How a value was written, so that an inverse is exact to the letter.
          */
@@ -2115,6 +2304,12 @@ export interface components {
              * @description [s]; before the first and after the last sample that of this
              */
             time: number;
+            /**
+             * Layers
+             * @description whether what can be drawn over the scene is wanted
+             * @default false
+             */
+            layers: boolean;
         };
         /**
          * NewCopy
@@ -2328,7 +2523,7 @@ export interface components {
          * News
          * @description One message of the socket of a live run.
          */
-        News: components["schemas"]["StateNews"] | components["schemas"]["ChannelsNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
+        News: components["schemas"]["StateNews"] | components["schemas"]["ChannelsNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["LayersNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
         /**
          * Number
          * @description A number with its unit.
@@ -3036,6 +3231,14 @@ export interface components {
              * @default []
              */
             notes: string[];
+            /**
+             * Missing
+             * @description layers that cannot be drawn, and why
+             * @default {}
+             */
+            missing: {
+                [key: string]: string;
+            };
         };
         /**
          * SceneVehicle
@@ -3048,6 +3251,26 @@ export interface components {
             index: number;
             /** Color */
             color: string;
+            /**
+             * Length
+             * @description [m]
+             */
+            length: number;
+            /**
+             * Width
+             * @description [m]
+             */
+            width: number;
+            /**
+             * Height
+             * @description [m]
+             */
+            height: number;
+            /**
+             * Middle
+             * @description [m] from its origin, below the centre of gravity, to the middle of the body
+             */
+            middle: number;
         };
         /**
          * Shown
@@ -3056,6 +3279,7 @@ export interface components {
         Shown: {
             /** Shown */
             shown: boolean;
+            layers?: components["schemas"]["Layers"] | null;
         };
         /**
          * SideBySide

@@ -7,6 +7,8 @@ import { isTraffic } from "../../model/channel";
 import { words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { useBridge, type View } from "./bridge";
+import { LayersMenu } from "./LayersMenu";
+import { type Sight, useLayers } from "./sight";
 import classes from "./Studio.module.css";
 
 const VIEWS = [
@@ -23,11 +25,16 @@ interface Props {
   active: boolean;
   /** Whether a run is going on: then the first car is followed, unless somebody has chosen a view. */
   running: boolean;
+  /** Whether what is shown is a run, live or played back. */
+  run: boolean;
+  /** What is drawn over the scene, and which layers of it cannot be. */
+  sight: Sight;
+  missing: Readonly<Record<string, string>>;
   /** The scene has lost what it showed, as after a restart of the server. */
   onEmptied: () => void;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, onEmptied }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, run, sight, missing, onEmptied }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
@@ -44,6 +51,13 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
   // A scene that has just become ready must be told everything again.
   // `ready` counts how often that was.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
+  const [layers, chooseLayers] = useLayers();
+  useEffect(() => send({ studio: "rest", rest: !active }), [active, ready, send]);
+  useEffect(() => send({ studio: "layers", on: layers }), [layers, ready, send]);
+  useEffect(() => {
+    send({ studio: "cast", cars: vehicles });
+    return sight.show((seen) => send({ studio: "seen", layers: seen }));
+  }, [vehicles, sight, ready, send]);
   useEffect(() => {
     // Nothing was chosen for a scene that is built again, and the user may have turned it.
     if (followed === null && view === "overview" && told.current === view) return;
@@ -91,6 +105,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
             value={view}
             onChange={(value) => choose(value as View)}
           />
+          <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
         </div>
       ) : null}
       <span className={classes.attribution} data-testid="attribution" hidden={attribution === ""}>

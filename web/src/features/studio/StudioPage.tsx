@@ -24,6 +24,7 @@ import { SceneView } from "./SceneView";
 import { SidePanel } from "./SidePanel";
 import classes from "./Studio.module.css";
 import { useShownRun } from "./shown";
+import { useSight } from "./sight";
 import { useScene } from "./stage";
 import { Timeline } from "./Timeline";
 
@@ -53,7 +54,8 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
   const playable = over && shown.channels.length > 0;
   const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable);
-  const head = usePlayhead(playable && !scene.settling ? run : undefined, scene);
+  const sight = useSight(shown.live, scene.vehicles);
+  const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
   useSeekOnce(id, run, head, time);
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
   useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
@@ -84,6 +86,9 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
         attribution={scene.attribution}
         active={active}
         onEmptied={scene.again}
+        run={head !== undefined || shown.live !== undefined}
+        sight={sight}
+        missing={scene.missing}
         running={shown.live !== undefined && isLive(shown.live.status)}
       />
       {active ? (

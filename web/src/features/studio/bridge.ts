@@ -1,10 +1,16 @@
 /** Messages between the page and the 3D scene in its frame. */
 
 import { type RefObject, useCallback, useEffect, useState } from "react";
+import type { SceneVehicle } from "../../api/types";
+import type { Layers } from "../../model/layer";
 
 export type View = "overview" | "top" | "chase" | "driver";
 
 export type Command =
+  | { studio: "cast"; cars: readonly SceneVehicle[] }
+  | { studio: "layers"; on: readonly string[] }
+  | { studio: "seen"; layers: Layers | null }
+  | { studio: "rest"; rest: boolean }
   | { studio: "follow"; vehicle: number | null }
   | { studio: "view"; preset: View }
   | { studio: "theme"; dark: boolean };

@@ -3,6 +3,9 @@
 import { useEffect, useMemo, useSyncExternalStore } from "react";
 import { answer, client } from "../../api/client";
 import type { Scene } from "../../api/types";
+import type { Layers } from "../../model/layer";
+import type { Server } from "../../model/run";
+import type { Sight } from "./sight";
 
 export const PACES = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
 
@@ -90,6 +93,9 @@ export class Playhead {
     this.tell();
   };
 
+  /** Has the time shown where it stands. */
+  readonly refresh = (): void => this.ask(this.time);
+
   /** Another question only when the last one is answered: a slow scene skips pictures and stays on time. */
   private ask(time: number): void {
     this.asking.wanted = time;
@@ -112,12 +118,16 @@ export class Playhead {
   }
 }
 
-/** Shows a time of a run in the scene; when another page has had it show something else, it is told `again` what this one wants. */
-export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<void> {
-  const ask = () => answer(client.PUT("/api/scene/time", { body: { run, time } }));
-  if ((await ask()).shown) return;
+/**
+ * Shows a time of a run in the scene, and answers what can be drawn over it; when another page has had it show something else, it is
+ * told `again` what this one wants.
+ */
+export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<Layers | null> {
+  const ask = () => answer(client.PUT("/api/scene/time", { body: { run, time, layers: true } })) as Promise<Server["Shown"]>;
+  const first = await ask();
+  if (first.shown) return first.layers ?? null;
   await again();
-  await ask();
+  return (await ask()).layers ?? null;
 }
 
 interface Playing extends Pick<Scene, "begin" | "end" | "step"> {
@@ -125,15 +135,18 @@ interface Playing extends Pick<Scene, "begin" | "end" | "step"> {
 }
 
 /** The playhead of the run that the scene plays back; none while it shows something else. */
-export function usePlayhead(run: number | undefined, { begin, end, step, again }: Playing): Playhead | undefined {
+export function usePlayhead(run: number | undefined, { begin, end, step, again }: Playing, sight: Sight): Playhead | undefined {
   const head = useMemo(
     () =>
       run === undefined || !isNumber(begin) || !isNumber(end) || !isNumber(step) || end <= begin
         ? undefined
-        : new Playhead(run, begin, end, step, (which, time) => showInScene(which, time, again)),
-    [run, begin, end, step, again],
+        : new Playhead(run, begin, end, step, async (which, time) => sight.put(await showInScene(which, time, again))),
+    [run, begin, end, step, again, sight],
   );
-  useEffect(() => head?.pause, [head]);
+  useEffect(() => {
+    head?.refresh();
+    return head?.pause;
+  }, [head]);
   return head;
 }
 

@@ -9,7 +9,7 @@ import type { Scene } from "../../api/types";
 import type { Changes } from "../../model/run";
 import { notifyError } from "../../ui/notify";
 
-const NO_SCENE: Scene = { vehicles: [], attribution: "", begin: null, end: null, step: null, notes: [] };
+const NO_SCENE: Scene = { vehicles: [], attribution: "", begin: null, end: null, step: null, notes: [], missing: {} };
 
 /** Show the scenario in the 3D scene, or a run: as it goes on, or, when it is `over`, as it was recorded. */
 export function useScene(id: string, set: Changes, run: number | undefined, over: boolean, ok: boolean) {
