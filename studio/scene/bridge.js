@@ -100,10 +100,12 @@
     if (view.fresh) return start(controls, pose, target, now);
     const [dx, dy, dz] = target.map((value, i) => value - view.target[i]);
     if (dx * dx + dy * dy + dz * dz > 100 * 100) return start(controls, pose, target, now);
+    swing(controls, pose, now);
+    // who is told to move asks for another picture: a car that stands would have itself drawn for ever
+    if (dx * dx + dy * dy + dz * dz < 1e-8) return;
     camera.position.set(camera.position.x + dx, camera.position.y + dy, camera.position.z + dz);
     camera.updateMatrixWorld();
     controls.moveTo(...target, false);
-    swing(controls, pose, now);
     view.target = target;
   }
 
@@ -122,7 +124,7 @@
     if (view.mode === TOP) return;
     const step = turn(pose.yaw - view.yaw) * share;
     view.yaw += step;
-    if (Math.abs(step) > 1e-6) controls.rotate(step, 0, false);
+    if (Math.abs(step) > 1e-5) controls.rotate(step, 0, false);
   }
 
   // A far near plane keeps the thin layers of the street apart from high above, a close one shows the bonnet.

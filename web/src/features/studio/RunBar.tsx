@@ -44,7 +44,7 @@ interface Props extends Controls {
 }
 
 const PACES = [
-  ...[0.1, 0.25, 0.5, 1, 2, 4, 8].map((pace) => ({ value: String(pace), label: `${pace} × real time` })),
+  ...[0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8].map((pace) => ({ value: String(pace), label: `${pace} × real time` })),
   { value: "fast", label: "As fast as possible" },
 ];
 
