@@ -322,6 +322,14 @@ class Metric(BaseModel):
     about: str = Field(description="subject and time in words")
 
 
+class Stretch(BaseModel):
+    """The measures of a stretch of a run, by name."""
+
+    begin: float = Field(description="[s] the first sample in it")
+    end: float = Field(description="[s] the last sample in it")
+    metrics: dict[str, Metric]
+
+
 class Run(BaseModel):
     """A run in the database; `parameters` are those that were set, by path."""
 

@@ -31,6 +31,7 @@ from studio.store.export import MEDIA, Format, export
 from studio.store.queue import queue
 from studio.store.runs import Runs
 from studio.store.setting import settings
+from studio.store.stretch import stretch
 from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
@@ -238,6 +239,18 @@ def run_trace(
     columns = trace.decimate(trace.between(kept.trace(run, names), begin, end), points)
     values = {name: answer.TraceColumn(unit=units[name], values=plain(columns[name])) for name in names}
     return answer.Trace(time=columns["time"].tolist(), channels=values)
+
+
+@router.get("/runs/{run}/stretch")
+def run_stretch(
+    run: int,
+    kept: KeptRuns,
+    begin: Annotated[float, Query(description="[s] from then on", allow_inf_nan=False)],
+    end: Annotated[float, Query(description="[s] until then", allow_inf_nan=False)],
+) -> answer.Stretch:
+    """The measures of a stretch of a run, where they can be made from what was recorded: each without the others' time."""
+    first, last, metrics = stretch(kept, run, begin, end)
+    return answer.Stretch(begin=first, end=last, metrics={name: answer.Metric(**vars(each)) for name, each in metrics.items()})
 
 
 @router.get("/runs/{run}/trajectories", response_class=StreamingResponse, responses=TRAJECTORIES)

@@ -124,6 +124,20 @@ export const trace = (number: number, channels: readonly string[], { points = 10
     placeholderData: keepPreviousData,
   });
 
+/** The measures of a stretch of a run [s]. */
+export const stretch = (number: number, span: readonly [number, number] | undefined) =>
+  queryOptions({
+    queryKey: ["stretch", number, span],
+    queryFn: () =>
+      answer(
+        client.GET("/api/runs/{run}/stretch", {
+          params: { path: { run: number }, query: { begin: span?.[0] ?? 0, end: span?.[1] ?? 0 } },
+        }),
+      ),
+    enabled: span !== undefined && span[1] > span[0],
+    staleTime: Infinity,
+  });
+
 /** Why things happened in a run that is over. */
 export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "status" | "events">) =>
   queryOptions({

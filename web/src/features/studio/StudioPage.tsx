@@ -80,7 +80,7 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
           blocked={form.blocked}
         />
       ) : null}
-      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} /> : null}
+      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} span={zoom.span} /> : null}
       <SceneView
         vehicles={scene.vehicles}
         attribution={scene.attribution}
