@@ -3,7 +3,7 @@
 import { Button, NativeSelect, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
-import { memo, useEffect, useState } from "react";
+import { memo, useEffect } from "react";
 import * as queries from "../../api/queries";
 import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
@@ -16,6 +16,7 @@ import { type Draft, useDraft } from "./draft";
 import { useFarewell } from "./farewell";
 import { type Form, useForm } from "./form";
 import { LiveCharts } from "./LiveCharts";
+import { useLayout } from "./arrange";
 import { type Playhead, usePlayhead } from "./playhead";
 import { ParameterPanel } from "./ParameterPanel";
 import { RunBar } from "./RunBar";
@@ -44,9 +45,9 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
   const [draft, update, isFresh] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
-  const [charted, chart] = useState(["speed", "gap"]);
+  const [layout, arrange] = useLayout(id);
   const zoom = useZoom(run);
-  const shown = useShownRun(run, charted, zoom.span);
+  const shown = useShownRun(run, layout, zoom.span);
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
   useTakeOver(id, from, isFresh ? run : undefined, update);
   useFarewell(shown.live, run);
@@ -96,8 +97,9 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
           <LiveCharts
             samples={shown.samples}
             channels={shown.channels}
-            chosen={charted}
-            onChoose={chart}
+            layout={layout}
+            onLayout={arrange}
+            document={shown.detail?.document}
             version={shown.version}
             duration={duration}
             paints={scene.paints}
