@@ -23,6 +23,7 @@ import { RunBar } from "./RunBar";
 import { SaveForm, useSaving } from "./SaveForm";
 import { SceneView } from "./SceneView";
 import { SidePanel } from "./SidePanel";
+import { Splitter, useBottom } from "./Splitter";
 import classes from "./Studio.module.css";
 import { useShownRun } from "./shown";
 import { useSight } from "./sight";
@@ -58,12 +59,13 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
   const sight = useSight(shown.live, scene.vehicles);
   const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
   useSeekOnce(id, run, head, time);
+  const bottom = useBottom();
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
   useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
   const duration = shown.progress?.duration || form.duration;
 
   return (
-    <div className={classes.studio} inert={!active} aria-hidden={!active}>
+    <div className={classes.studio} style={bottom.style} inert={!active} aria-hidden={!active}>
       {active ? <Parameters
           id={id}
           form={form}
@@ -92,6 +94,7 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
         missing={scene.missing}
         running={shown.live !== undefined && isLive(shown.live.status)}
       />
+      {active ? <Splitter {...bottom} /> : null}
       {active ? (
         <div className={classes.bottom}>
           <LiveCharts
