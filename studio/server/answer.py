@@ -664,6 +664,16 @@ class OnStage(BaseModel):
     scenario: str | None = None
     set: ChangesByPath = {}
     run: int | None = None
+    ghosts: list[int] = Field([], max_length=7, description="other runs that are over, among the cars of the run that is played back")
+    align: str = Field("", description="kind of event whose first is at the same time in all of them; empty: by their clocks")
+
+
+class SceneGhost(BaseModel):
+    """Another run among the cars: its colour, and by how much its clock is ahead."""
+
+    run: int
+    color: str
+    offset: float = Field(description="[s]")
 
 
 class SceneVehicle(BaseModel):
@@ -687,6 +697,7 @@ class SceneCast(BaseModel):
     end: float | None = Field(None, description="last time that was recorded [s]")
     step: float | None = Field(None, description="from one sample to the next [s]")
     notes: list[str] = Field([], description="what is not as it was, or is missing")
+    ghosts: list[SceneGhost] = []
     missing: dict[str, str] = Field({}, description="layers that cannot be drawn, and why")
 
 

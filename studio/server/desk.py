@@ -15,6 +15,7 @@ from studio.road.library import place
 from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
 from studio.server.frame import Frame
+from studio.server.ghost import haunting
 from studio.server.live import MOST_LIVE, LiveRun, Lives
 from studio.server.maps import Maps
 from studio.server.maps.job import MapJobs
@@ -155,6 +156,12 @@ class Desk:
     def replay(self, runs: Runs, run: int) -> Replay:
         """A run that is over, for the scene. Raises UnknownError, StudioError for what its map or models do not give any more."""
         return replay(runs, run, self.scenarios / f"{runs.find(run).scenario}.yaml")
+
+    def play(self, runs: Runs, run: int, others: tuple[int, ...] = (), align: str = "") -> dict[str, Any]:
+        """Shows a run that is over, and others as its ghosts. Raises what `replay` raises, and UnknownError where they do not fit."""
+        played = self.replay(runs, run)
+        ghosts = haunting(played, [self.replay(runs, other) for other in others], align)
+        return self.stage.play(played, ghosts=ghosts)
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
               pace: Pace, paused: bool) -> LiveRun:  # fmt: skip

@@ -394,7 +394,7 @@ def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneC
     if wanted.run is not None:
         live = desk.lives.going(wanted.run)
         if live is None:
-            return answer.SceneCast(**desk.stage.play(desk.replay(runs, wanted.run)))
+            return answer.SceneCast(**desk.play(runs, wanted.run, tuple(wanted.ghosts), wanted.align))
         return answer.SceneCast(**desk.stage.show(live.loaded, live))
     if wanted.scenario is None:
         raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])

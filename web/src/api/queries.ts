@@ -3,7 +3,7 @@
 import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
-import type { SideBySide } from "../model/beside";
+import { numbersOf, type SideBySide } from "../model/beside";
 import type { Check, Kinds, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
@@ -155,12 +155,18 @@ export const beside = (numbers: readonly number[], everything: boolean) =>
     placeholderData: keepPreviousData,
   });
 
+/** Other runs among the cars of one, as its address has them. */
+const haunted = ({ run, ghosts, align }: { run: number; ghosts: string; align: string }) => ({
+  ghosts: numbersOf(ghosts).filter((other) => other !== run),
+  align,
+});
+
 /** A run that has ended meanwhile is another thing to show than while it went on. */
-export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean }) =>
+export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean; ghosts: string; align: string }) =>
   queryOptions({
     queryKey: ["scene", what],
     queryFn: () =>
-      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run } : { set: {}, ...what } })),
+      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run, ...haunted(what) } : { set: {}, ghosts: [], align: "", ...what } })),
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,

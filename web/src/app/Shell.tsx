@@ -67,6 +67,8 @@ interface StudioPlace {
   run: number | undefined;
   from: number | undefined;
   time: number | undefined;
+  ghosts: string | undefined;
+  align: string | undefined;
 }
 
 /** The studio stays under the other places, so that its scene need not be loaded again. */
@@ -74,16 +76,16 @@ function Places() {
   const match = useMatch({ from: "/studio/$scenario", shouldThrow: false });
   const [last, setLast] = useState<StudioPlace>();
   const scenario = match?.params.scenario;
-  const { run, from, time } = match?.search ?? {};
+  const { run, from, time, ghosts, align } = match?.search ?? {};
   useEffect(() => {
     if (scenario === undefined) return;
-    setLast({ scenario, run, from, time: undefined });
+    setLast({ scenario, run, from, time: undefined, ghosts, align });
     rememberScenario(scenario);
-  }, [scenario, run, from]);
+  }, [scenario, run, from, ghosts, align]);
   // A scenario that was deleted or renamed meanwhile is let go.
   const { data: known } = useQuery(scenarios);
   const lost = last !== undefined && known !== undefined && !known.some(({ id }) => id === last.scenario);
-  const shown = scenario !== undefined ? { scenario, run, from, time } : lost ? undefined : last;
+  const shown = scenario !== undefined ? { scenario, run, from, time, ghosts, align } : lost ? undefined : last;
   return (
     <>
       {shown ? <StudioPage {...shown} active={scenario !== undefined} /> : null}

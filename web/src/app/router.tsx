@@ -31,7 +31,16 @@ export const studioRoute = createRoute({
   path: "/studio/$scenario",
   validateSearch: (
     search: Record<string, unknown>,
-  ): { run?: number | undefined; from?: number | undefined; time?: number | undefined } => ({
+  ): {
+    run?: number | undefined;
+    from?: number | undefined;
+    time?: number | undefined;
+    /** Other runs among its cars, with commas, and the kind of event that is at the same time in all of them. */
+    ghosts?: string | undefined;
+    align?: string | undefined;
+  } => ({
+    ghosts: text(search.ghosts),
+    align: text(search.align),
     run: number(search.run),
     from: number(search.from),
     time: real(search.time),

@@ -2570,6 +2570,18 @@ export interface components {
             };
             /** Run */
             run?: number | null;
+            /**
+             * Ghosts
+             * @description other runs that are over, among the cars of the run that is played back
+             * @default []
+             */
+            ghosts: number[];
+            /**
+             * Align
+             * @description kind of event whose first is at the same time in all of them; empty: by their clocks
+             * @default
+             */
+            align: string;
         };
         /**
          * Operation
@@ -3252,6 +3264,11 @@ export interface components {
              */
             notes: string[];
             /**
+             * Ghosts
+             * @default []
+             */
+            ghosts: components["schemas"]["SceneGhost"][];
+            /**
              * Missing
              * @description layers that cannot be drawn, and why
              * @default {}
@@ -3259,6 +3276,21 @@ export interface components {
             missing: {
                 [key: string]: string;
             };
+        };
+        /**
+         * SceneGhost
+         * @description Another run among the cars: its colour, and by how much its clock is ahead.
+         */
+        SceneGhost: {
+            /** Run */
+            run: number;
+            /** Color */
+            color: string;
+            /**
+             * Offset
+             * @description [s]
+             */
+            offset: number;
         };
         /**
          * SceneVehicle

@@ -2,9 +2,9 @@
 
 import { NativeSelect, SegmentedControl } from "@mantine/core";
 import { memo, useCallback, useEffect, useRef, useState } from "react";
-import type { SceneVehicle } from "../../api/types";
+import type { Scene, SceneVehicle } from "../../api/types";
 import { isTraffic } from "../../model/channel";
-import { words } from "../../model/units";
+import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { useBridge, type View } from "./bridge";
 import { LayersMenu } from "./LayersMenu";
@@ -25,6 +25,8 @@ interface Props {
   active: boolean;
   /** Whether a run is going on: then the first car is followed, unless somebody has chosen a view. */
   running: boolean;
+  /** Other runs that are among the cars. */
+  ghosts: Scene["ghosts"];
   /** Whether what is shown is a run, live or played back. */
   run: boolean;
   /** What is drawn over the scene, and which layers of it cannot be. */
@@ -34,7 +36,7 @@ interface Props {
   onEmptied: () => void;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, run, sight, missing, onEmptied }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, ghosts, run, sight, missing, onEmptied }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
@@ -108,12 +110,27 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
           <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
         </div>
       ) : null}
+      {active && ghosts?.length ? <Ghosts ghosts={ghosts} /> : null}
       <span className={classes.attribution} data-testid="attribution" hidden={attribution === ""}>
         {attribution}
       </span>
     </div>
   );
 });
+
+/** Which colour is whose run. */
+function Ghosts({ ghosts }: { ghosts: NonNullable<Scene["ghosts"]> }) {
+  return (
+    <ul className={classes.ghosts} aria-label="Ghosts of other runs">
+      {ghosts.map(({ run, color, offset }) => (
+        <li key={run}>
+          <span className={classes.ghost} style={{ background: color }} /> #{run}
+          {offset ? `, its clock ${formatDifference(Number(offset.toFixed(2)))} s` : ""}
+        </li>
+      ))}
+    </ul>
+  );
+}
 
 /** The platoon first, the surrounding traffic in a group of its own. */
 function followChoices(vehicles: readonly SceneVehicle[]) {

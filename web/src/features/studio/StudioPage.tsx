@@ -38,11 +38,14 @@ interface Props {
   from: number | undefined;
   /** The time [s] to go to as soon as the run is played back. */
   time: number | undefined;
+  /** Other runs among the cars of this one, with commas; and what is at the same time in all of them. */
+  ghosts: string | undefined;
+  align: string | undefined;
   /** False while another page covers this one; the scene and the run go on. */
   active: boolean;
 }
 
-export function StudioPage({ scenario: id, run, from, time, active }: Props) {
+export function StudioPage({ scenario: id, run, from, time, ghosts, align, active }: Props) {
   const [draft, update, isFresh] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
@@ -55,10 +58,10 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
   const status = shown.progress?.status;
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
   const playable = over && shown.channels.length > 0;
-  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable);
+  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable, ghosts, align);
   const sight = useSight(shown.live, scene.vehicles);
   const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
-  useSeekOnce(id, run, head, time);
+  useSeekOnce(id, { run, ghosts, align }, head, time);
   const bottom = useBottom();
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
   useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
@@ -89,6 +92,7 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
         attribution={scene.attribution}
         active={active}
         onEmptied={scene.again}
+        ghosts={scene.ghosts}
         run={head !== undefined || shown.live !== undefined}
         sight={sight}
         missing={scene.missing}
@@ -117,13 +121,13 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
 }
 
 /** A link may name a time: the playback goes there, once, and then to wherever one likes. */
-function useSeekOnce(id: string, run: number | undefined, head: Playhead | undefined, time: number | undefined) {
+function useSeekOnce(id: string, { run, ghosts, align }: Pick<Props, "run" | "ghosts" | "align">, head: Playhead | undefined, time: number | undefined) {
   const navigate = useNavigate();
   useEffect(() => {
     if (!head || time === undefined) return;
     head.seek(time);
-    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run }, replace: true });
-  }, [id, run, head, time, navigate]);
+    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run, ghosts, align }, replace: true });
+  }, [id, run, ghosts, align, head, time, navigate]);
 }
 
 interface ParametersProps {

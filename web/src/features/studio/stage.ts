@@ -9,18 +9,18 @@ import type { Scene } from "../../api/types";
 import type { Changes } from "../../model/run";
 import { notifyError } from "../../ui/notify";
 
-const NO_SCENE: Scene = { vehicles: [], attribution: "", begin: null, end: null, step: null, notes: [], missing: {} };
+const NO_SCENE: Scene = { vehicles: [], attribution: "", begin: null, end: null, step: null, notes: [], missing: {}, ghosts: [] };
 
 /** Show the scenario in the 3D scene, or a run: as it goes on, or, when it is `over`, as it was recorded. */
-export function useScene(id: string, set: Changes, run: number | undefined, over: boolean, ok: boolean) {
+export function useScene(id: string, set: Changes, run: number | undefined, over: boolean, ok: boolean, ghosts = "", align = "") {
   // Only what changes the picture is worth building the scene again.
   const visible = useMemo(
     () => Object.fromEntries(Object.entries(set).filter(([path]) => SEEN.test(path))),
     [set],
   );
   const what = useMemo(
-    () => (run === undefined ? { scenario: id, set: visible } : { run, over }),
-    [id, visible, run, over],
+    () => (run === undefined ? { scenario: id, set: visible } : { run, over, ghosts: over ? ghosts : "", align }),
+    [id, visible, run, over, ghosts, align],
   );
   const [settled] = useDebouncedValue(what, run === undefined ? 400 : 0);
   // That this is in order says nothing about what stood here before.
