@@ -188,6 +188,18 @@ export function useStart() {
   });
 }
 
+/** Start runs of more seeds that nobody watches; they wait for their turns. */
+export function useStartUnseen() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: async ({ rest, ...start }: Filled<Server["NewRun"], { set: Changes }> & { rest: readonly number[] }) => {
+      for (const seed of rest) await answer(client.POST("/api/runs", { body: { ...start, seed } }));
+    },
+    onSettled: () =>
+      Promise.all([["queue"], ["runs"]].map((queryKey) => kept.invalidateQueries({ queryKey }))),
+  });
+}
+
 export type Order = "pause" | "resume" | "step" | "stop";
 
 /** Tell a live run what to do. */

@@ -83,6 +83,7 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
           duration={form.duration}
           pace={draft.pace}
           seed={seed}
+          seeds={draft.seeds}
           blocked={form.blocked}
         />
       ) : null}
