@@ -66,6 +66,8 @@ class Scene:
             self._clear_city()
             self._city = [self._add(layer) for layer in made.layers]
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
+            # comes after everything else: who finds it has the rest of this map
+            self._city.append(self._server.scene.add_frame(f"/map/{network.digest}", visible=False))
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._reach = _reach(network)
             self._horizon = city.horizon(network)

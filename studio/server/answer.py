@@ -693,12 +693,16 @@ class SceneCast(BaseModel):
 
     vehicles: list[SceneVehicle]
     attribution: str
+    map: str = Field("", description="digest of the map; the scene has a node /map/DIGEST as soon as it has the map")
     begin: float | None = Field(None, description="first time that was recorded [s]; null unless a run is played back")
     end: float | None = Field(None, description="last time that was recorded [s]")
     step: float | None = Field(None, description="from one sample to the next [s]")
     notes: list[str] = Field([], description="what is not as it was, or is missing")
     ghosts: list[SceneGhost] = []
     missing: dict[str, str] = Field({}, description="layers that cannot be drawn, and why")
+
+
+Spot = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 class LayerCar(BaseModel):
@@ -723,7 +727,7 @@ class LayerField(BaseModel):
     yaw: float = Field(description="[rad]")
     range: float = Field(description="[m]")
     angle: float = Field(description="[rad] from edge to edge")
-    seen: list[tuple[float, float]] = Field(description="[m]")
+    seen: list[Spot] = Field(description="[m]")
 
 
 class LayerEnd(BaseModel):
@@ -747,7 +751,7 @@ class LayerLine(BaseModel):
     """A line on the map that belongs to a car."""
 
     car: int
-    points: list[tuple[float, float]] = Field(description="[m]")
+    points: list[Spot] = Field(description="[m]")
 
 
 class Layers(BaseModel):

@@ -139,13 +139,13 @@ class Layers:
             seen=list(self.seen(eye, record, i)),
         )
 
-    def seen(self, eye: Eye, record: Record, i: int) -> Iterator[tuple[float, float]]:
+    def seen(self, eye: Eye, record: Record, i: int) -> Iterator[list[float]]:
         """Its targets, in the frame of the car [m]."""
         at = f"{self.setting.names[eye.car]}.{eye.name}"
         for where, form in slots(at, record):
             a, b = (float(record.probes[f"{where}.{part}"].values[i]) for part in form)
             if isfinite(a) and isfinite(b):
-                yield placed(eye, a, b) if form == POLAR else (self.bodies[self.setting.names[eye.car]].front + a, b)
+                yield placed(eye, a, b) if form == POLAR else [self.bodies[self.setting.names[eye.car]].front + a, b]
 
     # -- messages ------------------------------------------------------------------------------------
 
@@ -219,9 +219,9 @@ def slots(at: str, record: Record) -> Iterator[tuple[str, tuple[str, str]]]:
         where = f"{at}.{slot}"
 
 
-def placed(eye: Eye, distance: float, azimuth: float) -> tuple[float, float]:
+def placed(eye: Eye, distance: float, azimuth: float) -> list[float]:
     """A target seen by a sensor, in the frame of its car [m]."""
-    return eye.x + distance * cos(eye.yaw + azimuth), eye.y + distance * sin(eye.yaw + azimuth)
+    return [eye.x + distance * cos(eye.yaw + azimuth), eye.y + distance * sin(eye.yaw + azimuth)]
 
 
 def is_braking(torque: float, acceleration: float) -> bool:
@@ -234,6 +234,6 @@ def some(value: float) -> float | None:
     return round(value, 3) if isfinite(value) else None
 
 
-def rounded(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+def rounded(points: list[tuple[float, float]]) -> list[list[float]]:
     """Points with centimetres."""
-    return [(round(x, 2), round(y, 2)) for x, y in points]
+    return [[round(x, 2), round(y, 2)] for x, y in points]

@@ -122,4 +122,4 @@ def described(prepared: Setting) -> dict[str, Any]:
         for i, each in enumerate(looks(prepared))
         for size in [each.dimensions]
     ]
-    return {"vehicles": vehicles, "attribution": prepared.network.attribution}
+    return {"vehicles": vehicles, "attribution": prepared.network.attribution, "map": prepared.network.digest}

@@ -3243,6 +3243,12 @@ export interface components {
             /** Attribution */
             attribution: string;
             /**
+             * Map
+             * @description digest of the map; the scene has a node /map/DIGEST as soon as it has the map
+             * @default
+             */
+            map: string;
+            /**
              * Begin
              * @description first time that was recorded [s]; null unless a run is played back
              */

@@ -6,7 +6,7 @@ import type { Scene, SceneVehicle } from "../../api/types";
 import { isTraffic } from "../../model/channel";
 import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
-import { useBridge, type View } from "./bridge";
+import { useBridge, useMap, type View } from "./bridge";
 import { LayersMenu } from "./LayersMenu";
 import { type Sight, useLayers } from "./sight";
 import classes from "./Studio.module.css";
@@ -25,6 +25,10 @@ interface Props {
   active: boolean;
   /** Whether a run is going on: then the first car is followed, unless somebody has chosen a view. */
   running: boolean;
+  /** What the scene is to show; why it does not yet, empty when it does; and the map of it. */
+  title: string;
+  waits: string;
+  map: string | undefined;
   /** Other runs that are among the cars. */
   ghosts: Scene["ghosts"];
   /** Whether what is shown is a run, live or played back. */
@@ -36,7 +40,7 @@ interface Props {
   onEmptied: () => void;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, ghosts, run, sight, missing, onEmptied }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, title, waits, map, ghosts, run, sight, missing, onEmptied }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
@@ -48,6 +52,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     setFollowed(vehicle);
     setView((before) => (vehicle === null ? "overview" : before === "overview" ? "chase" : before));
   }, []);
+  const there = useMap(frame, map ?? "");
   const { ready, send } = useBridge(frame, follow, onEmptied);
 
   // A scene that has just become ready must be told everything again.
@@ -110,6 +115,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
           <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
         </div>
       ) : null}
+      {waits || !there ? <Cover key={title} title={title} what={waits || (ready ? "The browser loads the map" : "The 3D view comes up")} /> : null}
       {active && ghosts?.length ? <Ghosts ghosts={ghosts} /> : null}
       <span className={classes.attribution} data-testid="attribution" hidden={attribution === ""}>
         {attribution}
@@ -117,6 +123,23 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     </div>
   );
 });
+
+/** Over the scene while that is not what the title says: what is going on, and for how long. */
+function Cover({ title, what }: { title: string; what: string }) {
+  const [seconds, setSeconds] = useState(0);
+  useEffect(() => {
+    const timer = setInterval(() => setSeconds((before) => before + 1), 1000);
+    return () => clearInterval(timer);
+  }, []);
+  return (
+    <div className={classes.cover} role="status" aria-label="The scene is loading">
+      <b>{title}</b>
+      <span>
+        {what} … {seconds > 1 ? <span aria-hidden="true">{seconds} s</span> : null}
+      </span>
+    </div>
+  );
+}
 
 /** Which colour is whose run. */
 function Ghosts({ ghosts }: { ghosts: NonNullable<Scene["ghosts"]> }) {

@@ -58,11 +58,12 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
   const status = shown.progress?.status;
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
   const playable = over && shown.channels.length > 0;
-  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable, ghosts, align);
+  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable, ghosts, align, form.blocked);
   const sight = useSight(shown.live, scene.vehicles);
   const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
   useSeekOnce(id, { run, ghosts, align }, head, time);
   const bottom = useBottom();
+  const title = useQuery(queries.scenarios).data?.find((each) => each.id === id)?.title ?? id;
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
   useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
   const duration = shown.progress?.duration || form.duration;
@@ -93,6 +94,9 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
         attribution={scene.attribution}
         active={active}
         onEmptied={scene.again}
+        title={title}
+        waits={scene.waits}
+        map={scene.map}
         ghosts={scene.ghosts}
         run={head !== undefined || shown.live !== undefined}
         sight={sight}

@@ -100,3 +100,27 @@ export class Rebuilding {
 
 /** So many looks without anything there mean that the server has forgotten what it showed. */
 export const PATIENCE = 8;
+
+/** [ms] Between two looks whether the scene has a map. */
+const GLANCE_MS = 150;
+
+/** Whether the scene has all of a map, as the server names it. */
+export function useMap(frame: RefObject<HTMLIFrameElement | null>, map: string): boolean {
+  const [there, found] = useState("");
+  useEffect(() => {
+    if (there === map) return;
+    const look = () => {
+      if (nodesOf(frame.current)[`/map/${map}`]) found(map);
+    };
+    const timer = setInterval(look, GLANCE_MS);
+    return () => clearInterval(timer);
+  }, [frame, map, there]);
+  return map !== "" && there === map;
+}
+
+interface Tree extends Window {
+  __viserSceneTree?: { getState: () => Record<string, unknown> };
+}
+
+const nodesOf = (frame: HTMLIFrameElement | null): Record<string, unknown> =>
+  (frame?.contentWindow as Tree | null)?.__viserSceneTree?.getState() ?? {};
