@@ -18,7 +18,7 @@
 
   const VEHICLES = "/vehicles/shadows"; // instance i is vehicle i
   // flat layers carry their light in their colours
-  const LEVEL = ["/city/ground", "/city/areas", "/city/road", "/city/markings"];
+  const LEVEL = ["/city/ground", "/city/areas", "/city/shoulder", "/city/road", "/city/markings"];
   const HIDDEN_BELOW = -100;
   const CHASE = { distance: 13, polar: 1.28, height: 1.1 };
   const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
