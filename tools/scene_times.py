@@ -66,7 +66,7 @@ def measure(client, opened, vehicles: int) -> dict[str, float]:
     live = client.post("/api/live", json={"scenario": SCENARIO, "set": changes, "pace": 1.0}).json()["run"]
     page, _ = watched(opened, viewport={"width": 1280, "height": 800})
     page.goto(f"{client.base_url}/studio/{SCENARIO}?run={live}")
-    frame = until(lambda: next((each for each in page.frames if "/scene/" in each.url), None), "the scene")
+    frame = page.get_by_test_id("scene-frame").element_handle().content_frame()
     frame.wait_for_function("window.__studioBridge?.poseOf(0) != null")
     until(lambda: client.get(f"/api/live/{live}").json()["time"] > 1.0, "the run to go on")
     found = {"updates a second": frame.evaluate(UPDATES, SECONDS)}

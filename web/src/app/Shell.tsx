@@ -248,6 +248,7 @@ const KEYS: [string[], string][] = [
   [[","], "One sample back in a run that is over"],
   [["<", ">"], "One second back or on in a run that is over"],
   [["[", "]"], "Previous or next event of a run that is over"],
+  [["i", "o"], "The stretch of a run that is over begins, or ends, here"],
   [["/"], "Search parameters, scenarios or kinds, or filter the runs"],
   [["g", "s"], "Go to the studio"],
   [["g", "f"], "Go to the scenario files"],
