@@ -86,7 +86,7 @@ def measure(client, opened, vehicles: int) -> dict[str, float]:
 
 def clicked(page, frame) -> list[float]:
     """Times from clicks at the first and the second car in turn [ms], from above, where neither hides the other."""
-    page.get_by_role("radio", name="Top").check(force=True)
+    page.get_by_text("Top", exact=True).click()
     until(lambda: frame.evaluate(FRAMES, 2) == 0, "the scene to rest")
     times = []
     for i in range(REPEATS):

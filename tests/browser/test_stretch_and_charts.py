@@ -59,7 +59,7 @@ def test_charts_take_other_channels_and_are_remembered(place):
     page, complaints = watched(opened, viewport={"width": 1280, "height": 800})
     page.goto(f"{client.base_url}/studio/{scenario}?run=1")
     charts = page.get_by_role("region", name="Charts")
-    speed = charts.get_by_role("figure", name=re.compile("^Speed"))
+    speed = charts.get_by_role("figure", name="Speed [m/s] over time")
     speed.get_by_role("button", name="Channels of this chart").click()
     page.get_by_role("textbox", name="Add a channel").or_(page.get_by_role("combobox", name="Add a channel")).first.fill("traffic_03.gap")
     page.get_by_role("option", name=re.compile(r"^traffic_03\.gap")).click()
@@ -87,7 +87,7 @@ def test_the_runs_of_a_comparison_drive_as_ghosts(place):
     expect(page.get_by_role("list", name="Ghosts of other runs")).to_contain_text("#2")
     frame = page.get_by_test_id("scene-frame").element_handle().content_frame()
     frame.wait_for_function("Object.keys(window.__viserSceneTree.getState()).some((name) => name.startsWith('/ghosts/body_'))")
-    assert re.search(rf"/studio/{scenario}\?run=1&ghosts=2&align=script_begun", page.url)
+    assert f"/studio/{scenario}?run=1&ghosts=" in page.url and "align=script_begun" in page.url
     assert complaints == []
     page.close()
 

@@ -68,8 +68,7 @@ export function RunBar(props: Props) {
             disabled={live || blocked !== ""}
             loading={starting}
           >
-            {progress && !live ? "Run again" : "Run"}
-            {seeds > 1 ? ` ${seeds} seeds` : ""}
+            {seeds > 1 ? `Run ${seeds} seeds` : progress && !live ? "Run again" : "Run"}
           </Button>
         </span>
       </Tooltip>
