@@ -1591,10 +1591,7 @@ export interface components {
              * Seen
              * @description [m]
              */
-            seen: [
-                number,
-                number
-            ][];
+            seen: number[][];
         };
         /**
          * LayerLine
@@ -1607,10 +1604,7 @@ export interface components {
              * Points
              * @description [m]
              */
-            points: [
-                number,
-                number
-            ][];
+            points: number[][];
         };
         /**
          * LayerMessage
