@@ -68,7 +68,7 @@ def test_imports_point_down(path):
     assert not above
 
 
-ROAD_FLOORS = [{"kept"}, {"network"}, {"formats", "ways"}, {"scenery"}, {"assembly"}, {"library", "drawn"}]
+ROAD_FLOORS = [{"kept"}, {"network"}, {"formats", "ways"}, {"scenery"}, {"assembly"}, {"opendrive"}, {"library", "drawn"}]
 ROAD_FLOOR_OF = {room: height for height, rooms in enumerate(ROAD_FLOORS) for room in rooms}
 
 

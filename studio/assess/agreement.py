@@ -10,7 +10,7 @@ from studio.execution.record import Record
 from studio.kind.metric import Found
 
 MANEUVER = "maneuver"
-REQUEST, COMMIT = 1.0, 4.0
+REQUEST, COMMIT, ABORT = 1.0, 4.0, 6.0
 
 
 def agreements(record: Record) -> Iterator[Found]:
@@ -30,3 +30,12 @@ def maneuvers(record: Record) -> list[tuple[int, float]]:
     sent = record.messages
     asking = (sent.kind == sent.kinds.index(MANEUVER)) & (sent.said_0 == REQUEST)
     return sorted(set(zip(sent.sender[asking].tolist(), sent.said_1[asking].tolist(), strict=True)))
+
+
+def aborted(record: Record) -> float:
+    """How many maneuvers were asked for and taken back by who had asked [1]; none asked for: nothing."""
+    sent = record.messages
+    if MANEUVER not in sent.kinds or not (asked := maneuvers(record)):
+        return float("nan")
+    back = (sent.kind == sent.kinds.index(MANEUVER)) & (sent.said_0 == ABORT)
+    return float(len(set(asked) & set(zip(sent.sender[back].tolist(), sent.said_1[back].tolist(), strict=True))))

@@ -192,14 +192,17 @@ def check(
     kinds: Kinds = None,
     traffic: Annotated[bool, typer.Option("--traffic", help="List the cars of the traffic, and what their drivers are like.")] = False,
 ) -> None:
-    """Checks a scenario file: fields, names, map, routes and starts."""
+    """Checks a scenario file: fields, names, map, routes and starts, and what its applications decide on drawn inputs."""
     with progress("checking"):
         from studio import job
         from studio.execution.event import foreseen
+        from studio.workshop import trial
+        from studio.world.setting import refuse
 
         load_kinds(kinds)
         loaded = job.load(scenario, changes(set_))
         prepared = job.prepare(loaded)
+        refuse(trial.problems(loaded.scenario, scenario.name), scenario.name)
     tell_migrated(loaded)
     print(f"{scenario} is valid: {len(prepared.cars)} vehicles on {prepared.network.name}. {prepared.network.attribution}".rstrip())
     print("".join(f"note: {event.text}\n" for event in foreseen(prepared)), end="")

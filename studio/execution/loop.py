@@ -9,7 +9,7 @@ from studio.execution.simulation import Simulation
 
 REPORT_EVERY = 100  # ticks between two reports of progress
 LONGEST_DEBT = 0.25  # [s] real time that a slow machine is allowed to owe before the pace gives in
-SLOWEST, FASTEST = 0.1, 8.0
+SLOWEST, FASTEST = 0.05, 8.0
 
 
 def as_fast_as_possible(simulation: Simulation, progress: Callable[[float], None] = lambda share: None) -> None:

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from studio.world.board.log import Book
+from studio.world.board.log import Book, after, book_of
 from studio.world.table.cause import RECEIVED
 from studio.world.world import World
 
@@ -106,6 +106,16 @@ def joined(parts: Sequence[Messages], kinds: tuple[str, ...], names: tuple[str, 
         return none(kinds, names)
     columns = {each.name: np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Messages)[2:]}
     return sorted_by_time(Messages(kinds, names, **columns))
+
+
+def lately(world: World, since: float) -> Messages:
+    """Those of the first world that were sent after a time [s], as far as they have not been put away: for the eye."""
+    units, posts = world.units, [post for post in world.units.posts if 0 in post.worlds]
+    parts = []
+    for i, post in enumerate(posts):
+        fresh = after(post.log.written(), since)
+        parts.append(of_book(own(book_of([fresh]), units.world == 0), post.link_receiver, int(units.first[0]), i))
+    return joined(parts, tuple(post.kind.name for post in posts), units.names[0])
 
 
 def own(book: Book, units: np.ndarray) -> Book:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from studio.kind.settings import Part, number
+from studio.kind.settings import Part, number, without
 
 Corner = Annotated[tuple[float, float], Field(json_schema_extra={"unit": "m"})]
 
@@ -26,6 +26,8 @@ class Area(Part):
         circle = [self.x is not None, self.y is not None, self.radius is not None]
         if [any(circle), bool(self.corners), self.road is not None].count(True) != 1 or any(circle) != all(circle):
             raise ValueError("give either `x`, `y` and `radius`, or `corners`, or `road`")
+        if self.road is None:
+            without(self, "lane", "start", "end", beside="x" if any(circle) else "corners")
         if crosses_itself(self.corners):
             raise ValueError("the outline crosses itself: give its corners in the order in which one goes around it")
         if self.corners and extent(self.corners) <= 0.0:

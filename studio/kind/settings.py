@@ -29,14 +29,27 @@ class Part(BaseModel):
     is_meant = field_validator("*", mode="before")(classmethod(meant.checked))
 
 
+def without(part: BaseModel, *names: str, beside: str) -> Any:
+    """A part that says where it is by `beside`; refuses what it sets of the other way to say it, which would count for nothing."""
+    fields = type(part).model_fields
+    idle = [name for name in names if name in part.model_fields_set and getattr(part, name) != fields[name].default]
+    if idle:
+        told = ", ".join(f"`{name}`" for name in idle)
+        raise ValueError(f"{told} would count for nothing beside `{beside}`: leave it out, or say the place the other way")
+    return part
+
+
 # -- names ---------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Names:
-    """Of a text: it names something of the scenario, a vehicle for instance."""
+    """Of a text: it names something of the scenario, a vehicle for instance. The JSON schema says so too: `names`."""
 
     what: str
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return handler(schema) | {"names": self.what}
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from pydantic import Field, model_validator
 
-from studio.kind.settings import Part, RouteName, number
+from studio.kind.settings import Part, RouteName, number, without
 
 
 class Stretch(Part):
@@ -18,7 +18,7 @@ class Stretch(Part):
     def is_a_stretch(self):
         if (self.route is None) == (self.road is None):
             raise ValueError("give either `route`, or `road` with `lane`")
-        return ordered(self)
+        return ordered(self if self.route is None else without(self, "lane", beside="route"))
 
 
 class LaneStretch(Part):

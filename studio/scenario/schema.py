@@ -13,7 +13,7 @@ from pydantic import BaseModel, Field, model_validator
 
 from studio.conventions import DEFAULT_STEP, DEFAULT_TICK
 from studio.kind import registry
-from studio.kind.settings import Name, Part, RouteName, UnitName, number
+from studio.kind.settings import Name, Part, RouteName, UnitName, number, without
 from studio.kind.slot import Every, Slot
 from studio.scenario.traffic import MODELS, AnyDriver, CarType, Dynamics, Traffic, dynamics_field
 
@@ -86,7 +86,7 @@ class Place(Part):
     def one_way_to_say_it(self):
         if (self.along is None) == (self.road is None):
             raise ValueError("give either `along`, or `road` with `lane` and `offset`")
-        return self
+        return self if self.along is None else without(self, "lane", "offset", beside="along")
 
 
 class Intervention(Part):
@@ -192,7 +192,7 @@ class Spot(Part):
     def one_way_to_say_it(self):
         if (self.x is None) != (self.y is None) or (self.x is None) == (self.road is None):
             raise ValueError("give either `road` with `along` and `aside`, or `x` and `y`")
-        return self
+        return self if self.x is None else without(self, "along", "aside", beside="x")
 
 
 class Station(Part, defer_build=True):

@@ -152,7 +152,8 @@ def read(path: Path) -> PropertyFile:
     check_family(sheet)
     values, notes = complete(sheet, in_si(sheet))
     check_values(sheet, values)
-    return PropertyFile(path.name, values, side(sheet), tuple(sheet_notes(sheet) + notes), sheet.sections())
+    check_directions(sheet, values)
+    return PropertyFile(path.name, values, side(sheet), tuple(sheet_notes(sheet) + notes + load_notes(values)), sheet.sections())
 
 
 def coefficients(file: PropertyFile, wanted: Iterable[str] = Tyre._fields) -> list[float]:
@@ -516,6 +517,35 @@ def check_values(sheet: Sheet, values: dict[str, float]) -> None:
     if side(sheet) not in SIDES:
         problems.append(sheet.problem("TYRESIDE", "is not a side", ", ".join(SIDES)))
     refuse(sheet.name, problems)
+
+
+def check_directions(sheet: Sheet, values: dict[str, float]) -> None:
+    """Refuses a tyre whose forces point the wrong way at small slip and nominal load, where the slopes are (Pacejka 2006, 4.E25, 4.E15)
+
+    K_y = PKY1 F_z0 sin(2 atan(F_z / (PKY2 F_z0))) LKY    below 0 in the axes of the formula: side force against side-slip
+    K_x = PKX1 F_z LKX                                    above 0: drive for turning faster than rolling
+    """
+    problems = []
+    if values["PKY1"] * values["PKY2"] * values["LKY"] > 0.0:
+        what = "turns the side force round: PKY1 · PKY2 · LKY, the sign of the cornering stiffness, is above 0"
+        problems.append(sheet.problem("PKY1", what, "below 0", "change its sign if the set is for axes in which the stiffness is positive"))
+    if values["PKX1"] * values["LKX"] < 0.0:
+        what = "turns the longitudinal force round: PKX1 · LKX, the sign of the slip stiffness, is below 0"
+        problems.append(sheet.problem("PKX1", what, "above 0", "change its sign if the set counts slip the other way"))
+    refuse(sheet.name, problems)
+
+
+def load_notes(values: dict[str, float]) -> list[str]:
+    """Loads of the file's own range at which a friction or the slip stiffness is no longer above 0: linear in the load, so at its ends."""
+    nominal = values["FNOMIN"] * values["LFZO"]
+    ends = [values[key] for key in ("FZMIN", "FZMAX") if key in values]
+    pairs = (("PDX1", "PDX2", "friction along"), ("PDY1", "PDY2", "friction across"), ("PKX1", "PKX2", "slip stiffness"))
+    return [
+        f"{first}, {second}: the {what} is not above 0 at {load:g} N, within FZMIN and FZMAX"
+        for first, second, what in pairs
+        for load in ends
+        if values[first] > 0.0 >= values[first] + values[second] * (load - nominal) / nominal
+    ]
 
 
 def refuse(name: str, problems: list[Problem], what: str = "cannot be used as a tyre") -> None:

@@ -3,6 +3,7 @@
  * The page posts     {studio: "follow", vehicle: index|null}
  *                    {studio: "view", preset: "overview"|"top"|"driver"}
  *                    {studio: "theme", dark: bool}
+ *                    {studio: "rest", rest: bool}   nobody sees the scene: nothing is drawn
  * The bridge posts   {studio: "ready", follow: bool}, {studio: "picked", vehicle: index},
  *                    {studio: "key", key, code, ctrlKey, metaKey, shiftKey, altKey}
  *
@@ -17,7 +18,7 @@
 
   const VEHICLES = "/vehicles/shadows"; // instance i is vehicle i
   // flat layers carry their light in their colours
-  const LEVEL = ["/city/ground", "/city/areas", "/city/road", "/city/markings"];
+  const LEVEL = ["/city/ground", "/city/areas", "/city/shoulder", "/city/road", "/city/markings"];
   const HIDDEN_BELOW = -100;
   const CHASE = { distance: 13, polar: 1.28, height: 1.1 };
   const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
@@ -99,10 +100,12 @@
     if (view.fresh) return start(controls, pose, target, now);
     const [dx, dy, dz] = target.map((value, i) => value - view.target[i]);
     if (dx * dx + dy * dy + dz * dz > 100 * 100) return start(controls, pose, target, now);
+    swing(controls, pose, now);
+    // who is told to move asks for another picture: a car that stands would have itself drawn for ever
+    if (dx * dx + dy * dy + dz * dz < 1e-8) return;
     camera.position.set(camera.position.x + dx, camera.position.y + dy, camera.position.z + dz);
     camera.updateMatrixWorld();
     controls.moveTo(...target, false);
-    swing(controls, pose, now);
     view.target = target;
   }
 
@@ -121,7 +124,7 @@
     if (view.mode === TOP) return;
     const step = turn(pose.yaw - view.yaw) * share;
     view.yaw += step;
-    if (Math.abs(step) > 1e-6) controls.rotate(step, 0, false);
+    if (Math.abs(step) > 1e-5) controls.rotate(step, 0, false);
   }
 
   // A far near plane keeps the thin layers of the street apart from high above, a close one shows the bonnet.
@@ -233,7 +236,11 @@
 
   window.addEventListener("message", (event) => {
     if (event.origin !== location.origin || typeof event.data !== "object" || event.data === null) return;
-    const { studio, vehicle, preset, dark } = event.data;
+    const { studio, vehicle, preset, dark, rest } = event.data;
+    if (studio === "rest") {
+      resting = rest === true;
+      if (!resting) client()?.requestRender?.();
+    }
     if (studio === "follow") {
       if (view.mode === TOP && vehicle !== null) view.mode = CHASE;
       follow(vehicle);
@@ -245,13 +252,43 @@
     }
   });
 
+  // ---- rest: nothing is drawn while nobody sees it, nor over and over while nothing changes
+
+  const HEARTBEAT = 1000; // [ms] at which viser draws in case that somebody forgot to ask
+  const AWAKE = 5000; // [ms] after somebody has asked, in which it may
+  let stirred = performance.now();
+  let resting = false;
+  const stir = () => (stirred = performance.now());
+  const repeat = window.setInterval.bind(window);
+  window.setInterval = (call, every, ...rest) =>
+    repeat(every === HEARTBEAT && typeof call === "function" ? () => performance.now() - stirred < AWAKE && call() : call, every, ...rest);
+  for (const kind of ["pointerdown", "pointermove", "wheel", "resize", "keydown"]) window.addEventListener(kind, stir, true);
+
+  // who asks for a picture is heard, as before
+  function listenToRequests() {
+    const mutable = client();
+    if (!mutable?.requestRender || mutable.requestRender.studio) return;
+    const ask = mutable.requestRender;
+    mutable.requestRender = Object.assign(() => (stir(), ask()), { studio: true });
+  }
+
+  function restWhileUnseen(renderer) {
+    if (renderer.render.studio) return;
+    const draw = renderer.render.bind(renderer);
+    renderer.render = Object.assign((...what) => resting || draw(...what), { studio: true });
+  }
+
   // ---- the client comes up in its own time, and rebuilds its scene when it reconnects
 
   function hook() {
     const scene = client()?.scene;
+    listenToRequests();
     if (scene && !scene.userData.studio) {
       scene.userData.studio = true;
-      scene.onBeforeRender = beforeDrawing;
+      scene.onBeforeRender = (renderer) => {
+        restWhileUnseen(renderer);
+        beforeDrawing();
+      };
     }
   }
 

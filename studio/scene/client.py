@@ -1,4 +1,4 @@
-"""The viser client as the studio serves it: viser's own file with our style and bridge in its head."""
+"""The viser client as the studio serves it: viser's own file with our style, bridge and overlay in its head."""
 
 from functools import cache
 from pathlib import Path
@@ -8,6 +8,7 @@ import viser
 from studio.errors import ServerError
 
 HERE = Path(__file__).parent
+SCRIPTS = ("bridge.js", "overlay.js")
 CLIENT = Path(viser.__file__).parent / "client" / "build" / "index.html"
 
 
@@ -20,10 +21,10 @@ def page() -> str:
 
 
 def injected(html: str) -> str:
-    """`html` with our style and bridge before </head>; the bridge runs before anything of the client does."""
+    """`html` with our style and scripts before </head>; they run before anything of the client does."""
     head, mark, body = html.partition("<head>")
     if not mark:
         raise ServerError("The 3D client of viser has no <head>: this studio needs viser 1.1.1.")
     style = (HERE / "bridge.css").read_text(encoding="utf-8")
-    script = (HERE / "bridge.js").read_text(encoding="utf-8")
-    return f"{head}{mark}\n<style>\n{style}</style>\n<script>\n{script}</script>{body}"
+    scripts = "".join(f"<script>\n{(HERE / name).read_text(encoding='utf-8')}</script>\n" for name in SCRIPTS)
+    return f"{head}{mark}\n<style>\n{style}</style>\n{scripts}{body}"

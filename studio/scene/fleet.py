@@ -33,7 +33,7 @@ class Fleet:
     def __init__(self, server: viser.ViserServer, looks: Sequence[Look]) -> None:
         self.looks = tuple(looks)
         self._server = server
-        self._bodies = [self._add_bodies(*group) for group in enumerate(_groups(self.looks).items())]
+        self._bodies = [self._add_bodies(*group) for group in enumerate(grouped(self.looks).items())]
         sizes = [look.dimensions for look in self.looks]
         self._offsets = np.array([_wheel_places(size) for size in sizes], np.float32).reshape(-1, 4, 3)
         self._middle = np.array([size.centre for size in sizes], np.float32)
@@ -58,11 +58,11 @@ class Fleet:
     def move(self, poses: np.ndarray) -> None:
         """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py)."""
         poses = np.asarray(poses, np.float32)
-        places = _places(poses)
-        turns = _turns(poses[pose.YAW], poses[pose.PITCH], poses[pose.ROLL])
+        places = positions(poses)
+        turns = quaternions(poses[pose.YAW], poses[pose.PITCH], poses[pose.ROLL])
         with self._server.atomic():
             for members, bodies in self._bodies:
-                _put(bodies, places[members], turns[members])
+                put(bodies, places[members], turns[members])
             self._move_wheels(poses, places)
             self._move_shadows(poses, places)
 
@@ -73,14 +73,14 @@ class Fleet:
         wheels = places[:, None, :] + np.stack([c * x - s * y, s * x + c * y, z], axis=-1)
         yaw = poses[pose.YAW][:, None] + poses[pose.STEER][:, None] * np.array([1, 1, 0, 0], np.float32)
         spin = np.repeat(poses[pose.WHEEL_ANGLE], 4)
-        _put(self._wheels, wheels.reshape(-1, 3), _turns(yaw.ravel(), spin, np.zeros_like(spin)))
+        put(self._wheels, wheels.reshape(-1, 3), quaternions(yaw.ravel(), spin, np.zeros_like(spin)))
 
     def _move_shadows(self, poses: np.ndarray, places: np.ndarray) -> None:
         lifted = places + np.array([0.0, 0.0, SHADOW_HEIGHT], np.float32)
         thrown = lifted + np.column_stack([self._throw, np.full(len(places), 0.01, np.float32)])
         yaw = np.tile(poses[pose.YAW], 2)
         level = np.zeros_like(yaw)
-        _put(self._shadows, np.concatenate([lifted, thrown]), _turns(yaw, level, level))
+        put(self._shadows, np.concatenate([lifted, thrown]), quaternions(yaw, level, level))
 
     def remove(self) -> None:
         """Take the vehicles off the server."""
@@ -88,7 +88,8 @@ class Fleet:
             node.remove()
 
 
-def _groups(looks: Sequence[Look]) -> dict[tuple, list[int]]:
+def grouped(looks: Sequence[Look]) -> dict[tuple, list[int]]:
+    """Who looks the same, by colour and dimensions."""
     groups: dict[tuple, list[int]] = {}
     for index, look in enumerate(looks):
         groups.setdefault((look.color, look.dimensions), []).append(index)
@@ -105,12 +106,13 @@ def _wheel_places(size: vehicle.Dimensions) -> list[tuple[float, float, float]]:
     return [(x, y, size.wheel_radius) for x in (front, rear) for y in (half, -half)]
 
 
-def _places(poses: np.ndarray) -> np.ndarray:
+def positions(poses: np.ndarray) -> np.ndarray:
+    """Where they are, float32[vehicle, 3]; who is hidden is below the ground."""
     z = np.where(poses[pose.VISIBLE] > 0.5, poses[pose.Z], np.float32(BELOW_GROUND))
     return np.stack([poses[pose.X], poses[pose.Y], z], axis=-1)
 
 
-def _turns(yaw: np.ndarray, pitch: np.ndarray, roll: np.ndarray) -> np.ndarray:
+def quaternions(yaw: np.ndarray, pitch: np.ndarray, roll: np.ndarray) -> np.ndarray:
     """Quaternions (w, x, y, z) of yaw about z, then pitch about y, then roll about x [rad]."""
     cz, cy, cx = (np.cos(angle / 2.0) for angle in (yaw, pitch, roll))
     sz, sy, sx = (np.sin(angle / 2.0) for angle in (yaw, pitch, roll))
@@ -125,6 +127,7 @@ def _turns(yaw: np.ndarray, pitch: np.ndarray, roll: np.ndarray) -> np.ndarray:
     )
 
 
-def _put(node: viser.BatchedGlbHandle, places: np.ndarray, turns: np.ndarray) -> None:
+def put(node: viser.BatchedGlbHandle, places: np.ndarray, turns: np.ndarray) -> None:
+    """Moves a batch."""
     node.batched_positions = places
     node.batched_wxyzs = turns

@@ -7,9 +7,10 @@ import numpy as np
 import viser
 
 from studio.scene.glb import Material, glb
-from studio.scene.shape import Surface, box, joined, lathe
+from studio.scene.shape import Surface, box, cylinder, joined, lathe
 
 ORANGE, RED, WHITE, RUBBER, STEEL = "#e8501e", "#c8231c", "#f2f0ea", "#2b2c2e", "#8d9296"
+BRICK, BARK, LEAVES = "#9a6a57", "#5b4636", "#4f7a3f"
 JEANS, JACKET, SKIN, CARDBOARD = "#3b4a63", "#b0322b", "#c99a7b", "#a9814f"
 HIDDEN = np.array([0.0, 0.0, -500.0], np.float32)
 CONE_BANDS = np.array([[0.115, 0.04], [0.094, 0.25], [0.074, 0.42], [0.062, 0.52], [0.047, 0.65], [0.03, 0.75], [0.0, 0.75]])
@@ -17,7 +18,8 @@ LENGTH, BOARD, STRIPES = 1.5, 0.25, 6  # [m] of a barrier, [m] height of its boa
 
 
 class Place(NamedTuple):
-    """An object: one of `SHAPES`, where it stands [m], the heading of its length [rad], its length and width [m], which a box obeys."""
+    """An object: one of `SHAPES`, where it stands [m], the heading of its length [rad], its length and width [m], which those of
+    `STRETCHED` obey."""
 
     kind: str
     x: float
@@ -69,7 +71,26 @@ def crate() -> Surface:
     return box((1.0, 1.0, 1.0), CARDBOARD).moved(z=0.5)
 
 
-SHAPES = {"cone": cone, "barrier": barrier, "pedestrian": pedestrian, "cyclist": cyclist, "box": crate}
+def barrel() -> Surface:
+    """An upright cylinder 1 m high within 1 m by 1 m, which is stretched to the size of the object."""
+    return cylinder(0.5, 1.0, ORANGE)
+
+
+def wall() -> Surface:
+    """A piece of wall 2 m high, which is stretched to the size of the object."""
+    return box((1.0, 1.0, 2.0), BRICK).moved(z=1.0)
+
+
+def tree() -> Surface:
+    """A trunk within 1 m by 1 m, which is stretched to the size of the object, and its crown."""
+    return joined([box((0.8, 0.8, 3.0), BARK).moved(z=1.5), box((10.0, 10.0, 4.0), LEAVES).moved(z=5.0)])
+
+
+SHAPES = {
+    "cone": cone, "barrier": barrier, "pedestrian": pedestrian, "cyclist": cyclist,
+    "box": crate, "cylinder": barrel, "wall": wall, "tree": tree,
+}  # fmt: skip
+STRETCHED = ("box", "cylinder", "wall", "tree")
 
 
 def turns(headings: np.ndarray) -> np.ndarray:
@@ -93,7 +114,7 @@ class Obstacles:
     def batch(self, server: viser.ViserServer, kind: str, members: np.ndarray, places: Sequence[Place]) -> tuple:
         """Members and node of all objects of a kind."""
         hidden = np.tile(HIDDEN, (len(members), 1))
-        sizes = np.array([(*places[i].size, 1.0) if kind == "box" else (1.0, 1.0, 1.0) for i in members], np.float32)
+        sizes = np.array([(*places[i].size, 1.0) if kind in STRETCHED else (1.0, 1.0, 1.0) for i in members], np.float32)
         headings = np.array([places[i].heading for i in members])
         node = server.scene.add_batched_glb(
             f"/obstacles/{kind}s", glb(SHAPES[kind](), Material(roughness=0.6)), turns(headings), hidden, batched_scales=sizes, lod="off",

@@ -20,6 +20,7 @@ from studio.road.network import Network
 from studio.scene import city
 from studio.scene.city import tree
 from studio.scene.fleet import Fleet, Look
+from studio.scene.ghost import Ghosts
 from studio.scene.light import HAZE_FAR, SKY_RADIUS, air, light
 from studio.scene.obstacle import Obstacles, Place
 from studio.scene.signal import Lamps
@@ -48,6 +49,7 @@ class Scene:
         self._lamps: Lamps | None = None
         self._fleet = Fleet(self._server, [])
         self._obstacles = Obstacles(self._server, [])
+        self._ghosts = Ghosts(self._server, [])
         self._visibility, self._reach, self._horizon = HAZE_FAR, 0.0, SKY_RADIUS
         light(self._server)
         self._look_at(np.zeros(2), 150.0, 150.0 * FROM)
@@ -64,6 +66,8 @@ class Scene:
             self._clear_city()
             self._city = [self._add(layer) for layer in made.layers]
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
+            # comes after everything else: who finds it has the rest of this map
+            self._city.append(self._server.scene.add_frame(f"/map/{network.digest}", visible=False))
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
             self._reach = _reach(network)
             self._horizon = city.horizon(network)
@@ -92,6 +96,17 @@ class Scene:
         with self._lock, self._server.atomic():
             self._fleet.remove()
             self._fleet = Fleet(self._server, looks)
+
+    def show_ghosts(self, looks: Sequence[Look]) -> None:
+        """Show these cars of other runs instead of those before, seen through; they stay hidden until `update_ghosts`."""
+        with self._lock, self._server.atomic():
+            self._ghosts.remove()
+            self._ghosts = Ghosts(self._server, looks)
+
+    def update_ghosts(self, poses: np.ndarray) -> None:
+        """Move the ghosts: float32[POSE_ROWS, ghost], in the order of `show_ghosts`."""
+        with self._lock:
+            self._ghosts.move(poses)
 
     def show_obstacles(self, places: Sequence[Place]) -> None:
         """Have these objects instead of those before; they stay hidden until `update_obstacles`."""

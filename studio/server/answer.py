@@ -322,6 +322,14 @@ class Metric(BaseModel):
     about: str = Field(description="subject and time in words")
 
 
+class Stretch(BaseModel):
+    """The measures of a stretch of a run, by name."""
+
+    begin: float = Field(description="[s] the first sample in it")
+    end: float = Field(description="[s] the last sample in it")
+    metrics: dict[str, Metric]
+
+
 class Run(BaseModel):
     """A run in the database; `parameters` are those that were set, by path."""
 
@@ -656,6 +664,16 @@ class OnStage(BaseModel):
     scenario: str | None = None
     set: ChangesByPath = {}
     run: int | None = None
+    ghosts: list[int] = Field([], max_length=7, description="other runs that are over, among the cars of the run that is played back")
+    align: str = Field("", description="kind of event whose first is at the same time in all of them; empty: by their clocks")
+
+
+class SceneGhost(BaseModel):
+    """Another run among the cars: its colour, and by how much its clock is ahead."""
+
+    run: int
+    color: str
+    offset: float = Field(description="[s]")
 
 
 class SceneVehicle(BaseModel):
@@ -664,6 +682,10 @@ class SceneVehicle(BaseModel):
     name: str
     index: int
     color: str
+    length: float = Field(description="[m]")
+    width: float = Field(description="[m]")
+    height: float = Field(description="[m]")
+    middle: float = Field(description="[m] from its origin, below the centre of gravity, to the middle of the body")
 
 
 class SceneCast(BaseModel):
@@ -671,10 +693,76 @@ class SceneCast(BaseModel):
 
     vehicles: list[SceneVehicle]
     attribution: str
+    map: str = Field("", description="digest of the map; the scene has a node /map/DIGEST as soon as it has the map")
     begin: float | None = Field(None, description="first time that was recorded [s]; null unless a run is played back")
     end: float | None = Field(None, description="last time that was recorded [s]")
     step: float | None = Field(None, description="from one sample to the next [s]")
     notes: list[str] = Field([], description="what is not as it was, or is missing")
+    ghosts: list[SceneGhost] = []
+    missing: dict[str, str] = Field({}, description="layers that cannot be drawn, and why")
+
+
+Spot = Annotated[list[float], Field(min_length=2, max_length=2)]
+
+
+class LayerCar(BaseModel):
+    """What is known of a car that the picture does not show."""
+
+    car: int = Field(description="its index in the scene")
+    speed: float | None = Field(description="[m/s]")
+    brakes: bool = Field(description="whether its brake lights are on")
+    turns: int = Field(description="1: its way bends to the left soon, -1: to the right; cars of the simulation have no indicators")
+    ahead: int | None = Field(description="index of the car ahead; null when there is none, or something else")
+    gap: float | None = Field(description="[m] to what is ahead")
+    notice: str = Field(description="what its driver is shown")
+
+
+class LayerField(BaseModel):
+    """The field of a sensor, and what it says that it sees: in the frame of its car, x ahead and y to the left of its centre of gravity."""
+
+    car: int
+    sensor: str
+    x: float = Field(description="[m]")
+    y: float = Field(description="[m]")
+    yaw: float = Field(description="[rad]")
+    range: float = Field(description="[m]")
+    angle: float = Field(description="[rad] from edge to edge")
+    seen: list[Spot] = Field(description="[m]")
+
+
+class LayerEnd(BaseModel):
+    """Who sends or hears: a car by its index, or a station at its place."""
+
+    car: int | None = None
+    x: float | None = Field(None, description="[m]")
+    y: float | None = Field(None, description="[m]")
+
+
+class LayerMessage(BaseModel):
+    """The newest message from one to another, which was sent a moment ago."""
+
+    sender: LayerEnd
+    receiver: LayerEnd
+    kind: str
+    lost: bool
+
+
+class LayerLine(BaseModel):
+    """A line on the map that belongs to a car."""
+
+    car: int
+    points: list[Spot] = Field(description="[m]")
+
+
+class Layers(BaseModel):
+    """What can be drawn over the scene at a time."""
+
+    time: float = Field(description="[s]")
+    cars: list[LayerCar]
+    fields: list[LayerField]
+    messages: list[LayerMessage]
+    trails: list[LayerLine] = Field(description="where cars came from, the oldest point first")
+    paths: list[LayerLine] = Field(description="where their ways lead")
 
 
 class Moment(BaseModel):
@@ -684,12 +772,14 @@ class Moment(BaseModel):
 
     run: int
     time: float = Field(description="[s]; before the first and after the last sample that of this", allow_inf_nan=False)
+    layers: bool = Field(False, description="whether what can be drawn over the scene is wanted")
 
 
 class Shown(BaseModel):
     """Whether the scene shows that time now: not when it was set to something else meanwhile."""
 
     shown: bool
+    layers: Layers | None = None
 
 
 # -- maps ------------------------------------------------------------------------------------------

@@ -29,6 +29,7 @@ from studio.errors import (
 from studio.scenario.finding import MOST_TOLD, allowed
 from studio.server import relay, routes
 from studio.server.desk import Desk
+from studio.server.editing import routes as editing_routes
 from studio.server.maps import routes as map_routes
 from studio.server.scenarios import routes as scenario_routes
 from studio.server.validation import routes as validation_routes
@@ -53,6 +54,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.include_router(map_routes.router)
     app.include_router(scenario_routes.router)
     app.include_router(validation_routes.router)
+    app.include_router(editing_routes.router)
     app.include_router(relay.router(lambda: desk.stage.scene.door))
     app.add_route(
         "/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE"], include_in_schema=False

@@ -14,7 +14,10 @@ from studio.job import Loaded
 from studio.road.library import place
 from studio.server.answer import Pace
 from studio.server.documents import Documents, check_inside
+from studio.server.editing import Editing
+from studio.server.editing.history import History
 from studio.server.frame import Frame
+from studio.server.ghost import haunting
 from studio.server.live import MOST_LIVE, LiveRun, Lives
 from studio.server.maps import Maps
 from studio.server.maps.job import MapJobs
@@ -43,6 +46,7 @@ class Desk:
         self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
         self.scenario_files = Scenarios(self.documents)
+        self.editing = Editing(self.documents, History(self.db.with_name(f"{self.db.stem}.edits.db")))
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
@@ -155,11 +159,18 @@ class Desk:
             renamed = self.scenario_files.rename(path, name, title, expected)
             if renamed.stem != scenario:
                 kept.rename_scenario(scenario, renamed.stem)
+                self.editing.history.rename(scenario, renamed.stem)
         return renamed
 
     def replay(self, runs: Runs, run: int) -> Replay:
         """A run that is over, for the scene. Raises UnknownError, StudioError for what its map or models do not give any more."""
         return replay(runs, run, self.scenarios / f"{runs.find(run).scenario}.yaml")
+
+    def play(self, runs: Runs, run: int, others: tuple[int, ...] = (), align: str = "") -> dict[str, Any]:
+        """Shows a run that is over, and others as its ghosts. Raises what `replay` raises, and UnknownError where they do not fit."""
+        played = self.replay(runs, run)
+        ghosts = haunting(played, [self.replay(runs, other) for other in others], align)
+        return self.stage.play(played, ghosts=ghosts)
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
               pace: Pace, paused: bool) -> LiveRun:  # fmt: skip

@@ -14,7 +14,7 @@ from studio.vehicle.state import ACTIVE, DELTA, PITCH, PSI, ROLL, ROTATION, X, Y
 from studio.world.build import at_start
 from studio.world.setting import Setting
 from studio.world.table.street import O_HEADING, O_X, O_Y
-from studio.world.thing import WORDS, things
+from studio.world.thing import things
 from studio.world.world import Vehicles, World
 
 JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way
@@ -47,7 +47,7 @@ def first_frame(setting: Setting) -> Frame:
 
 def places(setting: Setting) -> list[Place]:
     """All objects that may stand on the road."""
-    return [Place(WORDS[each.kind], each.x, each.y, each.heading, (each.length, each.width)) for each in things(setting.sites)]
+    return [Place(each.looks, each.x, each.y, each.heading, (each.length, each.width)) for each in things(setting.sites)]
 
 
 def poses(vehicles: Vehicles) -> np.ndarray:

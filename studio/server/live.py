@@ -26,7 +26,7 @@ from studio.job import Loaded
 from studio.process import Busy, Child, Gone, prepare
 from studio.server import answer, worker
 from studio.server.frame import Frame
-from studio.server.news import ChannelsNews, EndNews, EventNews, Kind, SamplesNews, StateNews
+from studio.server.news import ChannelsNews, EndNews, EventNews, Kind, LayersNews, SamplesNews, StateNews
 from studio.server.worker import Order
 from studio.store.queue import CANCELLED
 from studio.store.runs import LEFT, reopen_runs
@@ -69,6 +69,7 @@ class LiveRun:
     samples: dict[str, list[float | None]] = field(default_factory=dict)
     events: list[EventNews] = field(default_factory=list)
     frame: Frame | None = None
+    layers: LayersNews | None = None
     listeners: set["Listener"] = field(default_factory=set)
     lock: threading.RLock = field(default_factory=threading.RLock)
     position: int = 0  # among those that wait, from 1 on
@@ -136,6 +137,12 @@ class LiveRun:
             for name, each in news.items():
                 self.samples.setdefault(name, []).extend(each)
             self.tell(SamplesNews(time=times.tolist(), channels=news))
+
+    def on_layers_news(self, seen: dict[str, Any]) -> None:
+        """What can be drawn over the scene: only the last of it counts."""
+        with self.lock:
+            self.layers = LayersNews(**seen)
+            self.tell(self.layers)
 
     def on_event_news(self, happened: dict[str, Any]) -> None:
         """Something happened."""
@@ -242,6 +249,8 @@ class LiveRun:
             listener.put(SamplesNews(time=self.times, channels=self.samples))
             for event in self.events:
                 listener.put(event)
+            if self.layers:
+                listener.put(self.layers)
             listener.put(self.state())
             if self.end:
                 listener.put(self.end)

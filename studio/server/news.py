@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, RootModel
 
-from studio.server.answer import Channel, Event, Live, Over, Refusal
+from studio.server.answer import Channel, Event, Layers, Live, Over, Refusal
 
 TOLD = ConfigDict(json_schema_serialization_defaults_required=True)  # the kind is always sent
 
@@ -45,6 +45,14 @@ class EventNews(Event):
     type: Literal["event"] = "event"
 
 
+class LayersNews(Layers):
+    """What can be drawn over the scene now."""
+
+    model_config = TOLD
+
+    type: Literal["layers"] = "layers"
+
+
 class EndNews(BaseModel):
     """The last message: the run is over and saved."""
 
@@ -64,7 +72,7 @@ class RefusedNews(Refusal):
     type: Literal["refused"] = "refused"
 
 
-Kind = StateNews | ChannelsNews | SamplesNews | EventNews | EndNews | RefusedNews
+Kind = StateNews | ChannelsNews | SamplesNews | EventNews | LayersNews | EndNews | RefusedNews
 
 
 class News(RootModel[Annotated[Kind, Field(discriminator="type")]]):

@@ -16,9 +16,11 @@ from studio.errors import Problem, UnknownError
 from studio.execution.brought import Brought, acting_since, turns_of
 from studio.execution.cast import Cast
 from studio.execution.happening import Happening
-from studio.execution.record import Body
+from studio.execution.record import SAME_TIME, Body, Record
 from studio.scene import pose
+from studio.server import answer
 from studio.server.frame import Frame, blend
+from studio.server.layer import Layers, missing
 from studio.store import trace
 from studio.store.runs import Row, Runs
 from studio.world.deed import SHOWN
@@ -29,6 +31,8 @@ from studio.world.setting import Setting
 PLACE = ("x", "y", "heading")  # without these nobody can be shown
 POSED = {"x": pose.X, "y": pose.Y, "heading": pose.YAW, "roll": pose.ROLL, "pitch": pose.PITCH, "steering": pose.STEER}
 ROLLING = ("speed", "station")  # wheels turn by the speed; the slope of the road is that at the station
+LAYERS = ("gaps", "sensors", "messages", "paths", "trails", "speed", "lamps", "notices")
+MOST_READ = 1 << 27  # [bytes] of a compressed recording: of a longer one the layers are not drawn
 MOST = 1 << 28  # [bytes] of all poses: of a longer recording every n-th sample is taken
 OTHER = "The map, or a vehicle, is another than it was in this run: what stands around the vehicles may not be what they saw."
 
@@ -45,11 +49,29 @@ class Replay:
     happenings: tuple[Happening, ...]
     brought: dict[str, Brought]
     notes: tuple[str, ...]
+    record: Record | None = None  # all that was kept; none of a recording that is too long for the memory
 
     def frame(self, time: float) -> Frame:
         """The picture at a time [s]; before the first and after the last sample that of this."""
         t = float(np.clip(time, self.time[0], self.time[-1]))
         return Frame(self.seen(t), self.lights(t), *self.objects(t))
+
+    def layers(self, time: float) -> answer.Layers | None:
+        """What can be drawn over the picture at a time [s]: what the last sample before it says."""
+        if self.record is None:
+            return None
+        last = int(np.searchsorted(self.record.time, time + SAME_TIME, side="right")) - 1
+        return self.over.at(self.record, max(last, 0))
+
+    @cached_property
+    def over(self) -> Layers:
+        """The layers of its setting."""
+        return Layers(self.setting, self.record.bodies if self.record else {})
+
+    @cached_property
+    def missing(self) -> dict[str, str]:
+        """Which layers cannot be drawn, and why."""
+        return missing(self.record) if self.record else dict.fromkeys(LAYERS, "the recording is too long")
 
     def seen(self, t: float) -> np.ndarray:
         """Poses of all vehicles."""
@@ -109,6 +131,7 @@ def replay(runs: Runs, run: int, path: Path) -> Replay:
     row = runs.find(run)
     loaded = job.loaded_again(runs, row, path)
     setting, parquet = job.prepare(loaded), runs.parquet(run)
+    record = runs.record(run) if len(parquet) < MOST_READ else None
     with runs.intact(run, "traces"):
         about, names = trace.about_of(parquet), {each["name"] for each in trace.channels(parquet)}
         vehicles = checked(row, about["vehicles"], names)
@@ -130,6 +153,7 @@ def replay(runs: Runs, run: int, path: Path) -> Replay:
         happenings=tuple(runs.events(run)),
         brought=about["brought"],
         notes=tuple(notes),
+        record=record,
     )
 
 

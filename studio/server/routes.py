@@ -31,6 +31,7 @@ from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
+from studio.store.stretch import stretch
 from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
@@ -245,6 +246,18 @@ def run_trace(
     return answer.Trace(time=columns["time"].tolist(), channels=values)
 
 
+@router.get("/runs/{run}/stretch")
+def run_stretch(
+    run: int,
+    kept: KeptRuns,
+    begin: Annotated[float, Query(description="[s] from then on", allow_inf_nan=False)],
+    end: Annotated[float, Query(description="[s] until then", allow_inf_nan=False)],
+) -> answer.Stretch:
+    """The measures of a stretch of a run, where they can be made from what was recorded: each without the others' time."""
+    first, last, metrics = stretch(kept, run, begin, end)
+    return answer.Stretch(begin=first, end=last, metrics={name: answer.Metric(**vars(each)) for name, each in metrics.items()})
+
+
 @router.get("/runs/{run}/trajectories", response_class=StreamingResponse, responses=TRAJECTORIES)
 def run_trajectories(
     run: int,
@@ -346,6 +359,11 @@ def ordered(desk: Desk, run: int, *words: Any) -> answer.Live:
 @router.get("/live/{run}/socket", status_code=426, response_description="Upgrade Required", response_model=answer.Refusal, responses=SOCKET)
 def socket_only(run: int) -> Response:
     """A WebSocket (RFC 6455): news of a live run, everything so far, then as it comes. Asked for anything else, it refuses."""
+    return upgrade_required()
+
+
+def upgrade_required() -> Response:
+    """The refusal of whatever is no WebSocket."""
     refusal = answer.Refusal(
         message="This address speaks WebSocket only.",
         problems=[answer.Problem(where="socket", what="was asked for without an upgrade", value="", allowed="a WebSocket", remedy="")],
@@ -386,7 +404,7 @@ def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneC
     if wanted.run is not None:
         live = desk.lives.going(wanted.run)
         if live is None:
-            return answer.SceneCast(**desk.stage.play(desk.replay(runs, wanted.run)))
+            return answer.SceneCast(**desk.play(runs, wanted.run, tuple(wanted.ghosts), wanted.align))
         return answer.SceneCast(**desk.stage.show(live.loaded, live))
     if wanted.scenario is None:
         raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])
@@ -396,4 +414,5 @@ def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneC
 @router.put("/scene/time")
 def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
     """Another time of the run that the scene plays back."""
-    return answer.Shown(shown=desk.stage.seek(moment.run, moment.time))
+    played = desk.stage.seek(moment.run, moment.time)
+    return answer.Shown(shown=played is not None, layers=played.layers(moment.time) if played and moment.layers else None)

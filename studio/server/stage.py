@@ -9,6 +9,7 @@ import numpy as np
 from studio.job import Loaded, prepare
 from studio.scene.projection import Scene
 from studio.server.frame import Frame, first_frame, looks, places
+from studio.server.ghost import Ghost
 from studio.server.live import LiveRun
 from studio.server.replay import Replay
 from studio.world.car import position
@@ -25,6 +26,7 @@ class Stage:
     city: str = ""
     cast: tuple = ()
     props: tuple = ()
+    ghosts: tuple[Ghost, ...] = ()
     lock: threading.RLock = field(default_factory=threading.RLock)
 
     def show(self, loaded: Loaded, live: LiveRun | None = None) -> dict[str, Any]:
@@ -32,27 +34,38 @@ class Stage:
         prepared = prepare(loaded)
         with self.lock:
             self.set_up(prepared)
+            self.haunt(())
             self.showing, self.playing = live, None
             self.draw(live.frame if live and live.frame else first_frame(prepared))
         return described(prepared)
 
-    def play(self, replay: Replay, time: float | None = None) -> dict[str, Any]:
-        """Shows a run that is over at a time [s], by default at its end; returns who is to be seen, from when to when, and what is not."""
+    def play(self, replay: Replay, time: float | None = None, ghosts: tuple[Ghost, ...] = ()) -> dict[str, Any]:
+        """Shows a run that is over at a time [s], by default at its end, among the ghosts of others; returns who is to be seen, from
+        when to when, and what is not."""
         first, last = float(replay.time[0]), float(replay.time[-1])
-        about = {"begin": first, "end": last, "step": (last - first) / max(replay.time.size - 1, 1), "notes": list(replay.notes)}
+        about = {
+            "begin": first,
+            "end": last,
+            "step": (last - first) / max(replay.time.size - 1, 1),
+            "notes": list(replay.notes),
+            "missing": replay.missing,
+        }
         with self.lock:
             self.set_up(replay.setting)
+            self.haunt(ghosts)
             self.showing, self.playing = None, replay
             self.draw(replay.frame(last if time is None else time))
-        return described(replay.setting) | about
+            self.move_ghosts(last if time is None else time)
+        return described(replay.setting) | about | {"ghosts": [each.told() for each in ghosts]}
 
-    def seek(self, run: int, time: float) -> bool:
-        """Shows the run that is played back at another time [s]; False when it is another, or none."""
+    def seek(self, run: int, time: float) -> Replay | None:
+        """Shows the run that is played back at another time [s] and returns it; None when it is another, or none."""
         with self.lock:
             if self.playing is None or self.playing.run != run:
-                return False
+                return None
             self.draw(self.playing.frame(time))
-            return True
+            self.move_ghosts(time)
+            return self.playing
 
     def set_up(self, prepared: Setting) -> None:
         """City, vehicles and objects, as far as they are others than before; the weather."""
@@ -70,6 +83,17 @@ class Stage:
             self.props = props
         self.scene.show_weather(prepared.scenario.weather.visibility)
 
+    def haunt(self, ghosts: tuple[Ghost, ...]) -> None:
+        """Other runs among the cars instead of those before."""
+        if ghosts or self.ghosts:
+            self.ghosts = ghosts
+            self.scene.show_ghosts([look for each in ghosts for look in each.looks])
+
+    def move_ghosts(self, time: float) -> None:
+        """Where the cars of the other runs were when this one was there [s]."""
+        if self.ghosts:
+            self.scene.update_ghosts(np.concatenate([each.poses(time) for each in self.ghosts], axis=1))
+
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
         """A frame of some live run; drawn when it is the one that is shown."""
         with self.lock:
@@ -85,5 +109,17 @@ class Stage:
 
 def described(prepared: Setting) -> dict[str, Any]:
     """Who is to be seen, for the page."""
-    vehicles = [{"name": car.name, "index": i, "color": car.colour} for i, car in enumerate(prepared.cars)]
-    return {"vehicles": vehicles, "attribution": prepared.network.attribution}
+    vehicles = [
+        {
+            "name": each.name,
+            "index": i,
+            "color": each.color,
+            "length": size.length,
+            "width": size.width,
+            "height": size.height,
+            "middle": size.centre,
+        }
+        for i, each in enumerate(looks(prepared))
+        for size in [each.dimensions]
+    ]
+    return {"vehicles": vehicles, "attribution": prepared.network.attribution, "map": prepared.network.digest}

@@ -3,7 +3,7 @@
 Orders come in and news go out over one pipe, as tuples that begin with a word:
 
     in    start, pause, resume, step, pace, stop
-    out   ready, begun | refused, channels, frame, samples, event, state, end
+    out   ready, begun | refused, channels, frame, samples, layers, event, state, end
 
 The process is started before it is needed, so that everything is imported and compiled when somebody clicks on run.
 It runs one run and ends; whatever goes wrong in it ends that run and nothing else.
@@ -12,7 +12,8 @@ It runs one run and ends; whatever goes wrong in it ends that run and nothing el
 import time
 import traceback
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import inf
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -24,11 +25,13 @@ from studio import job
 from studio.assess.danger import Lookout
 from studio.errors import StoreError, StudioError
 from studio.execution.loop import Pace
+from studio.execution.message import lately
 from studio.execution.simulation import Case, Simulation, simulation
 from studio.kind.registry import load_folder
 from studio.scenario import file
 from studio.server import answer
 from studio.server.frame import blend, frame, poses
+from studio.server.layer import SHOWN, TRAIL, TRAIL_STEP, Layers
 from studio.store.runs import Runs, open_runs
 from studio.world.channel import catalogue
 
@@ -161,6 +164,7 @@ class Live:
             return
         self.send_events()
         self.send_samples()
+        self.send_layers()
         self.pipe.send(("state", self.status, self.simulation.time, self.pace.factor, self.real_time_factor(now)))
         self.last_news = now
 
@@ -185,6 +189,29 @@ class Live:
         for each in [*happenings[self.told :], *self.lookout.look()]:
             self.pipe.send(("event", answer.event(each).model_dump()))
         self.told = len(happenings)
+
+    def send_layers(self) -> None:
+        """What can be drawn over the picture now: by the last sample, and some before it for the trails."""
+        recorder = self.simulation.recorder
+        if recorder.count:
+            step = max(round(TRAIL_STEP / (recorder.every * self.simulation.world.clock.tick)), 1)
+            samples = sorted(range(recorder.count - 1, -1, -step)[: round(TRAIL / TRAIL_STEP)])
+            record = replace(
+                self.simulation.record_of(samples),
+                called=self.called,
+                messages=lately(self.simulation.world, self.simulation.time - 2 * SHOWN),
+            )
+            self.pipe.send(("layers", self.layers.at(record, len(samples) - 1).model_dump()))
+
+    @cached_property
+    def layers(self) -> Layers:
+        """Of its world."""
+        return Layers(self.case.setting, self.simulation.bodies(0))
+
+    @cached_property
+    def called(self) -> dict[int, str]:
+        """The names of who is ahead, by number."""
+        return self.simulation.called(0)
 
     def channels(self) -> list[tuple[str, str, str]]:
         """Name, unit and label of what the live charts may show: some channels, and what sensors and applications give."""

@@ -71,9 +71,12 @@ class Shift(NamedTuple):
 
 
 class Walk(NamedTuple):
-    """Somebody who moves along a line [m] on the map with a speed [m/s], and `stays` at its end or is gone; length and width [m]."""
+    """Somebody who moves along a line [m] on the map with a speed [m/s], and `stays` at its end or is gone; length and width [m].
 
-    who: Literal["pedestrian", "cyclist", "box"]
+    Without speed it stands at the first corner, and looks towards the second.
+    """
+
+    who: Literal["pedestrian", "cyclist", "box", "cylinder", "cone", "barrier", "wall", "tree"]
     line: tuple[tuple[float, float], ...]
     speed: float
     stays: bool

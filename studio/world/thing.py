@@ -17,7 +17,7 @@ from studio.world.table.street import BARRIER, BOX, CONE, CYCLIST, PEDESTRIAN
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width
 WORDS = {CONE: "cone", BARRIER: "barrier", PEDESTRIAN: "pedestrian", CYCLIST: "cyclist", BOX: "box"}
-KINDS = {"pedestrian": PEDESTRIAN, "cyclist": CYCLIST, "box": BOX}
+KINDS = {"pedestrian": PEDESTRIAN, "cyclist": CYCLIST, "cone": CONE, "barrier": BARRIER}  # all others are boxes to everybody
 CONE_SPACING, ROW_SPACING = 3.0, 6.0  # [m] on a taper, along a closed lane
 CONE_INSET, ROW_INSET = 0.15, 0.35  # [m] from the edge of the ground that is left to the cars
 
@@ -33,6 +33,11 @@ class Thing(NamedTuple):
     length: float
     width: float
     walk: Walk | None = None
+
+    @property
+    def looks(self) -> str:
+        """What it looks like, in a word."""
+        return self.walk.who if self.walk is not None else WORDS[self.kind]
 
 
 def things(sites: Sequence[Site]) -> Iterator[Thing]:
@@ -77,7 +82,7 @@ def at(line: Path, station: float, offset: float, kind: int, entry: int, *, turn
 def moving(walk: Walk, number: int) -> Thing:
     """Somebody at the beginning of his line."""
     (x, y), *_ = walk.line
-    return Thing(KINDS[walk.who], x, y, headings(walk.line)[0], number, *walk.size, walk)
+    return Thing(KINDS.get(walk.who, BOX), x, y, headings(walk.line)[0], number, *walk.size, walk)
 
 
 def headings(line: Sequence[tuple[float, float]]) -> list[float]:

@@ -11,6 +11,7 @@ import pytest
 from studio.application.contract import Clock, Heard, Inbox, Own, Targets
 from studio.kind import registry
 from studio.kind.number import numbers, tuple_of
+from studio.kinds.application.cacc import CAR
 from studio.kinds.message.awareness import Payload
 from studio.kinds.sensor.front_radar import Reading
 
@@ -29,6 +30,10 @@ def own(v, a):
 
 def sees(module, time, tick, v, a, gap, rate, heard):
     """What an application sees behind one car, from which it may hear something."""
+    place = Payload(
+        gap + CAR - heard.payload.speed * heard.age, 0.0, heard.payload.speed, heard.payload.acceleration, heard.payload.intention
+    )
+    heard = heard._replace(payload=place)  # the sender is where the radar sees it
     ports = {
         "clock": Clock(time, tick),
         "own": own(v, a),
@@ -133,5 +138,5 @@ def test_a_silent_link_lengthens_the_headway():
         memory, does = module.decide(p, memory, seen)
         if k == 20:
             assert memory.headway == pytest.approx(0.6) and abs(does.command.acceleration) < 1e-9
-    assert memory.headway == pytest.approx(p.fallback_headway)
+    assert memory.headway == pytest.approx(p.degraded_headway)
     assert does.command.acceleration < -0.5

@@ -35,8 +35,17 @@ def test_the_longest_counts():
     assert (found.value, found.subject, found.time) == (pytest.approx(0.4), ("b",), pytest.approx(2.4))
 
 
+def test_what_is_taken_back_counts_once():
+    """a asks twice and takes its second maneuver back, told thrice; b's abort of what it has not asked for is none."""
+    made = talked(
+        (1.00, 0, 1, 1), (1.06, 0, 4, 1), (2.00, 0, 1, 2), (2.40, 0, 6, 2), (2.42, 0, 6, 2), (2.44, 0, 6, 2), (3.00, 1, 6, 1),
+    )  # fmt: skip
+    assert measure_all(made)["maneuvers_aborted"].value == 1.0
+
+
 def test_nobody_asked():
-    assert measure_all(record(np.linspace(0.0, 1.0, 51)))["commit_time"].value is None
+    found = measure_all(record(np.linspace(0.0, 1.0, 51)))
+    assert found["commit_time"].value is None and found["maneuvers_aborted"].value is None
 
 
 def test_the_log_keeps_what_a_message_says_first(sample):

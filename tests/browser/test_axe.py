@@ -36,6 +36,7 @@ PLACES = {
     "/studio/{sample}?run=1": "history-row",
     "/scenarios": "new-scenario",
     "/scenarios/{sample}/text": "",
+    "/edit/{sample}": "on-plan-vehicles.leader",
     "/runs": "runs-table",
     "/runs?as=space": "space",
     "/runs?as=lineage": "lineage",

@@ -282,7 +282,9 @@ def test_all_that_is_wrong_is_told_at_once():
     assert "1 to 16" in error.value.problems[0].allowed
 
 
-@pytest.mark.parametrize("element", ["", "way", "way 0", "way -1", "way 01", "WAY 1", "way 1 ", "area 1", "way 1\n", "way " + "9" * 19])
+@pytest.mark.parametrize(
+    "element", ["", "way", "way 0", "way -0", "way --1", "way 01", "WAY 1", "way 1 ", "area 1", "way 1\n", "way " + "9" * 19]
+)
 def test_elements_that_are_none(element):
     with pytest.raises(MapError, match="cannot be made") as error:
         tag.correction(element, {"lanes": "2"})

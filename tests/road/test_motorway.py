@@ -8,8 +8,8 @@ import pytest
 from studio.errors import MapError
 from studio.road import load
 from studio.road.drawn.motorway import LANE_WIDTH, motorway
-from studio.road.formats.reference_line import ReferenceLine
-from studio.road.formats.xodr import document
+from studio.road.opendrive.file import document
+from studio.road.opendrive.reference_line import ReferenceLine
 from studio.road.ways.path import PATH_CURVATURE, WAVELENGTH, path
 from studio.road.ways.route import all_routes, connect
 

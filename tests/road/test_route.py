@@ -4,8 +4,13 @@ import itertools
 
 import pytest
 
-from studio.errors import RouteError
-from studio.road.ways.route import arms, connect
+from studio.errors import MapError, RouteError
+from studio.road import load
+from studio.road.ways.path import path
+from studio.road.ways.route import all_routes, arms, connect
+from studio.road.ways.trip import trip
+from tests.road.conftest import lane, network
+from tests.road.plot import plot
 
 
 def test_every_step_is_a_connection_or_a_lane_change(place, routes):
@@ -85,3 +90,43 @@ def test_a_lane_that_is_not_there(place, lane):
 def test_an_empty_route(place):
     with pytest.raises(RouteError, match="at least one"):
         connect(place, [])
+
+
+# -- roads that are hardly there -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("length", [0.02, 0.3, 0.9, 1.5, 1.99])
+def test_a_way_of_a_metre_is_none(length):
+    short = network([lane(0, "a", 0, [[0.0, length], [0.0, 0.0]])])
+    with pytest.raises(RouteError, match=f"{length:.2f} m of 'a'.*at least 2 m"):
+        connect(short, ["a"])
+    assert all_routes(short) == ()
+    with pytest.raises(MapError, match="no way to drive along"):
+        trip(short)
+
+
+@pytest.mark.parametrize("length", [2.0, 2.3, 3.1, 7.0])
+def test_a_way_of_some_metres_is_one(own_cache, length):
+    short = network([lane(0, "a", 0, [[0.0, length], [0.0, 0.0]])])
+    assert path(short, connect(short, ["a"])).length == pytest.approx(length, abs=1.0)
+
+
+def test_between_two_ways_of_a_metre_one_drives(own_cache):
+    """A road may well lead over another that is hardly there."""
+    lanes = [lane(0, "a", 0, [[0.0, 90.0], [0.0, 0.0]]), lane(1, "b", 0, [[90.0, 90.02], [0.0, 0.0]]),
+             lane(2, "c", 0, [[90.02, 200.0], [0.0, 0.0]])]  # fmt: skip
+    three = network(lanes, [(0, 1), (1, 2)])
+    line = path(three, connect(three, ["a", "b", "c"]))
+    assert line.length == 200.0 and [each.road for each in line.stations] == ["a", "b", "c"]
+
+
+@pytest.mark.parametrize("apart", [6, 10, 15, 25])
+def test_trips_where_a_link_is_swallowed_by_its_junctions(tmp_path, own_cache, apart):
+    """Two carriageways and a link between them, of which the junctions leave nothing, or centimetres."""
+    nodes = {1: (-200, 0), 2: (0, 0), 3: (200, 0), 4: (-200, apart), 5: (0, apart), 6: (200, apart)}
+    both = {"highway": "primary", "oneway": "yes", "lanes": "2"}
+    ways = {11: ([1, 2], both), 12: ([2, 3], both), 13: ([6, 5], both), 14: ([5, 4], both)}
+    link = {15: ([2, 5], {"highway": "primary_link", "oneway": "yes", "lanes": "1"})}
+    town = load(plot(tmp_path / "dual.osm", nodes, ways | link))
+    for seed in range(1, 25):
+        assert trip(town, seed=seed).length > 60.0

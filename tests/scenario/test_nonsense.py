@@ -20,6 +20,7 @@ BASE = {
     "vehicles": {name: {"route": "way", "position": {"along": at}, "speed": 15} for name, at in (("a", 100), ("b", 200))},
     "applications": {"group": {"application": "acc", "units": ["a"], "parameters": {"headway": 1.0}}},
 }
+PLACED = "leave it out, or say the place the other way"
 BRAKE = {"kind": "brake", "vehicle": "a"}
 STAR = [[0, 0], [100, 100], [100, 0], [0, 100]]
 
@@ -47,6 +48,11 @@ def do(**action):
     return {"script": {"entry": {"do": action}}}
 
 
+def start(**position):
+    """The first car starts there."""
+    return {"vehicles": {"a": {"route": "way", "position": position, "speed": 15}}}
+
+
 def group(**parameters):
     """The group of applications with these parameters."""
     return {"applications": {"group": {"application": "acc", "units": ["a"], "parameters": parameters}}}
@@ -59,6 +65,12 @@ def group(**parameters):
         (when(kind="time_to_collision", vehicle="a", other="a", below=5), "script.entry.when", "name another, or leave `other` out"),
         (when(kind="message", sender="a", receiver="a"), "script.entry.when", "nobody hears himself"),
         (do(kind="jam", area={"x": 1e5, "y": 1e5, "radius": 10}), "script.entry.do.area", "lies off the map; allowed: east -350 to 350 m"),
+        (start(along=100, lane=1), "vehicles.a.position", f"`lane` would count for nothing beside `along`: {PLACED}"),
+        (start(along=100, lane=0), "vehicles.a.position", "`lane` would count for nothing beside `along`"),
+        (start(along=100, lane=1, offset=5), "vehicles.a.position", "`lane`, `offset` would count for nothing beside `along`"),
+        (do(kind="friction", route="way", lane=1, start=5, end=9, friction=0.5), "script.entry.do", "`lane` would count for nothing"),
+        (do(kind="jam", area={"x": 1, "y": 1, "radius": 10, "start": 5}), "script.entry.do.area", "`start` would count for nothing"),
+        ({"stations": {"s": {"position": {"x": 1, "y": 1, "along": 7}}}}, "stations.s.position", "`along` would count for nothing"),
         (do(kind="jam", area={"corners": STAR}), "script.entry.do.area", "crosses itself: give its corners in the order"),
         ({"radio": {"kind": "cellular", "coverage": "polygon", "corners": STAR}}, "radio", "crosses itself"),
         (do(kind="tune_application", application="group"), "script.entry.do.parameters", "names no parameter (got {}); allowed: headway"),

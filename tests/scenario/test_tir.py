@@ -418,3 +418,36 @@ def test_a_name_that_no_file_can_have(tmp_path):
 
 def test_many_problems_are_cut(refused, whole):
     assert len(refused(whole + "\nnonsense" * 1000)) == tir.MOST
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"PKY1": 19.797}, "PKY1"), ({"PKY2": -1.7999}, "PKY1"), ({"LKY": -1.0}, "PKY1"), ({"PKX1": -18.886}, "PKX1"),
+        ({"LKX": -1.0}, "PKX1"), ({"PKY1": 19.797, "PKY2": -1.7999}, ""), ({"PKX1": -18.886, "LKX": -1.0}, ""),
+    ],
+)  # fmt: skip
+def test_forces_that_point_the_wrong_way(changes, key, read, refused, whole):
+    """The slopes of the formula at small slip have a sign; a set fitted in other axes would steer the car the other way."""
+    text = whole
+    for name, value in changes.items():
+        text = (
+            changed(text, name, value) if re.search(rf"(?m)^{name}\s*=", text) else added(text, "SCALING_COEFFICIENTS", f"{name} = {value}")
+        )
+    if not key:
+        assert read(text).values["PKY1"] == float(changes.get("PKY1", -19.797))
+        return
+    (problem,) = refused(text)
+    assert key in problem.where and "round" in problem.what and problem.remedy.startswith("change its sign")
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "what"), [("PDY2", -2.0, "friction across"), ("PDX2", -5.0, "friction along"), ("PKX2", -60.0, "slip stiffness")]
+)
+def test_loads_at_which_nothing_is_left(key, value, what, read, whole):
+    """Friction and stiffness fall with the load, linearly: where the file's own range goes on beyond their zero the notes say so."""
+    found = read(changed(whole, key, value))
+    load, nominal = found.values["FZMAX"], found.values["FNOMIN"]
+    assert found.values[key[:-1] + "1"] + value * (load - nominal) / nominal <= 0.0
+    assert any(f"the {what} is not above 0 at {load:g} N" in note for note in found.notes)
+    assert not any("not above 0" in note for note in read(whole).notes)

@@ -37,7 +37,7 @@ def poses() -> np.ndarray:
 
 def test_turns_are_yaw_then_pitch_then_roll():
     angles = np.random.default_rng(1).uniform(-1.5, 1.5, (3, 50))
-    got = fleet._turns(*angles)
+    got = fleet.quaternions(*angles)
     expected = Rotation.from_euler("ZYX", angles.T).as_quat(scalar_first=True)
     same = np.abs(np.sum(got * expected, axis=1))
     np.testing.assert_allclose(same, 1.0, atol=1e-9)

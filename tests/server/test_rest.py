@@ -195,7 +195,7 @@ def test_compare(client, pair):
         ("post", "/api/runs", {"scenario": SCENARIO, "parent": 999}, 404, ["999"]),
         ("post", "/api/runs", {"scenario": "bad"}, 422, ["clok"]),
         ("post", "/api/runs", {"scene": SCENARIO}, 422, ["body"]),
-        ("post", "/api/live", {"scenario": SCENARIO, "pace": 100}, 422, ["pace", "0.1"]),
+        ("post", "/api/live", {"scenario": SCENARIO, "pace": 100}, 422, ["pace", "0.05"]),
         ("post", "/api/live/999/pause", None, 404, ["999"]),
         ("get", "/api/runs/99999999999999999999", None, 404, ["no run"]),
         ("get", f"/api/compare?a=1&b={10**30}", None, 404, ["no run"]),
@@ -289,7 +289,7 @@ def test_the_description_names_what_the_socket_tells(client):
     assert switching["content"]["application/json"]["schema"] == {"$ref": "#/components/schemas/News"}
     objects = api["components"]["schemas"]
     kinds = objects["News"]["discriminator"]["mapping"]
-    assert set(kinds) == {"state", "channels", "samples", "event", "end", "refused"}
+    assert set(kinds) == {"state", "channels", "samples", "layers", "event", "end", "refused"}
     for kind, reference in kinds.items():
         described = objects[reference.removeprefix("#/components/schemas/")]
         assert described["properties"]["type"]["const"] == kind and "type" in described["required"]

@@ -13,8 +13,9 @@ With k_a = 1 and cars that do what they are asked the speeds follow each other b
 so the gain is below 1 at every frequency, and the lag that of the message; a car of Ploeg's law (cacc) comes a headway later. The price
 is the spacing, which is off until the slow poles have brought it back.
 
-When the link is silent for longer than `timeout`, the feed-forward is dropped and the headway rises to `fallback_headway`, by 0.1 s
-in a second, as one that is tuned does.
+When the link is silent for longer than `timeout`, or a stranger is ahead, the acceleration ahead is estimated from the radar
+(studio/model/singer.py), as gap and rate always are, and the headway rises to `fallback_headway`, by 0.1 s in a second, as one that is
+tuned does.
 """
 
 from typing import Annotated, NamedTuple
@@ -22,11 +23,13 @@ from typing import Annotated, NamedTuple
 from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
 from studio.compiled import compiled
 from studio.kind.settings import Part, number
-from studio.kinds.application.cacc import HEADWAY_RATE, approach
+from studio.kinds.application.cacc import HEADWAY_RATE, Estimate, approach, calmed, is_sender
+from studio.model import singer
 
 KIND = "application"
 TITLE = "Cooperative adaptive cruise control (direct feed-forward)"
 COMMANDS = ACCELERATION
+CALM = 0.1  # [m/s²] four times what the noise of a radar makes of the request
 
 
 class Parameters(Part):
@@ -39,15 +42,20 @@ class Parameters(Part):
     k_d: float = number(0.1, unit="1/s²", title="Gain on the gap", description="k_d", ge=0, le=5)
     timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
     fallback_headway: float = number(1.6, unit="s", title="Headway without link", ge=0.1, le=5)
+    match: float = number(
+        8.0, unit="m", title="Match", description="between where the sender is and where the radar sees the car ahead", gt=0, le=1000
+    )
     cruise_gain: float = number(0.5, unit="1/s", title="Cruise gain", description="on the set speed, road free", gt=0, le=3)
     acceleration_max: float = number(2.0, unit="m/s²", title="Strongest acceleration", gt=0, le=5)
     deceleration_max: float = number(8.0, unit="m/s²", title="Strongest deceleration", gt=0, le=10)
 
 
 class Memory(NamedTuple):
-    """The headway in force."""
+    """The headway in force, what is asked of the car, and what is estimated of the car ahead."""
 
     headway: Annotated[float, "s"] = -1.0  # negative before the first tick
+    asked: Annotated[float, "m/s²", "last that was not 0"] = 0.0
+    ahead: Annotated[Estimate, "1", "as studio/model/singer.py has it"] = singer.NOBODY
 
 
 class Sees(NamedTuple):
@@ -66,20 +74,21 @@ class Does(NamedTuple):
 
 
 @compiled
-def follow(p, h, u_ahead, own, front):
+def follow(p, h, u_ahead, own, d, rate):
     """Acceleration [m/s²] behind the target."""
-    return p.k_a * u_ahead + p.k_v * front.rate + p.k_d * (front.range - p.standstill - h * own.speed)
+    return p.k_a * u_ahead + p.k_v * rate + p.k_d * (d - p.standstill - h * own.speed)
 
 
 @compiled
 def decide(parameters, memory, sees):
     """One tick."""
-    p, own, message = parameters, sees.own, sees.heard.message[0]
-    linked = message.received and message.age <= p.timeout
-    wanted = p.headway if linked else p.fallback_headway
-    h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * sees.clock.tick)
+    p, own, message, front, T = parameters, sees.own, sees.heard.message[0], sees.front.target[0], sees.clock.tick
+    is_behind = sees.front.count > 0
+    ahead = singer.followed(memory.ahead, front.range, front.rate, own.acceleration, T) if is_behind else singer.NOBODY
+    linked = message.received and message.age <= p.timeout and (not is_behind or is_sender(p, own, front, message))
+    h = p.headway if memory.headway < 0.0 else approach(memory.headway, p.headway if linked else p.fallback_headway, HEADWAY_RATE * T)
     u = p.cruise_gain * (own.set_speed - own.speed)
-    if sees.front.count > 0:
-        u = min(u, follow(p, h, message.payload.intention if linked else 0.0, own, sees.front.target[0]))
-    u = min(max(u, -p.deceleration_max), p.acceleration_max)
-    return Memory(h), Does(accelerate(u))
+    if is_behind:
+        u = min(u, follow(p, h, message.payload.intention if linked else ahead[2], own, ahead[0], ahead[1]))
+    command = calmed(min(max(u, -p.deceleration_max), p.acceleration_max), memory.asked, CALM)
+    return Memory(h, memory.asked if command == 0.0 else command, ahead), Does(accelerate(command))

@@ -25,3 +25,4 @@ class Payload(NamedTuple):
     side: Annotated[float, "1", "1 to the left, -1 to the right, 0 stays in its lane"] = 0.0
     gap: Annotated[float, "m", "that is needed, bumper to bumper"] = 0.0
     acceleration: Annotated[float, "m/s²", "that is offered or asked for"] = 0.0
+    ahead: Annotated[float, "m", "where the sender sees whom it asks: its middle, ahead of the own front bumper"] = 0.0

@@ -7,7 +7,9 @@ import shapely
 
 from studio.road.assembly.priority import counts
 from studio.road.formats import osm
-from studio.road.formats.osm import Box, Survey, Way, spot_of
+from studio.road.formats.identity import named
+from studio.road.formats.osm import Box, Survey
+from studio.road.formats.way import Way, spot_of
 from studio.road.network import Net, Network
 from studio.road.network.outline import junction_form
 from studio.road.network.report import (
@@ -98,7 +100,7 @@ def count_signals(network: Network, found: Survey, ways: list[Way], box: Box, no
             longitude, latitude = box.degrees(np.array([[x], [y]]))[0]
             inside = junctions.distance(shapely.Point(x, y)) < INSIDE
             reason = f"stands inside a junction; the nearest stop line is {away:.0f} m away" if inside else "no lane leads to it"
-            notes.skip("signal", "traffic signal", Spot(f"node {node}", latitude, longitude, f"node {node}"), reason)
+            notes.skip("signal", "traffic signal", Spot(named("node", node), latitude, longitude, named("node", node)), reason)
     return SignalCount(len(mapped), int(placed), len(set(links.programme.tolist())))
 
 

@@ -11,7 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from studio import portable
-from studio.road.formats.osm import Box, Way, is_one_way
+from studio.road.formats.osm import Box
+from studio.road.formats.way import Way, is_one_way
 
 CORNER = np.radians(40.0)  # [rad] a sharper turn is a corner
 STRAIGHT = np.radians(1.5)  # [rad] a lesser turn needs no curve

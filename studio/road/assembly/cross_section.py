@@ -5,10 +5,13 @@ A mapped width is often that of the whole carriageway with its parked cars, or o
 
 import re
 
-from studio.road.formats.osm import MOST_LANES, Way, is_one_way, spot_of
+from studio.road.formats.correction import text
+from studio.road.formats.osm import MOST_LANES
+from studio.road.formats.way import Way, is_one_way, spot_of
 from studio.road.network.report import Notes
 
 NARROWEST, WIDEST_LANE = 2.5, 4.5  # [m] of a lane (RASt 06: 2.75 to 3.50 m; a lone one up to 4.5 m)
+NEITHER = ("both_ways", "reversible")
 COUNTS = ("lanes", "lanes:forward", "lanes:backward")
 BUS_COUNTS = ("lanes:psv", "lanes:bus")
 PER_LANE = ("bus:lanes", "psv:lanes", "access:lanes", "vehicle:lanes", "motor_vehicle:lanes")
@@ -16,49 +19,73 @@ PER_LANE = ("bus:lanes", "psv:lanes", "access:lanes", "vehicle:lanes", "motor_ve
 
 def mended(way: Way, notes: Notes, *, left_hand: bool) -> Way:
     """The way with a width that its lanes can have, and with its bus lanes at the kerb."""
-    return with_bus_lanes(with_width(with_counts(way, notes), notes), notes, left_hand=left_hand)
+    counted = with_room_to_meet(without_shared_lanes(with_counts(way, notes), notes), notes)
+    return with_bus_lanes(with_width(counted, notes), notes, left_hand=left_hand)
 
 
 def with_counts(way: Way, notes: Notes) -> Way:
     """The way without numbers of lanes that cannot be read or meant; they are noted."""
     bad = {key: way.tags[key] for key in COUNTS if key in way.tags and not is_count(way.tags[key])}
-    for key, text in bad.items():
-        notes.skip("lanes", f"{key}={text[:40]}", spot_of(way), f"no number of lanes from 1 to {MOST_LANES}")
+    for key, value in bad.items():
+        notes.skip("lanes", f"{key}={value[:40]}", spot_of(way), f"no number of lanes from 1 to {MOST_LANES}")
     return way.with_tags({key: value for key, value in way.tags.items() if key not in bad}) if bad else way
 
 
-def is_count(text: str) -> bool:
+def without_shared_lanes(way: Way, notes: Notes) -> Way:
+    """The way without lanes that belong to neither direction, a centre turn lane for instance: netconvert would make them through lanes."""
+    own = {key: value for key, value in way.tags.items() if any(part in NEITHER for part in key.split(":"))}
+    if not own:
+        return way
+    notes.skip("lanes", text(own, ()), spot_of(way), "lanes of both directions are not built; cars turn from the lanes of their own")
+    tags = {key: value for key, value in way.tags.items() if key not in own}
+    count = sum(int(own[f"lanes:{part}"]) for part in NEITHER if is_count(own.get(f"lanes:{part}", "")))
+    if "lanes" in tags and int(tags["lanes"]) > count:
+        tags["lanes"] = str(int(tags["lanes"]) - count)
+    return way.with_tags(tags)
+
+
+def with_room_to_meet(way: Way, notes: Notes) -> Way:
+    """A two-way street with one lane gets two narrow ones: nobody who drives here waits where a road gets narrow."""
+    if is_one_way(way) or way.tags["highway"].startswith("motorway") or way.tags.get("lanes") != "1":
+        return way
+    others = {key: value for key, value in way.tags.items() if key not in COUNTS}
+    source = "lanes=1 for both directions: cars pass each other, they do not wait for each other there"
+    notes.guess("one lane", f"two lanes of {NARROWEST:g} m", spot_of(way), source=source, sure="low", key="lanes")
+    return way.with_tags({"width": f"{2.0 * NARROWEST:g}"} | others | {"lanes": "2"})
+
+
+def is_count(count: str) -> bool:
     """Whether a tag is a number of lanes that a way can have.
 
     >>> is_count("3"), is_count("2.5"), is_count("99999"), is_count("abc")
     (True, False, False, False)
     """
-    return text.isdecimal() and len(text) < 6 and 0 < int(text) <= MOST_LANES
+    return count.isdecimal() and len(count) < 6 and 0 < int(count) <= MOST_LANES
 
 
 def with_width(way: Way, notes: Notes) -> Way:
     """The way with a width [m] that makes lanes of `NARROWEST` to `WIDEST_LANE`; without one that cannot be read."""
     if "width" not in way.tags:
         return way
-    text = way.tags["width"]
+    mapped = way.tags["width"]
     others = {key: value for key, value in way.tags.items() if key != "width"}
-    found = re.fullmatch(r"(\d+(?:[.,]\d+)?)\s*m?", text.strip())
+    found = re.fullmatch(r"(\d+(?:[.,]\d+)?)\s*m?", mapped.strip())
     if not found:
-        notes.skip("width", f"width={text}", spot_of(way), "no width in metres")
+        notes.skip("width", f"width={mapped}", spot_of(way), "no width in metres")
         return way.with_tags(others)
     lanes = lane_count(way)
     width = float(found[1].replace(",", ".")) / lanes
     taken = min(WIDEST_LANE, max(NARROWEST, width))
     if taken != width:
-        source = f"width={text} for {lanes} lanes"
+        source = f"width={mapped} for {lanes} lanes"
         notes.guess("lane width", f"{taken:g} m", spot_of(way), source=source, sure="medium", key="width")
     return way.with_tags({**others, "width": f"{taken * lanes:.2f}"})
 
 
 def lane_count(way: Way) -> int:
     """Lanes of a way in both directions together, as mapped or one each way."""
-    text = way.tags.get("lanes", "")
-    return int(text) if text.isdigit() and int(text) > 0 else 1 if is_one_way(way) else 2
+    lanes = way.tags.get("lanes", "")
+    return int(lanes) if lanes.isdigit() and int(lanes) > 0 else 1 if is_one_way(way) else 2
 
 
 def with_bus_lanes(way: Way, notes: Notes, *, left_hand: bool) -> Way:

@@ -19,7 +19,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import shapely
 
-from studio.road.formats.osm import Box, Survey, Way
+from studio.road.formats.identity import named
+from studio.road.formats.osm import Box, Survey
+from studio.road.formats.way import Way
 from studio.road.network import Lane, Net, curve
 from studio.road.network.report import Notes, Spot
 
@@ -197,7 +199,7 @@ def triples(grid: Grid, ways: list[Way]) -> set[tuple[int, int, int]]:
 def spot(node: int, grid: Grid, box: Box) -> Spot:
     """A node as something that one can point at."""
     longitude, latitude = box.degrees(grid.places[node][:, None])[0]
-    return Spot(f"node {node}", latitude, longitude)
+    return Spot(named("node", node), latitude, longitude)
 
 
 # -- heights of the lanes --------------------------------------------------------------------------

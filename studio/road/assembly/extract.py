@@ -10,7 +10,9 @@ from studio.errors import MapError
 from studio.road.assembly.plan import Plan, Wish
 from studio.road.formats import osm
 from studio.road.formats.correction import Corrections
-from studio.road.network import Net
+from studio.road.formats.identity import named, shown
+from studio.road.network import Connection, Net
+from studio.road.network.report import Spot
 
 ENDINGS = tuple(osm.FORMATS)
 ATTRIBUTION = "© OpenStreetMap contributors"
@@ -56,10 +58,11 @@ def part(path: Path, wish: Wish) -> Part:
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
     """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road.assembly import audit, elevation, turn
+    from studio.road.assembly import audit, elevation, narrow, turn
     from studio.road.assembly.alignment import aligned
     from studio.road.assembly.priority import mapped_law
     from studio.road.assembly.side import drive_side
+    from studio.road.formats import vocabulary
     from studio.road.formats.country import country_at
     from studio.road.scenery import scenery
     from studio.road.scenery.site import Site
@@ -67,14 +70,17 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     found = osm.survey(path, data, parking_aisles=kept.parking_aisles, corrections=kept.corrections)
     box = clipped(path, found, kept.radius, kept.box)
     ids = itertools.count(10**15)  # above every OpenStreetMap id
-    cut = cut_ways(path, found, box, ids)
+    box, cut = cut_ways(path, found, box, kept.radius, ids)
+    vocabulary.tell(cut, found.nodes, found.notes)
     country = country_at(*box.centre)
     side = drive_side(cut, country)
     left_hand = side.side == "left"
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
-    net = of_ways(elevation.raised(aligned(raw), found, cut, box), ways)
+    smooth = aligned(raw)
+    narrow.tell(smooth, lambda each: end_of(raw, each, ways, box), found.notes)
+    net = of_ways(elevation.raised(smooth, found, cut, box), ways)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),
@@ -89,6 +95,16 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     )
 
 
+def end_of(net: Net, connection: Connection, ways: list, box) -> Spot:
+    """Where a connection begins, with the mapped way that leads there."""
+    lane = net.lanes[connection.from_lane]
+    mapped = {way.id: way.mapped for way in ways}
+    origins = [mapped[way] for way in net.origins.get(lane.road, ()) if way in mapped]
+    element = named("way", origins[-1]) if origins else ""
+    longitude, latitude = box.degrees(lane.centre[:, -1:])[0]
+    return Spot(element or f"road {lane.road}", latitude, longitude, element)
+
+
 def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
     """The part of the map that is kept; raises MapError that names the file."""
     try:
@@ -97,12 +113,21 @@ def clipped(path: Path, found, radius: float | None, bbox: osm.Box | None):
         raise MapError(f"{path}: {error.message}") from None
 
 
-def cut_ways(path: Path, found, box, ids) -> list:
-    """The ways within that part; raises MapError when there is none."""
+def cut_ways(path: Path, found, box, radius: float | None, ids) -> tuple:
+    """The part that is kept, and the ways within it; raises MapError when there is none.
+
+    Where no road is within a radius of the middle of what is mapped, the middle of the roads is taken.
+    """
     ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
+    if not ways and radius is not None:
+        box = osm.around_roads(found, radius)
+        ways = [piece for way in found.ways for piece in osm.cut(way, box, ids)]
+        what = f"the {radius:g} m around {box.centre[0]:.5f}°, {box.centre[1]:.5f}°"
+        source = "no road lies that near to the middle of what is mapped"
+        found.notes.guess("part", what, Spot("the middle of the roads", *box.centre), source=source, sure="medium")
     if not ways:
         raise MapError(f"{path}: there are no roads for cars within the part that is kept; try a larger radius or another bbox")
-    return ways
+    return box, ways
 
 
 def tagged(ways: list, found, country: str, left_hand: bool) -> list:
@@ -137,5 +162,5 @@ def signalled(found, ways: list, box, net) -> frozenset[int]:
 def of_ways(net: Net, ways: list) -> Net:
     """The network whose roads know the mapped ways that they are made of."""
     mapped = {way.id: way.mapped for way in ways}
-    names = {road: dict.fromkeys(mapped[way] for way in net.origins.get(road, ()) if way in mapped) for road in net.roads}
+    names = {road: dict.fromkeys(shown(mapped[way]) for way in net.origins.get(road, ()) if way in mapped) for road in net.roads}
     return replace(net, roads={name: replace(road, ways=tuple(names[name])) for name, road in net.roads.items()})

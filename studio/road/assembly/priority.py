@@ -23,7 +23,8 @@ import numpy as np
 import shapely
 
 from studio.road.assembly.alignment import direction_at, turned
-from studio.road.formats.osm import Box, Way
+from studio.road.formats.osm import Box
+from studio.road.formats.way import Way
 from studio.road.network import Connection, Net, Pair, curve
 from studio.road.network.signals import SIGHT, Signals
 
@@ -32,6 +33,7 @@ EQUAL = {"residential", "living_street", "unclassified", "tertiary"}  # classes 
 SIGN_REACH = 40.0  # [m] a sign stands that near before its junction
 BESIDE = 10.0  # [m] and its node that near to the road
 ONCOMING = np.radians(135.0)  # [rad]
+PRIORITY = {"designated", "yes", "yes_unposted"}
 SIGNS = {"give_way": "yield", "stop": "stop"}
 
 
@@ -40,7 +42,8 @@ class Law:
     """What a place says about who goes first.
 
     `yields` are netconvert's answers, `equal` the junctions without major road, `signs` the rules that signs set at the ends of
-    roads, `left_first` whether the left goes before the right at equal roads.
+    roads, `left_first` whether the left goes before the right at equal roads. With `by_side` two of which nothing is said go by side.
+    `major` are roads that have priority by sign, `circles` the junctions that are mini-roundabouts.
     """
 
     yields: dict[Pair, frozenset[Pair]]
@@ -48,6 +51,9 @@ class Law:
     signs: dict[str, str]
     left_hand: bool
     left_first: bool
+    by_side: bool = False
+    major: frozenset[str] = frozenset()
+    circles: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,10 @@ class Ground:
     def is_equal(self, i: int) -> bool:
         """Whether the connection's junction has no major road."""
         return self.net.roads[self.pair(i)[0]].to_junction in self.law.equal
+
+    def is_circle(self, i: int) -> bool:
+        """Whether the connection leads over a mini-roundabout."""
+        return self.net.roads[self.pair(i)[0]].to_junction in self.law.circles
 
 
 def ruled(net: Net, law: Law, connections: tuple[Connection, ...], lights: Signals) -> tuple[Connection, ...]:
@@ -129,11 +139,32 @@ def goes_first(ground: Ground, j: int, i: int) -> bool:
     signs, rings = ground.law.signs, ground.net.rings
     if own[0] == other[0]:
         return ground.connections[i].to_lane == ground.connections[j].to_lane  # in turn
+    if ground.is_circle(i):
+        return comes_round(ground, j, i)
     if (own[0] in signs) != (other[0] in signs):
         return own[0] in signs
+    if own[0] in ground.law.major or other[0] in ground.law.major:
+        return comes_first(ground, j, i) if own[0] in ground.law.major and other[0] in ground.law.major else other[0] in ground.law.major
     if (own[0] in rings) != (other[0] in rings):
         return other[0] in rings
-    return comes_first(ground, j, i) if ground.is_equal(i) else other in ground.law.yields.get(own, ())
+    if ground.is_equal(i) or is_open(ground.law, own, other):
+        return comes_first(ground, j, i)
+    return other in ground.law.yields.get(own, ())
+
+
+def is_open(law: Law, own: Pair, other: Pair) -> bool:
+    """Whether a law leaves open which of two ways goes first."""
+    return law.by_side and other not in law.yields.get(own, ()) and own not in law.yields.get(other, ())
+
+
+def comes_round(ground: Ground, j: int, i: int) -> bool:
+    """Whether j goes before i on a mini-roundabout: who comes from where the circle comes from, and one from ahead who turns across,
+    since he comes round it."""
+    own, other = ground.coming(i), ground.coming(j)
+    if turned(own, other) > ONCOMING:
+        return turns_across(ground, j) and not turns_across(ground, i)
+    from_right = own[0] * other[1] - own[1] * other[0] > 0.0
+    return bool(from_right == ground.law.left_hand)
 
 
 def comes_first(ground: Ground, j: int, i: int) -> bool:
@@ -164,9 +195,11 @@ def right_of(ground: Ground, i: int, first: frozenset[int]) -> str:
         return "signal"
     if first and not others & first:
         return "zipper"
+    if ground.is_circle(i) and others:
+        return "roundabout"
     if start in ground.law.signs and others:
         return ground.law.signs[start]
-    if ground.is_equal(i) and others:
+    if ground.is_equal(i) and others and not ground.law.major & {start, *(ground.pair(j)[0] for j in others)}:
         return "left_before_right" if ground.law.left_first else "right_before_left"
     if not first:
         return "priority"
@@ -179,22 +212,61 @@ def right_of(ground: Ground, i: int, first: frozenset[int]) -> str:
 def mapped_law(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: Box, *, country: str, left_hand: bool) -> Law:
     """The law of a place on OpenStreetMap; `nodes` are the tags of its nodes."""
     equal = net.equal | (equal_junctions(net, ways) if left_hand else frozenset())
-    return Law(net.yields, equal, signs_of(net, ways, nodes, box), left_hand, country in LEFT_FIRST)
+    signs, major = signs_of(net, ways, nodes, box), major_roads(net, ways)
+    circles = circles_of(net, ways, nodes, box)
+    return Law(net.yields, equal, signs, left_hand, country in LEFT_FIRST, major=major, circles=circles)
 
 
-def law_by_limits(net: Net, *, country: str, left_hand: bool) -> Law:
-    """The law of a map that says nothing of it: of two roads that meet, the one with the higher limit is the major one."""
+def major_roads(net: Net, ways: list[Way]) -> frozenset[str]:
+    """The roads whose last way is a priority road by its signs."""
+    designated = {way.id for way in ways if way.tags.get("priority_road") in PRIORITY}
+    return frozenset(road for road, names in net.origins.items() if names and names[-1] in designated)
+
+
+def circles_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: Box) -> frozenset[str]:
+    """The junctions that are mini-roundabouts: of those near such a node the one whose roads end nearest to it."""
+    found = set()
+    for _, _, (longitude, latitude) in nodes_of(ways, nodes, {"mini_roundabout"}):
+        at = box.local(latitude, longitude)
+        ends = {
+            road.to_junction: float(np.hypot(*(np.mean([net.lanes[lane].centre[:, -1] for lane in road.lanes], axis=0) - at)))
+            for road in sorted(net.roads.values(), key=lambda road: road.id)
+            if not road.internal and road.to_junction
+        }
+        nearest = min(ends, key=ends.__getitem__, default="")
+        if nearest and ends[nearest] < SIGN_REACH:
+            found.add(nearest)
+    return frozenset(found)
+
+
+def law_by_limits(net: Net, *, country: str, left_hand: bool, signs: dict[str, str], before: frozenset[tuple[Pair, Pair]]) -> Law:
+    """The law of a map that says little of it: who has a sign, then the higher limit. `before` are pairs of which the first goes first."""
     at = defaultdict(set)
     for c in net.connections:
         start, end = net.lanes[c.from_lane].road, net.lanes[c.to_lane].road
         at[net.roads[start].to_junction].add((start, end))
-    yields = {
-        own: frozenset(other for other in pairs if net.roads[other[0]].speed > net.roads[own[0]].speed + 0.1)
-        for pairs in at.values()
-        for own in pairs
-    }
+    yields = {own: frozenset(other for other in pairs if is_major(net, signs, other[0], own[0])) for pairs in at.values() for own in pairs}
+    for first, second in sorted(before):
+        yields[second] |= {first}
+        yields[first] -= {second}
     equal = frozenset(name for name, pairs in at.items() if not any(yields[pair] for pair in pairs))
-    return Law(yields, equal, {}, left_hand, country in LEFT_FIRST)
+    return Law(yields, equal, stopping(signs, at), left_hand, country in LEFT_FIRST, by_side=True)
+
+
+def is_major(net: Net, signs: dict[str, str], road: str, other: str) -> bool:
+    """Whether a road goes before another: by their signs and as part of a roundabout, else by their limits."""
+    ranks = [2 if name in net.rings else {"priority": 2, "yield": 0, "stop": 0}.get(signs.get(name, ""), 1) for name in (road, other)]
+    return ranks[0] > ranks[1] or (ranks[0] == ranks[1] and net.roads[road].speed > net.roads[other].speed + 0.1)
+
+
+def stopping(signs: dict[str, str], at: dict[str, set[Pair]]) -> dict[str, str]:
+    """The signs at which one waits; where all that come to a junction of three and more stop, who came first goes first."""
+    found = {road: rule for road, rule in signs.items() if rule != "priority"}
+    for pairs in at.values():
+        roads = {start for start, _ in pairs}
+        if len(roads) > 2 and all(signs.get(road) == "stop" for road in roads):
+            found |= dict.fromkeys(roads, "all_way_stop")
+    return found
 
 
 def equal_junctions(net: Net, ways: list[Way]) -> frozenset[str]:
@@ -220,7 +292,7 @@ def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: B
         for name in names:
             by_way[name].append(road)
     found = {}
-    for way, node, (longitude, latitude) in sign_nodes(ways, nodes):
+    for way, node, (longitude, latitude) in nodes_of(ways, nodes, set(SIGNS)):
         x, y = box.local(latitude, longitude)
         roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node])]
         for road in roads:
@@ -228,11 +300,11 @@ def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: B
     return found
 
 
-def sign_nodes(ways: list[Way], nodes: dict[int, dict[str, str]]) -> Iterator[tuple[Way, int, tuple[float, float]]]:
-    """The signs on car ways, each with its way and its longitude and latitude."""
+def nodes_of(ways: list[Way], nodes: dict[int, dict[str, str]], kinds: set[str]) -> Iterator[tuple[Way, int, tuple[float, float]]]:
+    """The nodes of some kinds of `highway` on car ways, each with its way and its longitude and latitude."""
     for way in ways:
         for node, place in zip(way.nodes, way.points, strict=True):
-            if nodes.get(node, {}).get("highway") in SIGNS:
+            if nodes.get(node, {}).get("highway") in kinds:
                 yield way, node, place
 
 

@@ -10,15 +10,18 @@ netconvert honours most of them; where it joins nodes into one junction some are
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
-from studio.road.formats.osm import Box, Way
+from studio.road.formats.identity import named
+from studio.road.formats.osm import Box
+from studio.road.formats.turn_rule import UNCHANGING, conditional, excepts_cars, kind_of, reason, told
+from studio.road.formats.way import Way
 from studio.road.network import Connection, Net
 from studio.road.network.report import Notes, Spot
 
 NEAR = 40.0  # [m] a road ends no farther than this from the node of its restriction: half a large joined junction
-KEYS = ("restriction:motorcar", "restriction:motor_vehicle", "restriction")  # the more exact first
 
 
 @dataclass(frozen=True)
@@ -37,37 +40,55 @@ class Restriction:
 def restricted(net: Net, relations, ways: Sequence[Way], box: Box, notes: Notes) -> tuple[Net, tuple[tuple[str, ...], ...]]:
     """The network without the connections that are forbidden, and the bans that span more than two roads."""
     bans = []
-    for each in restrictions(relations, ways, box):
+    for each in restrictions(relations, ways, box, notes):
         roads = roads_of(each, net)
-        spot = Spot(f"relation {each.id}", *box.degrees(each.entry[:, None])[0][::-1])
-        reason = "its roads are not built" if roads is None else ""
+        why = "its roads are not built" if roads is None else ""
         if roads is not None and len(roads) > 2:
             bans.append(roads)
-            reason = "a detour over other roads is not forced" if each.kind.startswith("only") else ""
+            why = "a detour over other roads is not forced" if each.kind.startswith("only") else ""
         elif roads is not None:
-            net, reason = without(net, *roads, only=each.kind.startswith("only"))
-        if reason:
-            notes.skip("turn restriction", each.kind, spot, reason)
+            net, why = without(net, *roads, only=each.kind.startswith("only"))
+        if why:
+            notes.skip("turn restriction", each.kind, spot_at(each.id, each.entry, box), why)
     return net, tuple(bans)
 
 
-def restrictions(relations, ways: Sequence[Way], box: Box) -> Iterator[Restriction]:
-    """The turn restrictions for cars whose ways are all kept."""
+def spot_at(relation: int, place: np.ndarray, box: Box) -> Spot:
+    """A relation at a place [m]."""
+    name = named("relation", relation)
+    return Spot(name, *box.degrees(place[:, None])[0][::-1], name)
+
+
+def restrictions(relations, ways: Sequence[Way], box: Box, notes: Notes) -> Iterator[Restriction]:
+    """The turn restrictions for cars in the part that is kept; others there are told."""
     by_id = {way.id: way for way in ways}
     for number, members, tags in relations:
-        kind = next((tags[key] for key in KEYS if key in tags), "")
-        named = {role: [(form, ref) for form, ref, part in members if part == role] for role in ("from", "via", "to")}
-        over = tuple(ref for form, ref in named["via"] if form == "w")
-        lone = len(named["from"]) == len(named["to"]) == 1 and named["via"]
-        if not (
-            lone and kind.startswith(("no_", "only_")) and all(ref in by_id for ref in (named["from"][0][1], *over, named["to"][0][1]))
-        ):
+        here = [by_id[ref] for form, ref, _ in members if form == "w" and ref in by_id]
+        if not here or excepts_cars(tags):
             continue
-        chain = [by_id[named["from"][0][1]], *(by_id[way] for way in over), by_id[named["to"][0][1]]]
-        nodes = [shared(chain[0], chain[1]), shared(chain[-2], chain[-1])] if over else [ref for _, ref in named["via"][:1]] * 2
-        entry, exit = (place_of(node, chain, box) for node in nodes)
-        if entry is not None and exit is not None:
-            yield Restriction(number, kind, chain[0].id, over, chain[-1].id, entry, exit)
+        why = reason(tags)
+        found = [] if why else list(pairs_of(number, kind_of(tags), members, by_id, box))
+        yield from found
+        why = why or ("" if found else "its members are not two roads for cars that meet there")
+        if why or conditional(tags):
+            longitude, latitude = here[0].points[-1]
+            spot = spot_at(number, box.local(latitude, longitude), box)
+            notes.skip("turn restriction", told(tags)[:80], spot, why or UNCHANGING)
+
+
+def pairs_of(number: int, kind: str, members, by_id: dict[int, Way], box: Box) -> Iterator[Restriction]:
+    """A restriction for each pair of its first and last ways: `no_entry` may have several first, `no_exit` several last ones."""
+    roles = {role: [(form, ref) for form, ref, part in members if part == role] for role in ("from", "via", "to")}
+    over = tuple(ref for form, ref in roles["via"] if form == "w")
+    if not roles["via"] or not all(way in by_id for way in over):
+        return
+    for (_, start), (_, end) in product(roles["from"], roles["to"]):
+        if start in by_id and end in by_id:
+            chain = [by_id[start], *(by_id[way] for way in over), by_id[end]]
+            nodes = [shared(chain[0], chain[1]), shared(chain[-2], chain[-1])] if over else [ref for _, ref in roles["via"][:1]] * 2
+            entry, exit = (place_of(node, chain, box) for node in nodes)
+            if entry is not None and exit is not None:
+                yield Restriction(number, kind, start, over, end, entry, exit)
 
 
 def shared(one: Way, other: Way) -> int | None:

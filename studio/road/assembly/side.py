@@ -6,7 +6,7 @@ import numpy as np
 
 from studio.portable import arctan2
 from studio.road.formats.country import Country
-from studio.road.formats.osm import Way
+from studio.road.formats.way import Way
 from studio.road.network.report import DriveSide, Side
 
 SIDES: tuple[Side, Side] = ("left", "right")

@@ -21,7 +21,8 @@ import shapely
 
 from studio import portable
 from studio.road.assembly.bend import hermite, unit
-from studio.road.formats.osm import Box, Way, is_one_way, spot_of
+from studio.road.formats.osm import Box
+from studio.road.formats.way import Way, is_one_way, spot_of
 from studio.road.network import Connection, Lane, Net, Road, curve
 from studio.road.network.report import Notes, TurnCount
 

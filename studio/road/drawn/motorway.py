@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from studio.errors import MapError, Problem
-from studio.road.formats.reference_line import Bend
+from studio.road.opendrive.reference_line import Bend
 
 LEAST_RADIUS = 900.0  # [m]
 LONGEST_RADIUS = 20_000.0  # [m]

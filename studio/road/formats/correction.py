@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from studio.road.formats.identity import kept, named
 from studio.road.network.report import Notes, Spot
 
 
@@ -72,7 +73,7 @@ class Corrector:
 
     def bare_nodes(self, ways) -> dict[int, dict[str, str]]:
         """The tags of nodes that have none in the map and lie on these ways: they never come by on their own."""
-        bare = {int(name.split()[1]): name for name in self.wanted if name.startswith("node ") and name not in self.met}
+        bare = {kept(int(name.split()[1])): name for name in self.wanted if name.startswith("node ") and name not in self.met}
         places = {node: place for way in ways for node, place in zip(way.nodes, way.points, strict=True) if node in bare}
         return {node: self.retagged(bare[node], {}, place) for node, place in places.items()}
 
@@ -99,8 +100,8 @@ class Retagged:
 def element_of(thing) -> str:
     """The name of an element of osmium; an area is the way or relation that it is made of."""
     if thing.is_area():
-        return f"{'way' if thing.from_way() else 'relation'} {thing.orig_id()}"
-    return f"{'node' if thing.is_node() else 'way' if thing.is_way() else 'relation'} {thing.id}"
+        return named("way" if thing.from_way() else "relation", thing.orig_id())
+    return named("node" if thing.is_node() else "way" if thing.is_way() else "relation", thing.id)
 
 
 def place_of(thing) -> tuple[float, float]:

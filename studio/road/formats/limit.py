@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from studio.road.formats.osm import Way, spot_of
+from studio.road.formats.way import Way, spot_of
 from studio.road.network.report import Notes
 
 MILE, KNOT = 1.609344, 1.852  # [km]
@@ -162,7 +162,14 @@ def limited(way: Way, country: str, notes: Notes) -> Way:
         mapped["maxspeed"] = zone
     if "maxspeed" not in mapped and not {"maxspeed:forward", "maxspeed:backward"} <= set(mapped):
         mapped["maxspeed"] = guessed(way, country, notes)
-    return way.with_tags({**others, **{key: f"{limit:.3f}" for key, limit in mapped.items()}})
+    return way.with_tags({**others, **{key: f"{limit:.3f}" for key, limit in by_direction(mapped).items()}})
+
+
+def by_direction(mapped: dict[str, float]) -> dict[str, float]:
+    """Limits as netconvert takes them: that of the way's own direction without a direction, which it would leave aside beside one."""
+    usual = mapped.get("maxspeed", 0.0)
+    forward, backward = (mapped.get(key, usual) for key in KEYS[1:])
+    return {"maxspeed": forward} | ({"maxspeed:backward": backward} if backward != forward else {})
 
 
 def readable(way: Way, notes: Notes) -> Iterator[tuple[str, float]]:

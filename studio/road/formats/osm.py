@@ -11,7 +11,7 @@ import threading
 import zlib
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -22,9 +22,12 @@ import osmium
 import pyproj
 
 from studio.errors import MapError
-from studio.road.formats import overpass
+from studio.road.formats import access, identity, overpass
 from studio.road.formats.correction import Corrections, Corrector, element_of
+from studio.road.formats.identity import named
 from studio.road.formats.kind import OPENINGS, area_kind, hidden, line_kind, point_kind
+from studio.road.formats.turn_rule import is_rule, kind_of
+from studio.road.formats.way import Way
 from studio.road.network.report import Notes, Spot
 
 GENERATOR = "Cooperative ADAS Studio"  # of maps that the studio has drawn itself
@@ -48,8 +51,25 @@ CAR_WAYS = {
     ),
     *("tertiary", "tertiary_link", "unclassified", "residential", "living_street"),
 }
-ACCESS = ("motorcar", "motor_vehicle", "vehicle", "access")  # the more exact first
 SMALL_WAYS = {"service", "track", "road", "busway"}  # cars can drive there, but they are not built
+ON_FOOT = {  # highway=… that is no way for cars
+    *("footway", "path", "cycleway", "pedestrian", "steps", "bridleway", "elevator", "platform", "corridor", "via_ferrata", "ladder"),
+    *("crossing", "sidewalk", "bus_stop", "street_lamp", "no", "razed", "abandoned", "disused", "traffic_island"),
+}
+OTHER_WAYS = {  # highway=… that cars use, and why it is not built
+    "raceway": "race tracks are no public roads",
+    "construction": "is not there yet",
+    "proposed": "is not there yet",
+    "planned": "is not there yet",
+    "bus_guideway": "only guided buses can use it",
+    "escape": "ramps for runaway trucks are not built",
+    "emergency_bay": "emergency bays are not built",
+    "emergency_access_point": "is no road",
+    "services": "is an area",
+    "rest_area": "is an area",
+}
+NO_PROGRAMME = {"blinker", "blink_mode", "blinking", "emergency", "level_crossing", "rail_crossing", "tram_priority", "no"}
+ALONG = ("forward", "backward", "conditional")
 
 
 @lru_cache(maxsize=64)
@@ -105,39 +125,6 @@ class Box:
 
 
 @dataclass(frozen=True)
-class Way:
-    """A car way: node ids, their positions (longitude, latitude) [deg], tags."""
-
-    id: int
-    nodes: list[int]
-    points: list[tuple[float, float]]
-    tags: dict[str, str]
-    gaps: frozenset[int] = frozenset()  # after these nodes the file lacks some
-    part_of: int = 0  # the id of the mapped way that this is a piece of
-
-    @property
-    def mapped(self) -> int:
-        """The id that the way has in the map."""
-        return self.part_of or self.id
-
-    def with_tags(self, text: dict[str, str]) -> "Way":
-        """The same way with other tags."""
-        return replace(self, tags=text)
-
-
-def is_one_way(way: Way) -> bool:
-    """Whether a way is driven in its own direction only."""
-    return way.tags.get("oneway") in ("yes", "true", "1") or way.tags.get("junction") in ("roundabout", "circular")
-
-
-def spot_of(way: Way) -> Spot:
-    """A way as something that one can point at, in its middle."""
-    longitude, latitude = way.points[len(way.points) // 2]
-    name = way.tags.get("name", "")
-    return Spot(f"way {way.mapped}" + (f" ({name})" if name else ""), latitude, longitude, f"way {way.mapped}")
-
-
-@dataclass(frozen=True)
 class Shape:
     """An area or building as mapped: rings of (longitude, latitude) [deg], the outer one first, its tags, its name there."""
 
@@ -177,6 +164,7 @@ class Survey:
     places: list[tuple[float, float]] = field(default_factory=list)
     parking: list[tuple[str, tuple[float, float]]] = field(default_factory=list)
     small: Counter = field(default_factory=Counter)
+    other: Counter = field(default_factory=Counter)  # ways of kinds that are not built at all
     barriers: Counter = field(default_factory=Counter)  # that are not drawn
     notes: Notes = field(default_factory=Notes)
     mapped: Box | None = None
@@ -213,7 +201,8 @@ def read(path: Path) -> bytes:
         return overpass.as_xml(path, data)
     if form == "osm":
         check_xml(path, data)
-    elif not data:
+        return uploaded(path, data)
+    if not data:
         raise MapError(f"{path}: the map file is empty")
     return data
 
@@ -247,6 +236,14 @@ def check_xml(path: Path, data: bytes) -> None:
         raise MapError(f"{path}: XML with a document type or entities is refused; export the map again without them")
 
 
+def uploaded(path: Path, data: bytes) -> bytes:
+    """The same as if it had been uploaded; raises MapError that names the file."""
+    try:
+        return identity.uploaded(data)
+    except MapError as error:
+        raise MapError(f"{path}: the map cannot be read: {error.message}") from None
+
+
 # -- the survey ------------------------------------------------------------------------------------
 
 
@@ -259,12 +256,11 @@ def survey(path: Path, data: bytes, *, parking_aisles: bool = False, corrections
     except (RuntimeError, ValueError, osmium.InvalidLocationError) as error:
         raise MapError(f"{path}: the map cannot be read: {error}") from None
     if parking_aisles:
-        built = [way for way in aisles(found.service) if is_open(way, found.notes)]
+        built = [way for each in aisles(found.service) if (way := access.directed(each, found.notes)) is not None]
         found.ways += built
         found.small["service"] -= len(built)
     if not found.ways:
-        lacking = f"; of {len(found.notes.skipped)} the nodes are not in the file" if found.notes.skipped else ""
-        raise MapError(f"{path}: there are no roads for cars in this map{lacking}")
+        raise MapError(f"{path}: there are no roads for cars in this map{there(found)}")
     note_counts(found)
     return found
 
@@ -280,12 +276,16 @@ def aisles(service: list[Way]) -> list[Way]:
     return [way for way in service if way.id in chosen]
 
 
-def is_open(way: Way, notes: Notes) -> bool:
-    """Whether everyone may drive a car on a way; if not, that is noted."""
-    reason = closed_to_cars(way.tags)
-    if reason:
-        notes.skip("closed way", f"highway={way.tags['highway']}", spot_of(way), reason)
-    return not reason
+def there(found: Survey) -> str:
+    """What a map has instead of roads for cars, and what to do."""
+    reasons = Counter(each.kind for each in found.notes.skipped)
+    closed = ", ".join(dict.fromkeys(each.reason for each in found.notes.skipped if each.kind == "closed way"))
+    has = [f"{count} ways with highway={kind}" for kind, count in sorted((found.small + found.other).items())]
+    has += [f"{reasons['closed way']} closed to cars ({closed})"] if reasons["closed way"] else []
+    has += [f"{reasons['missing nodes']} whose nodes are not in the file"] if reasons["missing nodes"] else []
+    aisles_too = "; --parking-aisles builds the aisles of parking places with their driveways" if found.small["service"] else ""
+    remedy = "; public roads are built, from motorway to living_street: correct highway or access of a way that is one"
+    return f"; it has {', '.join(has)}{remedy}{aisles_too}" if has else ""
 
 
 def note_counts(found: Survey) -> None:
@@ -352,7 +352,7 @@ def note(found: Survey, thing) -> None:
         note_way(found, thing)
     elif thing.is_area():
         note_area(found, thing)
-    elif thing.is_relation() and thing.tags.get("type") == "restriction":
+    elif thing.is_relation() and is_rule(thing.tags):
         members = [(member.type, member.ref, member.role) for member in thing.members]
         found.restrictions.append((thing.id, members, dict(thing.tags)))
     elif thing.is_relation() and thing.tags.get("type") == "multipolygon" and (kind := area_kind(thing.tags)):
@@ -362,16 +362,29 @@ def note(found: Survey, thing) -> None:
 def note_node(found: Survey, node) -> None:
     """Notes a tagged node: signals, trees, posts, crossings and parking."""
     if not node.location.valid():
-        found.notes.skip("node", f"node {node.id}", Spot(f"node {node.id}", 0.0, 0.0, f"node {node.id}"), "lies outside the world")
+        found.notes.skip(
+            "node", named("node", node.id), Spot(named("node", node.id), 0.0, 0.0, named("node", node.id)), "lies outside the world"
+        )
         return
     place = (node.lon, node.lat)
     found.places.append(place)
     note_parking(found, node.tags, place)
-    found.nodes[node.id] = dict(node.tags)
+    found.nodes[node.id] = node_tags(found, node, place)
     if kind := point_kind(node.tags):
-        found.points.append(Thing([place], kind, found.nodes[node.id], f"node {node.id}"))
+        found.points.append(Thing([place], kind, found.nodes[node.id], named("node", node.id)))
     elif barrier := node.tags.get("barrier"):
         note_barrier(found, barrier)
+
+
+def node_tags(found: Survey, node, place: tuple[float, float]) -> dict[str, str]:
+    """The tags of a node; lights that do not go through green, amber and red are none here, and told."""
+    own = dict(node.tags)
+    if own.get("highway") == "traffic_signals" and own.get("traffic_signals") in NO_PROGRAMME:
+        name = named("node", node.id)
+        what = f"traffic_signals={own['traffic_signals']}"
+        found.notes.skip("signal", what, Spot(name, place[1], place[0], name), "has no programme of green, amber and red")
+        del own["highway"]
+    return own
 
 
 def note_way(found: Survey, way) -> None:
@@ -383,24 +396,38 @@ def note_way(found: Survey, way) -> None:
         found.places.append(place)
     if kind := line_kind(way.tags) if len(known) > 1 else "":
         line = [(nodes[i].lon, nodes[i].lat) for i in known]
-        found.lines.append(Thing(line, kind, dict(way.tags), f"way {way.id}"))
+        found.lines.append(Thing(line, kind, dict(way.tags), named("way", way.id)))
     elif barrier := way.tags.get("barrier"):
         note_barrier(found, barrier)
-    if way.tags.get("highway") in SMALL_WAYS:
-        found.small[way.tags["highway"]] += 1
-        if way.tags["highway"] == "service" and len(known) > 1:
+    highway, spot = way.tags.get("highway"), Spot(named("way", way.id), *place[::-1], named("way", way.id))
+    if highway in SMALL_WAYS:
+        found.small[highway] += 1
+        if highway == "service" and len(known) > 1:
             found.service.append(way_of(way, nodes, known))
-    if way.tags.get("highway") not in CAR_WAYS:
+    elif highway not in CAR_WAYS:
+        note_other(found, way.tags, spot)
+    if highway in CAR_WAYS:
+        note_car_way(found, way, nodes, known, spot)
+
+
+def note_other(found: Survey, tags, spot: Spot) -> None:
+    """Notes what cars use and is not built: ways of other kinds, ferries, and those whose kind nobody knows."""
+    highway = tags.get("highway", "")
+    if tags.get("route") in ("ferry", "shuttle_train") and not access.closed(tags):
+        found.notes.skip("ferry", f"route={tags.get('route')}", spot, "ferries and car trains do not run")
+    if not highway or highway in ON_FOOT:
         return
-    spot = Spot(f"way {way.id}", *place[::-1], f"way {way.id}")
-    if reason := closed_to_cars(way.tags):
-        found.notes.skip("closed way", f"highway={way.tags['highway']}", spot, reason)
-        return
+    found.other[highway if highway.isascii() else "other"] += 1
+    found.notes.skip("other way", f"highway={highway[:40]}", spot, OTHER_WAYS.get(highway, "is no class of roads that is known"))
+
+
+def note_car_way(found: Survey, way, nodes: list, known: list[int], spot: Spot) -> None:
+    """Notes a way for cars, in the directions that are open to them."""
     if len(known) < len(nodes):
         lacking = f"{len(nodes) - len(known)} of {len(nodes)} nodes"
         found.notes.skip("missing nodes", lacking, spot, "they are not in the file, or lie outside the world")
-    if len(known) > 1:
-        found.ways.append(way_of(way, nodes, known))
+    if len(known) > 1 and (driven := access.directed(way_of(way, nodes, known), found.notes)) is not None:
+        found.ways.append(driven)
 
 
 def way_of(way, nodes: list, known: list[int]) -> Way:
@@ -413,17 +440,6 @@ def way_of(way, nodes: list, known: list[int]) -> Way:
 def note_barrier(found: Survey, barrier: str) -> None:
     """Counts a barrier that is not drawn."""
     found.barriers[barrier if barrier.isascii() else "other"] += 1
-
-
-def closed_to_cars(tags) -> str:
-    """Why not everyone may drive a car there, or nothing; a more exact tag wins over a wider one."""
-    if tags.get("area") == "yes":
-        return "area=yes is no way"
-    for key in ACCESS:
-        value = tags.get(key)
-        if value is not None:
-            return f"{key}={value}" if value in ("no", "private", "agricultural", "forestry") else ""
-    return ""
 
 
 def note_parking(found: Survey, tags, place: tuple[float, float]) -> None:
@@ -439,7 +455,7 @@ def note_area(found: Survey, area) -> None:
         if first is not None:
             note_parking(found, area.tags, (first.lon, first.lat))
         if area.tags["amenity"] in ("parking", "parking_space") and (reason := hidden(area.tags)):
-            spot = Spot(f"parking {area.orig_id()}", first.lat, first.lon) if first is not None else Spot("parking", 0.0, 0.0)
+            spot = Spot(named("parking", area.orig_id()), first.lat, first.lon) if first is not None else Spot("parking", 0.0, 0.0)
             found.notes.skip("parking", area.tags.get("name", "") or "parking", spot, reason)
     if area_kind(area.tags):
         if not area.from_way():
@@ -464,6 +480,14 @@ def clip_box(found: Survey, *, radius: float | None, bbox: Box | None = None) ->
         return bbox
     core = found.mapped or core_box(found.places)
     return checked(core.grown(REACH) if radius is None else core.around(radius), "the mapped place")
+
+
+def around_roads(found: Survey, radius: float) -> Box:
+    """The box about the road point that lies nearest to the middle of all of them, `radius` [m] to every side."""
+    points = np.array([point for way in found.ways for point in way.points])
+    middle = np.median(points, axis=0)
+    longitude, latitude = points[np.abs(points - middle).sum(axis=1).argmin()].tolist()
+    return checked(Box(latitude, longitude, latitude, longitude).around(radius), "the middle of the roads")
 
 
 def checked(box: Box, name: str) -> Box:
@@ -575,8 +599,9 @@ def clean_xml(found: Survey, ways: list[Way]) -> str:
         lines += element("way", {"id": way.id, "version": 1}, content)
     kept = {"w": {way.id for way in ways}, "n": set(places), "r": set()}
     for name, members, text in found.restrictions:
-        if all(ref in kept[kind] for kind, ref, _ in members):
-            lines += element("relation", {"id": name, "version": 1}, [*map(member, members), *tags(text)])
+        if (kind := kind_of(text)) and all(ref in kept[form] for form, ref, _ in members):
+            rule = {"type": "restriction", "restriction": kind}
+            lines += element("relation", {"id": name, "version": 1}, [*map(member, members), *tags(rule)])
     return "\n".join([*lines, "</osm>"])
 
 
@@ -599,8 +624,14 @@ def member(of: tuple[str, int, str]) -> str:
 
 def way_tags(way: Way) -> dict[str, str]:
     """The tags of a way as netconvert shall read them: without absurd lanes, and without access, which is decided."""
-    kept = {key: value for key, value in way.tags.items() if key not in ACCESS}
+    kept = {key: value for key, value in way.tags.items() if not is_decided(key)}
     return {key: value for key, value in kept.items() if not (key.startswith("lanes") and is_absurd(value))}
+
+
+def is_decided(key: str) -> bool:
+    """Whether a key says who may drive on a way, in which direction, or when; with ":lanes" it says on which lane."""
+    mode, *rest = key.split(":")
+    return mode in access.KEYS and all(part in ALONG for part in rest)
 
 
 def is_absurd(lanes: str) -> bool:

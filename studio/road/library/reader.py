@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from studio.errors import MapError
-from studio.road.assembly import extract, opendrive
+from studio.road.assembly import extract
+from studio.road.opendrive import map as opendrive
 
 READERS = (extract, opendrive)
 ENDINGS = tuple(ending for reader in READERS for ending in reader.ENDINGS)

@@ -15,7 +15,7 @@ from studio.road.formats.limit import FASTEST, kilometres_per_hour
 from studio.road.formats.osm import CAR_WAYS, MOST_LANES, SMALL_WAYS
 from studio.road.scenery import LARGEST_HEIGHT, metres
 
-ELEMENT = re.compile(r"(node|way|relation) [1-9][0-9]{0,17}")
+ELEMENT = re.compile(r"(node|way|relation) -?[1-9][0-9]{0,17}")
 LONGEST = 255  # characters of a key or value, OpenStreetMap's own limit
 MOST_TAGS = 50  # of one correction
 NARROWEST_WAY, WIDEST_WAY = 1.5, 100.0  # [m]

@@ -9,7 +9,8 @@ import numpy as np
 import shapely
 
 from studio.road.formats.kind import is_signalled, markings
-from studio.road.formats.osm import Survey, Thing, Way
+from studio.road.formats.osm import Survey, Thing
+from studio.road.formats.way import Way
 from studio.road.network import Crossing
 from studio.road.network.plane import lines
 from studio.road.scenery.site import Site

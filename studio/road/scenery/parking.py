@@ -13,7 +13,8 @@ from shapely.geometry.base import BaseGeometry
 
 from studio.portable import arctan2, cross, dot, wrapped
 from studio.road.formats.kind import area_kind
-from studio.road.formats.osm import Survey, Thing, Way, is_one_way, spot_of
+from studio.road.formats.osm import Survey, Thing
+from studio.road.formats.way import Way, is_one_way, spot_of
 from studio.road.network import SPACE_ROWS, Area, Building, Crossing, Lane, Road, curve
 from studio.road.network.plane import polygon, rectangles
 from studio.road.scenery.site import Site

@@ -7,7 +7,8 @@ import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
-from studio.road.formats.osm import Box, Thing, Way
+from studio.road.formats.osm import Box, Thing
+from studio.road.formats.way import Way
 from studio.road.network import Net
 from studio.road.network.outline import road_form
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from studio.compiled import lean
+from studio.errors import RouteError
 from studio.portable import arctan2
 from studio.road import kept
 from studio.road.network import Lane, Network, curve
@@ -96,6 +97,9 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
         lane_path: from `studio.road.ways.route.connect`.
         lateral_acceleration: what PATH_SPEED allows in bends [m/s²].
         deceleration: what PATH_SPEED needs before slower places [m/s²].
+
+    Raises:
+        RouteError: the line is too short to be driven.
     """
     parts = lane_path.lanes, lateral_acceleration, deceleration
     return kept.of_map(
@@ -107,6 +111,8 @@ def made(network: Network, lane_path: LanePath, lateral_acceleration: float, dec
     """The same, made anew."""
     draft = drafted(network, lane_path)
     points = sampled(*smooth(draft))
+    if points.shape[1] < 2:
+        raise RouteError(f"{network.name}: the route is too short to be driven, less than {PATH_SPACING:g} m")
     limit = limits(draft, points)
     points[PATH_SPEED] = speeds(points[PATH_CURVATURE], limit, lateral_acceleration, deceleration)
     stops = located(points, [mark for mark, _ in draft.stop_lines])

@@ -9,6 +9,8 @@ from studio.errors import Problem, RouteError, nearest
 from studio.road.network import Network
 from studio.road.network.graph import graph_of, search, without
 
+SHORTEST = 2.0  # [m] there is nothing to drive on a way that is shorter
+
 
 @dataclass(frozen=True)
 class LanePath:
@@ -60,7 +62,7 @@ def all_routes(network: Network) -> tuple[LanePath, ...]:
     for entry in entries:
         for end in exits:
             if entry == end:
-                found += [LanePath((lane.id,)) for lane in network.lanes_of(entry) if lane.open]
+                found += [LanePath((lane.id,)) for lane in network.lanes_of(entry) if lane.open and lane.length >= SHORTEST]
                 continue
             try:
                 found.append(connect(network, [entry, end]))
@@ -82,7 +84,7 @@ def connect(
         avoid: roads that must not be entered.
 
     Raises:
-        RouteError: a road is not on the map, or there is no way from one to the next.
+        RouteError: a road is not on the map, there is no way from one to the next, or hardly any to drive.
     """
     check(network, roads, start_lane)
     lanes = network.roads[roads[0]].lanes
@@ -92,7 +94,18 @@ def connect(
     way, reached = search(without(graph_of(network), avoid), tuple(roads), starts, turn_back=turn_back)
     if not way:
         raise no_way(network, tuple(roads), reached)
+    check_length(network, roads, sum(network.lanes[lane].length for lane in way))
     return LanePath(way)
+
+
+def check_length(network: Network, roads: Sequence[str], length: float) -> None:
+    """Refuses a way on which there is nothing to drive: maps have roads of a few centimetres between their junctions."""
+    if length < SHORTEST:
+        raise RouteError(
+            f"{network.name}: the route is too short to be driven",
+            [Problem("roads", "are too short together", f"{length:.2f} m of {', '.join(map(repr, roads))}", f"at least {SHORTEST:g} m",
+                     "name a road before or behind")],
+        )  # fmt: skip
 
 
 def check(network: Network, roads: Sequence[str], start_lane: int | None) -> None:

@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from shapely.geometry.base import BaseGeometry
 
 from studio.road import kept
 from studio.road.network import Network
 from studio.road.network.outline import road_form
 from studio.scene import signal
-from studio.scene.city import building, marking, tree
+from studio.scene.city import building, marking, tree, verge
 from studio.scene.city.area import area_meshes
 from studio.scene.city.mesh import Mesh, flat
 from studio.scene.city.shadow import shadow_mesh
@@ -28,6 +29,7 @@ COLOURS = {
     "green": "#84995f",
     "water": "#6f9db3",
     "road": "#55585c",
+    "shoulder": "#686b6e",
     "markings": "#eceae3",
 }
 BEYOND = 2000.0  # [m] of ground around the map
@@ -63,10 +65,11 @@ def layers(network: Network) -> list[Layer]:
     return [
         Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND),
         *_areas(network),
+        *_shoulders(network, form),
         _flat("road", flat(form), ROAD),
         _flat("markings", marking.marking_mesh(network, form), MARKING),
         *_buildings(network),
-        *_uprights(network),
+        *_uprights(network, form),
     ]
 
 
@@ -125,6 +128,11 @@ def shade(network: Network) -> Surface:
     return surface(level, mesh.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
 
 
-def _uprights(network: Network) -> list[Layer]:
-    solids = [*uprights(network), *([signal.masts(network)] if len(network.signals) else [])]
+def _shoulders(network: Network, form: BaseGeometry) -> list[Layer]:
+    beside = verge.shoulder(network, form)
+    return [] if beside.is_empty else [_flat("shoulder", flat(beside), ROAD)]
+
+
+def _uprights(network: Network, form: BaseGeometry) -> list[Layer]:
+    solids = [*uprights(network), *verge.rails(network, form), *([signal.masts(network)] if len(network.signals) else [])]
     return [Layer("uprights", glb(joined(solids), Material(roughness=0.7)))] if solids else []

@@ -17,6 +17,8 @@ NARROWEST = 2.2  # [m] walls below this have no window
 WALLS = ["#e2dacb", "#d8cfc0", "#cfc8bd", "#e0d3c3", "#d9d6cf", "#cbc3b6", "#dcd0bb"]
 ROOFS = ["#a39a90", "#968f88", "#a58f82", "#8f9092", "#ada69b"]
 BLANK = 0.03  # a place on the texture without a window
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear light (ITU-R BT.709)
+DARKEST = 0.11  # [1] luminance of a wall
 FOOT_SHADE = 0.72  # the foot of a wall sees less of the sky
 
 
@@ -37,11 +39,17 @@ def buildings_surface(buildings: tuple[Building, ...]) -> tuple[Surface, np.ndar
 
 def _parts(building: Building, number: int) -> Iterator[tuple[np.ndarray, ...]]:
     # neighbours differ, and the same building looks the same every time
-    wall = linear(building.colour or WALLS[(number * 5) % len(WALLS)])
+    wall = lifted(linear(building.colour or WALLS[(number * 5) % len(WALLS)]))
     roof = linear(ROOFS[(number * 3) % len(ROOFS)])
     for ring in (building.outline, *building.holes):
         yield _walls(ring.T, building.base, building.height, wall)
     yield _roof(building, roof)
+
+
+def lifted(colour: np.ndarray) -> np.ndarray:
+    """A colour in which windows and edges are still seen: black glass shows the sky."""
+    light = float(colour @ LUMINANCE)
+    return colour if light >= DARKEST else colour + (DARKEST - light)
 
 
 def _walls(ring: np.ndarray, base: float, top: float, colour: np.ndarray) -> tuple[np.ndarray, ...]:

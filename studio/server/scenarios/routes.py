@@ -18,6 +18,7 @@ from studio.errors import ScenarioError
 from studio.scenario import file
 from studio.scenario.text.source import decoded
 from studio.server import answer
+from studio.server.desk import Desk
 from studio.server.documents import check_text, digest_of, names_in, too_large
 from studio.server.routes import AtDesk, AtOwnDesk, IfMatch, etag, expected, patched
 from studio.server.scenarios import template
@@ -43,20 +44,20 @@ def new_scenario(new: answer.NewScenario, desk: AtOwnDesk) -> answer.KeptScenari
     """Writes a scenario from a template, on a way through a map that is drawn by lot."""
     desk.scenario_files.free(new.name)  # before the map is read, which takes its time
     text = template.text(new.template, desk.maps, new.map, new.title or "")
-    return kept(desk.scenario_files.add(new.name, text))
+    return fresh(desk, desk.scenario_files.add(new.name, text))
 
 
 @router.post("/scenarios/import", status_code=201, openapi_extra=BODY)
 async def import_scenario(request: Request, desk: AtOwnDesk, name: Name) -> answer.KeptScenario:
     """Takes the scenario file that is the body, if it is one whose map is here."""
     data = await received(request.stream())
-    return await run_in_threadpool(lambda: kept(desk.scenario_files.add(name, decoded(data, name))))
+    return await run_in_threadpool(lambda: fresh(desk, desk.scenario_files.add(name, decoded(data, name))))
 
 
 @router.post("/scenarios/{scenario}/copy", status_code=201)
 def copy_scenario(scenario: str, new: answer.NewCopy, desk: AtOwnDesk) -> answer.KeptScenario:
     """Writes a scenario like this one under another name, with changes by path."""
-    return kept(desk.scenario_files.copy(desk.file(scenario), new.name, new.title, new.set))
+    return fresh(desk, desk.scenario_files.copy(desk.file(scenario), new.name, new.title, new.set))
 
 
 @router.post("/scenarios/{scenario}/save", response_model_exclude_unset=True)
@@ -150,6 +151,12 @@ def trash(desk: AtDesk) -> list[answer.DeletedScenario]:
 def restore(entry: str, how: answer.Return, desk: AtOwnDesk) -> answer.KeptScenario:
     """Brings a deleted scenario back, under its name or another one."""
     return kept(desk.scenario_files.restore(entry, how.name))
+
+
+def fresh(desk: Desk, path: Path) -> answer.KeptScenario:
+    """A scenario file that was not there before: what was done to an older one of its name is not its history."""
+    desk.editing.history.forget(path.stem)
+    return kept(path)
 
 
 def kept(path: Path) -> answer.KeptScenario:

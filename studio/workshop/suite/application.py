@@ -40,7 +40,12 @@ def ticks(module: ModuleType, plain: Any, seed: np.random.Generator, draws: list
         parameters = draw.settings_tuple(module, draw.settings(module.Parameters, seed))
         draws.append((parameters, memory, sees(module, k * TICK, seed)))
         memory, _ = shaped(plain(*draws[-1]), module)
-        memory = module.Memory(*[tuple(map(float, each)) if isinstance(each, tuple) else float(each) for each in memory])
+        memory = remembered(module, memory)
+
+
+def remembered(module: ModuleType, memory: Any) -> Any:
+    """A memory as a run keeps it: plain numbers."""
+    return module.Memory(*[tuple(map(float, each)) if isinstance(each, tuple) else float(each) for each in memory])
 
 
 def sees(module: ModuleType, time: float, seed: np.random.Generator) -> Any:

@@ -127,6 +127,15 @@ def before(part: Logged, time: float) -> Logged:
     return Logged(part.message[:, :count], *(each[:last] for each in part[1:]))
 
 
+def after(part: Logged, time: float) -> Logged:
+    """The messages of a part that were sent after a time [s]."""
+    count = int(np.searchsorted(part.message[L_TIME], time, side="right"))
+    first = int(part.message[L_FIRST, count]) if count < part.message.shape[1] else part.link.size
+    message = part.message[:, count:].copy()
+    message[L_FIRST] -= first
+    return Logged(message, *(each[first:] for each in part[1:]))
+
+
 @lean
 def is_full(messages, entries, message_room, entry_room, count):
     """Whether all that may come in one call might not find room."""

@@ -1,6 +1,7 @@
 /** The socket of a live run, kept open as long as somebody looks at it. */
 
 import { useEffect, useState, useSyncExternalStore } from "react";
+import type { Layers } from "../model/layer";
 import { type Channel, isLive, type RunEvent, type Server } from "../model/run";
 import { append, noSamples, type Samples } from "../model/samples";
 
@@ -14,6 +15,8 @@ export interface LiveState extends Omit<Server["StateNews"], "type" | "scenario"
   /** Grows in place; `version` tells when. */
   samples: Samples;
   version: number;
+  /** What can be drawn over the scene now. */
+  layers: Layers | null;
 }
 
 const RETRY_MS = 1500;
@@ -34,6 +37,7 @@ const fresh = (run: number): LiveState => ({
   channels: [],
   samples: noSamples(),
   version: 0,
+  layers: null,
 });
 
 /** What one message makes of the state. */
@@ -48,6 +52,8 @@ export function reduce(state: LiveState, message: Server["News"]): LiveState {
     case "samples":
       append(state.samples, message);
       return { ...state, version: state.version + 1 };
+    case "layers":
+      return { ...state, layers: message };
     case "event": {
       const { type: _type, ...event } = message;
       // a near miss is told when it is over, and stands where it was

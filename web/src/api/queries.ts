@@ -3,7 +3,7 @@
 import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQueryClient } from "@tanstack/react-query";
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
-import type { SideBySide } from "../model/beside";
+import { numbersOf, type SideBySide } from "../model/beside";
 import type { Check, Kinds, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
@@ -151,6 +151,20 @@ export const trace = (number: number, channels: readonly string[], { points = 10
     placeholderData: keepPreviousData,
   });
 
+/** The measures of a stretch of a run [s]. */
+export const stretch = (number: number, span: readonly [number, number] | undefined) =>
+  queryOptions({
+    queryKey: ["stretch", number, span],
+    queryFn: () =>
+      answer(
+        client.GET("/api/runs/{run}/stretch", {
+          params: { path: { run: number }, query: { begin: span?.[0] ?? 0, end: span?.[1] ?? 0 } },
+        }),
+      ),
+    enabled: span !== undefined && span[1] > span[0],
+    staleTime: Infinity,
+  });
+
 /** Why things happened in a run that is over. */
 export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "status" | "events">) =>
   queryOptions({
@@ -168,12 +182,18 @@ export const beside = (numbers: readonly number[], everything: boolean) =>
     placeholderData: keepPreviousData,
   });
 
+/** Other runs among the cars of one, as its address has them. */
+const haunted = ({ run, ghosts, align }: { run: number; ghosts: string; align: string }) => ({
+  ghosts: numbersOf(ghosts).filter((other) => other !== run),
+  align,
+});
+
 /** A run that has ended meanwhile is another thing to show than while it went on. */
-export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean }) =>
+export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean; ghosts: string; align: string }) =>
   queryOptions({
     queryKey: ["scene", what],
     queryFn: () =>
-      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run } : { set: {}, ...what } })),
+      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run, ...haunted(what) } : { set: {}, ghosts: [], align: "", ...what } })),
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,
@@ -191,6 +211,18 @@ export function useStart() {
     mutationFn: (start: Start) =>
       answer(client.POST("/api/live", { body: start })),
     onSuccess: () =>
+      Promise.all([["queue"], ["runs"]].map((queryKey) => kept.invalidateQueries({ queryKey }))),
+  });
+}
+
+/** Start runs of more seeds that nobody watches; they wait for their turns. */
+export function useStartUnseen() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: async ({ rest, ...start }: Filled<Server["NewRun"], { set: Changes }> & { rest: readonly number[] }) => {
+      for (const seed of rest) await answer(client.POST("/api/runs", { body: { ...start, seed } }));
+    },
+    onSettled: () =>
       Promise.all([["queue"], ["runs"]].map((queryKey) => kept.invalidateQueries({ queryKey }))),
   });
 }

@@ -83,9 +83,10 @@ function useActions(onKeys: () => void, opened: boolean): SpotlightActionGroupDa
     ]),
     group(
       "Scenarios",
-      files.map(({ id, title }) =>
+      files.flatMap(({ id, title }) => [
         action(`scenario ${id}`, title, "car", () => navigate({ to: "/studio/$scenario", params: { scenario: id }, search: {} }), `open ${id} in the studio`),
-      ),
+        action(`edit ${id}`, `Edit ${title}`, "pen", () => navigate({ to: "/edit/$scenario", params: { scenario: id } }), `edit ${id} on the plan`),
+      ]),
     ),
     group(
       "Runs",

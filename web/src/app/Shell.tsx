@@ -68,6 +68,8 @@ interface StudioPlace {
   run: number | undefined;
   from: number | undefined;
   time: number | undefined;
+  ghosts: string | undefined;
+  align: string | undefined;
 }
 
 /** The studio stays under the other places, so that its scene need not be loaded again. */
@@ -75,16 +77,16 @@ function Places() {
   const match = useMatch({ from: "/studio/$scenario", shouldThrow: false });
   const [last, setLast] = useState<StudioPlace>();
   const scenario = match?.params.scenario;
-  const { run, from, time } = match?.search ?? {};
+  const { run, from, time, ghosts, align } = match?.search ?? {};
   useEffect(() => {
     if (scenario === undefined) return;
-    setLast({ scenario, run, from, time: undefined });
+    setLast({ scenario, run, from, time: undefined, ghosts, align });
     rememberScenario(scenario);
-  }, [scenario, run, from]);
+  }, [scenario, run, from, ghosts, align]);
   // A scenario that was deleted or renamed meanwhile is let go.
   const { data: known } = useQuery(scenarios);
   const lost = last !== undefined && known !== undefined && !known.some(({ id }) => id === last.scenario);
-  const shown = scenario !== undefined ? { scenario, run, from, time } : lost ? undefined : last;
+  const shown = scenario !== undefined ? { scenario, run, from, time, ghosts, align } : lost ? undefined : last;
   return (
     <>
       {shown ? <StudioPage {...shown} active={scenario !== undefined} /> : null}
@@ -127,7 +129,8 @@ function Navigation() {
   const broken = useQuery(kinds).data?.broken.length ?? 0;
   const waiting = useQuery(queue).data?.filter(({ status }) => status === "waiting").length ?? 0;
   const place = (to: "/" | "/scenarios" | "/runs" | "/queue" | "/compare" | "/maps" | "/validate" | "/kinds", testId: string, label: ReactNode) => {
-    const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to);
+    const isEdited = to === "/scenarios" && pathname.startsWith("/edit");
+    const here = to === "/" ? pathname === "/" || pathname.startsWith("/studio") : pathname.startsWith(to) || isEdited;
     return (
       <Link
         to={to}
@@ -248,6 +251,7 @@ const KEYS: [string[], string][] = [
   [[","], "One sample back in a run that is over"],
   [["<", ">"], "One second back or on in a run that is over"],
   [["[", "]"], "Previous or next event of a run that is over"],
+  [["i", "o"], "The stretch of a run that is over begins, or ends, here"],
   [["/"], "Search parameters, scenarios or kinds, or filter the runs"],
   [["g", "s"], "Go to the studio"],
   [["g", "f"], "Go to the scenario files"],
@@ -266,6 +270,15 @@ const KEYS: [string[], string][] = [
   [["F2"], "Rename the scenario of a row"],
   [["del"], "Delete the scenario of a row; it can be brought back"],
   [["ctrl", "S"], "Save the text of a scenario"],
+  [["ctrl", "Z"], "Undo the last step in the editor; with Shift, do it again"],
+  [["ctrl", "C"], "Copy what is chosen in the editor; Ctrl+V puts it down, Ctrl+D does both, Ctrl+A chooses everything"],
+  [["del"], "Delete what is chosen in the editor"],
+  [["arrows"], "Move what is chosen in the editor by half a metre; with Shift by five"],
+  [["f"], "Look at what is chosen in the editor, or at everything"],
+  [["m"], "Measure in the editor"],
+  [["r"], "Lead the route of what is chosen in the editor along the roads that are clicked"],
+  [["n"], "Names on the plan of the editor"],
+  [["esc"], "Take the last point back, leave a tool, choose nothing"],
   [["+", "−"], "Enlarge or reduce the plan of a map"],
   [["f"], "Show all of the plan"],
   [["ctrl", "K"], "Go to any place, scenario, run or map by its name"],

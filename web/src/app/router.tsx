@@ -32,7 +32,16 @@ export const studioRoute = createRoute({
   path: "/studio/$scenario",
   validateSearch: (
     search: Record<string, unknown>,
-  ): { run?: number | undefined; from?: number | undefined; time?: number | undefined } => ({
+  ): {
+    run?: number | undefined;
+    from?: number | undefined;
+    time?: number | undefined;
+    /** Other runs among its cars, with commas, and the kind of event that is at the same time in all of them. */
+    ghosts?: string | undefined;
+    align?: string | undefined;
+  } => ({
+    ghosts: text(search.ghosts),
+    align: text(search.align),
     run: number(search.run),
     from: number(search.from),
     time: real(search.time),
@@ -174,6 +183,28 @@ const projectRoute = createRoute({
   },
 });
 
+const EditPage = lazy(async () => ({ default: (await import("../features/edit/EditPage")).EditPage }));
+
+const editRoute = createRoute({
+  getParentRoute: () => root,
+  path: "/edit/$scenario",
+  validateSearch: ({ at }: Record<string, unknown>): { at?: string | undefined } => ({ at: text(at) }),
+  component: function Edit() {
+    const { scenario } = editRoute.useParams();
+    const navigate = useNavigate();
+    return (
+      <Suspense fallback={<Loading what="the editor" />}>
+        <EditPage
+          key={scenario}
+          id={scenario}
+          at={editRoute.useSearch().at}
+          onAt={(at) => void navigate({ to: "/edit/$scenario", params: { scenario }, search: { at }, replace: true })}
+        />
+      </Suspense>
+    );
+  },
+});
+
 const KindsPage = lazy(async () => ({ default: (await import("../features/kinds/KindsPage")).KindsPage }));
 
 const mapsRoute = createRoute({
@@ -229,6 +260,7 @@ export const router = createRouter({
     studioRoute,
     scenariosRoute,
     textRoute,
+    editRoute,
     runsRoute,
     runRoute,
     queueRoute,

@@ -4,7 +4,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { type ReactNode, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { formatFixed, formatNumber, formatTime, withUnit } from "../model/units";
+import { formatFixed, formatNumber, formatTime, unitText, withUnit, words } from "../model/units";
 import { type Limits, limitsOf } from "./limits";
 import { Stroke } from "./Stroke";
 import classes from "./TimeChart.module.css";
@@ -16,6 +16,15 @@ export interface Line {
   color: string;
   /** [px] Stroke and gap in turn; solid without. */
   dash?: readonly number[];
+  /** On the second axis, at the right. */
+  right?: boolean;
+}
+
+/** Values below `least`, or above `most`, are not wanted. */
+export interface Shade {
+  metric: string;
+  least?: number;
+  most?: number;
 }
 
 export type Columns = [number[], ...(number | null | undefined)[][]];
@@ -36,6 +45,10 @@ interface Props {
   height?: number;
   /** Stands in front of the legend, for instance the choice of the quantity. */
   lead?: ReactNode;
+  /** The unit of the second axis. */
+  rightUnit?: string | undefined;
+  /** Where goals are missed: the ground is red there. */
+  shades?: readonly Shade[];
   /** The time of a playback: a line stands there, and a click goes there. */
   head?: Head | undefined;
 }
@@ -56,9 +69,10 @@ const FONT = '11px system-ui, -apple-system, "Segoe UI", sans-serif';
 /** Equal left margins keep stacked charts aligned. */
 const AXIS_WIDTH = 52;
 
-function series({ label, color, dash }: Line): uPlot.Series {
+function series({ label, color, dash, right }: Line): uPlot.Series {
   return {
     label,
+    scale: right ? RIGHT : "y",
     stroke: color,
     width: dash ? 1.5 : 1.75,
     ...(dash ? { dash: [...dash] } : {}),
@@ -66,6 +80,23 @@ function series({ label, color, dash }: Line): uPlot.Series {
     spanGaps: false,
   };
 }
+
+const RIGHT = "right";
+
+/** The ground is red where a goal is missed, and the edge of that is a line. */
+function shade(chart: uPlot, shades: readonly Shade[]): void {
+  const { ctx, bbox } = chart;
+  const edge = (value: number) => Math.min(Math.max(chart.valToPos(value, "y", true), bbox.top), bbox.top + bbox.height);
+  ctx.save();
+  ctx.fillStyle = MISSED;
+  for (const { least, most } of shades) {
+    if (least !== undefined) ctx.fillRect(bbox.left, edge(least), bbox.width, bbox.top + bbox.height - edge(least));
+    if (most !== undefined) ctx.fillRect(bbox.left, bbox.top, bbox.width, edge(most) - bbox.top);
+  }
+  ctx.restore();
+}
+
+const MISSED = "rgba(224, 49, 49, 0.13)";
 
 /** In a low chart the unit stands at the ticks, which saves the line of the label. */
 const withSecond = (_chart: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${tick} s`);
@@ -128,7 +159,7 @@ function follow(chart: uPlot, head: Head, memory: Memory): () => void {
 }
 
 function options(
-  { title, unit, lines, duration = 0, sync }: Props,
+  { title, unit, lines, duration = 0, sync, rightUnit, shades = [] }: Props,
   dark: boolean,
   memory: Memory,
   low: boolean,
@@ -163,13 +194,18 @@ function options(
         range: (_u, _low, high) => (memory.span ? [...memory.span] : [0, Math.max(duration, high ?? 0, 1)]),
       },
       y: { range: () => padded(memory.limits) },
+      ...(rightUnit === undefined ? {} : { [RIGHT]: { range: (_u: uPlot, low: number, high: number) => padded(limitsFrom(low, high)) } }),
     },
     axes: [
       { ...axis, size: 24, space: 60, ...(low ? { values: withSecond } : { label: "Time [s]" }) },
       { ...axis, size: AXIS_WIDTH - 16, label: withUnit(title, unit), space: 28 },
+      ...(rightUnit === undefined
+        ? []
+        : [{ ...axis, scale: RIGHT, side: 1 as const, size: AXIS_WIDTH - 16, label: `[${unitText(rightUnit) || "1"}]`, grid: { show: false } }]),
     ],
     series: [{ label: "Time" }, ...lines.map(series)],
     hooks: {
+      drawClear: [(chart) => shade(chart, shades)],
       draw: [() => memory.onDraw()],
       setCursor: [(chart) => memory.onCursor(pointedAt(chart))],
       setSelect: [
@@ -188,6 +224,9 @@ function pointedAt(chart: uPlot): number | null {
   const { left = -1 } = chart.cursor;
   return left < 0 ? null : chart.posToVal(left, "x");
 }
+
+const limitsFrom = (low: number | null, high: number | null): Limits | undefined =>
+  low === null || high === null ? undefined : { low, high };
 
 /** A little air above and below, and never a range without height. */
 function padded(limits: Limits | undefined): [number, number] {
@@ -231,13 +270,20 @@ function valueAt(column: Columns[number] | undefined, index: number | null): num
   return null;
 }
 
+/** The columns of the first axis; the very same when there is no other. */
+function leftOf(data: Columns, lines: readonly Line[]): Columns {
+  if (!lines.some(({ right }) => right)) return data;
+  return [data[0], ...data.slice(1).filter((_, place) => !lines[place]?.right)] as Columns;
+}
+
 export function TimeChart(props: Props) {
   const { lines, data, version, title, unit, height = 180, lead, head, zoom } = props;
   const dark = useComputedColorScheme("light") === "dark";
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>(undefined);
   const [cursor, setCursor] = useState<number | null>(null);
-  const [limits, outside, toggle] = useLimits(title, data, version, zoom.span);
+  const left = useMemo(() => leftOf(data, lines), [data, lines, version]);
+  const [limits, outside, toggle] = useLimits(title, left, version, zoom.span);
   const memory = useRef<Memory>({
     span: zoom.span,
     limits,
@@ -246,7 +292,7 @@ export function TimeChart(props: Props) {
     onDraw: () => undefined,
   });
   Object.assign(memory.current, { span: zoom.span, limits, onSpan: zoom.choose });
-  const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark]);
+  const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark, props.rightUnit, props.shades]);
 
   // A chart is rebuilt only when its lines, axes or theme change; samples are set below.
   // `shape` stands for all of them.
@@ -299,6 +345,11 @@ export function TimeChart(props: Props) {
                 <b className={classes.value}>{shown(valueAt(data[place + 1], index))}</b>
               </span>
             ))}
+          </span>
+        ))}
+        {(props.shades ?? []).map((each) => (
+          <span key={each.metric} className={classes.item} title="The ground is red where this goal is missed">
+            goal {words(each.metric)} {[each.least === undefined ? "" : `≥ ${formatNumber(each.least)}`, each.most === undefined ? "" : `≤ ${formatNumber(each.most)}`].filter(Boolean).join(", ")}
           </span>
         ))}
         <Outside limits={outside} whole={limits !== outside} onToggle={toggle} />

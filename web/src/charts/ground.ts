@@ -202,7 +202,7 @@ function addDashes(path: Path2D, line: Line): void {
 // -- what is on a lane ---------------------------------------------------------------------------
 
 /** The edges of lanes towards the middle of the road: between lanes of one road, and beside the innermost ones. */
-function markings(lanes: readonly PlanLane[], side: DriveSide): { between: Line[]; middle: Line[] } {
+export function markings(lanes: readonly PlanLane[], side: DriveSide): { between: Line[]; middle: Line[] } {
   const last = new Map<string, number>();
   for (const { road, index } of lanes) last.set(road, Math.max(last.get(road) ?? 0, index));
   const towardsMiddle = side === "right" ? 1 : -1;
@@ -227,7 +227,7 @@ function beside(line: Line, left: number): Line {
 const EVERY = 40; // [m] between arrows along a lane
 
 /** Small arrow heads that tell which way a lane is driven. */
-function directions({ centre }: PlanLane): Line[] {
+export function directions({ centre }: PlanLane): Line[] {
   const heads: Line[] = [];
   const total = centre.slice(1).reduce((sum, [x, y], at) => sum + Math.hypot(x - (centre[at]?.[0] ?? x), y - (centre[at]?.[1] ?? y)), 0);
   if (total < 8) return heads;
@@ -308,6 +308,9 @@ export function paint(context: Context, { bounds, layers }: Ground, view: View, 
     }
   }
 }
+
+/** The colours of the ground by name. */
+export const coloursOf = (dark: boolean) => (dark ? COLOURS.dark : COLOURS.light);
 
 /** What lies around the map. */
 export const outsideColour = (dark: boolean): string => (dark ? COLOURS.dark : COLOURS.light).outside;

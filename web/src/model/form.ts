@@ -17,6 +17,8 @@ export interface Field {
   unit: string;
   kind: Kind;
   choices: string[];
+  /** What of the scenario it names: a vehicle, a route. */
+  names?: string;
   /** What a text may be, among others. */
   suggestions: string[];
   minimum?: number;
@@ -222,6 +224,7 @@ function field(path: string, schema: Schema, initial: Json, changes: Changes, em
   };
   const minimum = schema.minimum ?? schema.exclusiveMinimum;
   const maximum = schema.maximum ?? schema.exclusiveMaximum;
+  if (schema.names) result.names = schema.names;
   if (minimum !== undefined) result.minimum = minimum;
   if (maximum !== undefined) result.maximum = maximum;
   return result;

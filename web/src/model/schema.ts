@@ -9,6 +9,8 @@ export interface Schema {
   title?: string;
   description?: string;
   unit?: string;
+  /** What of the scenario a text names: a vehicle, a route, an entry of the script. */
+  names?: string;
   /** Of a slot: of which sort the kind is that is chosen there. */
   sort?: string;
   default?: Json;

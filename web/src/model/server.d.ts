@@ -280,6 +280,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run}/stretch": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Run Stretch
+         * @description The measures of a stretch of a run, where they can be made from what was recorded: each without the others' time.
+         */
+        get: operations["run_stretch_api_runs__run__stretch_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/runs/{run}/trajectories": {
         parameters: {
             query?: never;
@@ -1236,6 +1256,131 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/scenarios/{scenario}/editing": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Editing
+         * @description A scenario as it is edited: its document, where everything lies, what happens when, and what can be undone.
+         */
+        get: operations["editing_api_scenarios__scenario__editing_get"];
+        put?: never;
+        /**
+         * Edit
+         * @description Does an edit and writes the file: all of it if the result can be run, else nothing. One to an older revision is done to the present
+         *     one, unless somebody has changed the same.
+         */
+        post: operations["edit_api_scenarios__scenario__editing_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/editing/undo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Undo
+         * @description Takes the last step back, whoever has done it.
+         */
+        post: operations["undo_api_scenarios__scenario__editing_undo_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/editing/redo": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Redo
+         * @description Does the step again that was undone last.
+         */
+        post: operations["redo_api_scenarios__scenario__editing_redo_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/plan": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Scenario Plan
+         * @description The map of a scenario from above, cut as the scenario cuts it.
+         */
+        get: operations["scenario_plan_api_scenarios__scenario__plan_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/way": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * A Way
+         * @description The way through points on the map of a scenario; nothing is written. Where no way leads, the answer says why.
+         */
+        post: operations["a_way_api_scenarios__scenario__way_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/scenarios/{scenario}/editing/socket": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Socket Only
+         * @description A WebSocket (RFC 6455): news of every change of a scenario. Asked for anything else, it refuses.
+         */
+        get: operations["socket_only_api_scenarios__scenario__editing_socket_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1494,6 +1639,69 @@ export interface components {
             scenario: string;
         };
         /**
+         * Editing
+         * @description A scenario that is edited: the document, where everything lies, and what can be undone.
+         */
+        Editing: {
+            /** Scenario */
+            scenario: string;
+            /** Title */
+            title: string;
+            /**
+             * Revision
+             * @description grows with every change, also with undo
+             */
+            revision: number;
+            /**
+             * Digest
+             * @description of the file's text, as in its ETag
+             */
+            digest: string;
+            /**
+             * Sealed
+             * @description why it cannot be changed; empty when it can
+             */
+            sealed: string;
+            /**
+             * Document
+             * @description with all defaults
+             */
+            document: {
+                [key: string]: unknown;
+            };
+            /**
+             * Given
+             * @description as it stands in the file
+             */
+            given: {
+                [key: string]: unknown;
+            };
+            /**
+             * Duration
+             * @description of the run [s]
+             */
+            duration: number;
+            /** Items */
+            items: components["schemas"]["Item"][];
+            /** Turns */
+            turns: components["schemas"]["Turn"][];
+            /**
+             * Done
+             * @description what can be undone, the next one last
+             */
+            done: components["schemas"]["Step"][];
+            /**
+             * Undone
+             * @description what can be done again, the next one last
+             */
+            undone: components["schemas"]["Step"][];
+        };
+        /**
+         * EditingNews
+         * @description One message of the socket of a scenario that is edited.
+         */
+        EditingNews: components["schemas"]["Revised"] | components["schemas"]["Gone"];
+        /**
          * EndNews
          * @description The last message: the run is over and saved.
          */
@@ -1673,6 +1881,87 @@ export interface components {
             lines: string[];
         };
         /**
+         * Figure
+         * @description Something to be drawn: a body, a point, a line, a patch of road or an area.
+         */
+        Figure: {
+            /**
+             * Path
+             * @description of what it shows, in the document
+             */
+            path: string;
+            /**
+             * Shape
+             * @enum {string}
+             */
+            shape: "body" | "point" | "line" | "patch" | "area";
+            /**
+             * Looks
+             * @description of a body: pedestrian, box, tree …; empty: a vehicle
+             * @default
+             */
+            looks: string;
+            /**
+             * X
+             * @description middle of a body, or the point: east [m]
+             * @default 0
+             */
+            x: number;
+            /**
+             * Y
+             * @description north [m]
+             * @default 0
+             */
+            y: number;
+            /**
+             * Heading
+             * @description of its length [rad]
+             * @default 0
+             */
+            heading: number;
+            /**
+             * Length
+             * @description of a body [m]
+             * @default 0
+             */
+            length: number;
+            /**
+             * Width
+             * @description of a body [m]
+             * @default 0
+             */
+            width: number;
+            /**
+             * Anchor
+             * @description the place that the document gives: of a vehicle its centre of gravity [m]
+             */
+            anchor?: [
+                number,
+                number
+            ] | null;
+            /**
+             * Line
+             * @description outline of a patch or area; way of a body, a route [m]
+             * @default []
+             */
+            line: [
+                number,
+                number
+            ][];
+            /**
+             * Colour
+             * @description of a vehicle
+             * @default
+             */
+            colour: string;
+            /**
+             * Handles
+             * @description of a route
+             * @default []
+             */
+            handles: components["schemas"]["Handle"][];
+        };
+        /**
          * Gap
          * @description From when to when nothing was recorded [s].
          */
@@ -1710,6 +1999,39 @@ export interface components {
              * @description [1] of the greater value: metrics of two runs that differ by less are the same
              */
             alike: number;
+        };
+        /**
+         * Gone
+         * @description News: there is no such scenario any more, or it cannot be read.
+         */
+        Gone: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "gone";
+            /** Message */
+            message: string;
+            /** Problems */
+            problems: components["schemas"]["Problem"][];
+        };
+        /**
+         * Handle
+         * @description A road that a route names, and a point to hold it by.
+         */
+        Handle: {
+            /** Road */
+            road: string;
+            /**
+             * X
+             * @description east [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description north [m]
+             */
+            y: number;
         };
         /**
          * Harmed
@@ -1756,6 +2078,67 @@ export interface components {
             scenarios_folder: string;
             /** @description what is compiled before the first run; null when that is done */
             compiling: components["schemas"]["Compiling"] | null;
+        };
+        /**
+         * Item
+         * @description Something of the scenario that can be chosen.
+         */
+        Item: {
+            /**
+             * Path
+             * @description in the document
+             */
+            path: string;
+            /**
+             * Group
+             * @enum {string}
+             */
+            group: "vehicle" | "person" | "object" | "friction" | "area" | "radio" | "station" | "event" | "route";
+            /** Name */
+            name: string;
+            /**
+             * Told
+             * @description what it is, in words
+             */
+            told: string;
+            /** Figures */
+            figures: components["schemas"]["Figure"][];
+            /**
+             * Vehicles
+             * @description that an entry of the script is about
+             * @default []
+             */
+            vehicles: string[];
+            /**
+             * Route
+             * @description of a vehicle
+             */
+            route?: string | null;
+            /**
+             * Road
+             * @description on which a vehicle starts
+             */
+            road?: string | null;
+            /**
+             * Lane
+             * @description of that road
+             */
+            lane?: number | null;
+            /**
+             * Offset
+             * @description from the start of that lane [m]
+             */
+            offset?: number | null;
+            /**
+             * Along
+             * @description its route [m], where the file says so
+             */
+            along?: number | null;
+            /**
+             * Station
+             * @description of a vehicle, on the line of its figure [m]
+             */
+            station?: number | null;
         };
         /**
          * IterationDetail
@@ -1882,6 +2265,189 @@ export interface components {
              * @description messages since the newest that had come
              */
             lost: components["schemas"]["Lost"][];
+        };
+        /**
+         * LayerCar
+         * @description What is known of a car that the picture does not show.
+         */
+        LayerCar: {
+            /**
+             * Car
+             * @description its index in the scene
+             */
+            car: number;
+            /**
+             * Speed
+             * @description [m/s]
+             */
+            speed: number | null;
+            /**
+             * Brakes
+             * @description whether its brake lights are on
+             */
+            brakes: boolean;
+            /**
+             * Turns
+             * @description 1: its way bends to the left soon, -1: to the right; cars of the simulation have no indicators
+             */
+            turns: number;
+            /**
+             * Ahead
+             * @description index of the car ahead; null when there is none, or something else
+             */
+            ahead: number | null;
+            /**
+             * Gap
+             * @description [m] to what is ahead
+             */
+            gap: number | null;
+            /**
+             * Notice
+             * @description what its driver is shown
+             */
+            notice: string;
+        };
+        /**
+         * LayerEnd
+         * @description Who sends or hears: a car by its index, or a station at its place.
+         */
+        LayerEnd: {
+            /** Car */
+            car?: number | null;
+            /**
+             * X
+             * @description [m]
+             */
+            x?: number | null;
+            /**
+             * Y
+             * @description [m]
+             */
+            y?: number | null;
+        };
+        /**
+         * LayerField
+         * @description The field of a sensor, and what it says that it sees: in the frame of its car, x ahead and y to the left of its centre of gravity.
+         */
+        LayerField: {
+            /** Car */
+            car: number;
+            /** Sensor */
+            sensor: string;
+            /**
+             * X
+             * @description [m]
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /**
+             * Yaw
+             * @description [rad]
+             */
+            yaw: number;
+            /**
+             * Range
+             * @description [m]
+             */
+            range: number;
+            /**
+             * Angle
+             * @description [rad] from edge to edge
+             */
+            angle: number;
+            /**
+             * Seen
+             * @description [m]
+             */
+            seen: number[][];
+        };
+        /**
+         * LayerLine
+         * @description A line on the map that belongs to a car.
+         */
+        LayerLine: {
+            /** Car */
+            car: number;
+            /**
+             * Points
+             * @description [m]
+             */
+            points: number[][];
+        };
+        /**
+         * LayerMessage
+         * @description The newest message from one to another, which was sent a moment ago.
+         */
+        LayerMessage: {
+            sender: components["schemas"]["LayerEnd"];
+            receiver: components["schemas"]["LayerEnd"];
+            /** Kind */
+            kind: string;
+            /** Lost */
+            lost: boolean;
+        };
+        /**
+         * Layers
+         * @description What can be drawn over the scene at a time.
+         */
+        Layers: {
+            /**
+             * Time
+             * @description [s]
+             */
+            time: number;
+            /** Cars */
+            cars: components["schemas"]["LayerCar"][];
+            /** Fields */
+            fields: components["schemas"]["LayerField"][];
+            /** Messages */
+            messages: components["schemas"]["LayerMessage"][];
+            /**
+             * Trails
+             * @description where cars came from, the oldest point first
+             */
+            trails: components["schemas"]["LayerLine"][];
+            /**
+             * Paths
+             * @description where their ways lead
+             */
+            paths: components["schemas"]["LayerLine"][];
+        };
+        /**
+         * LayersNews
+         * @description What can be drawn over the scene now.
+         */
+        LayersNews: {
+            /**
+             * Time
+             * @description [s]
+             */
+            time: number;
+            /** Cars */
+            cars: components["schemas"]["LayerCar"][];
+            /** Fields */
+            fields: components["schemas"]["LayerField"][];
+            /** Messages */
+            messages: components["schemas"]["LayerMessage"][];
+            /**
+             * Trails
+             * @description where cars came from, the oldest point first
+             */
+            trails: components["schemas"]["LayerLine"][];
+            /**
+             * Paths
+             * @description where their ways lead
+             */
+            paths: components["schemas"]["LayerLine"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "layers";
         };
         /**
          * Layout
@@ -2559,6 +3125,12 @@ export interface components {
              * @description [s]; before the first and after the last sample that of this
              */
             time: number;
+            /**
+             * Layers
+             * @description whether what can be drawn over the scene is wanted
+             * @default false
+             */
+            layers: boolean;
         };
         /**
          * NewCopy
@@ -2645,6 +3217,53 @@ export interface components {
              * @default false
              */
             replace: boolean;
+        };
+        /**
+         * NewEdit
+         * @description An edit by name: what is set by path, then a JSON patch, new names, and what is taken out with all that is about it.
+         */
+        NewEdit: {
+            /**
+             * Name
+             * @example Move leader
+             */
+            name: string;
+            /**
+             * Base
+             * @description the revision that it was made to
+             */
+            base: number;
+            /**
+             * Who
+             * @default
+             */
+            who: string;
+            /**
+             * Set
+             * @default {}
+             */
+            set: {
+                [key: string]: unknown;
+            };
+            /**
+             * Patch
+             * @default []
+             */
+            patch: components["schemas"]["Operation"][];
+            /**
+             * Rename
+             * @description new names by path, such as vehicles.leader; who names it does so anew
+             * @default {}
+             */
+            rename: {
+                [key: string]: string;
+            };
+            /**
+             * Remove
+             * @description paths such as vehicles.leader
+             * @default []
+             */
+            remove: string[];
         };
         /**
          * NewJob
@@ -2803,6 +3422,22 @@ export interface components {
             map: string;
         };
         /**
+         * NewTurn
+         * @description Who undoes or does again, and what he has seen last.
+         */
+        NewTurn: {
+            /**
+             * Base
+             * @description the revision at which the step stood last
+             */
+            base: number;
+            /**
+             * Who
+             * @default
+             */
+            who: string;
+        };
+        /**
          * NewVerdict
          * @description What somebody decides about a run that is over.
          */
@@ -2825,10 +3460,36 @@ export interface components {
             who: string;
         };
         /**
+         * NewWay
+         * @description Points on roads, in the order in which they are driven.
+         */
+        NewWay: {
+            /**
+             * Points
+             * @description [m] of the map
+             */
+            points: [
+                number,
+                number
+            ][];
+            /**
+             * Onwards
+             * @description go on straight behind the last point, as far as a car drives in half a minute or so
+             * @default false
+             */
+            onwards: boolean;
+            /**
+             * Roads
+             * @description roads that come before the points
+             * @default []
+             */
+            roads: string[];
+        };
+        /**
          * News
          * @description One message of the socket of a live run.
          */
-        News: components["schemas"]["StateNews"] | components["schemas"]["ChannelsNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
+        News: components["schemas"]["StateNews"] | components["schemas"]["ChannelsNews"] | components["schemas"]["SamplesNews"] | components["schemas"]["EventNews"] | components["schemas"]["LayersNews"] | components["schemas"]["EndNews"] | components["schemas"]["RefusedNews"];
         /**
          * Number
          * @description A number with its unit.
@@ -2855,6 +3516,18 @@ export interface components {
             };
             /** Run */
             run?: number | null;
+            /**
+             * Ghosts
+             * @description other runs that are over, among the cars of the run that is played back
+             * @default []
+             */
+            ghosts: number[];
+            /**
+             * Align
+             * @description kind of event whose first is at the same time in all of them; empty: by their clocks
+             * @default
+             */
+            align: string;
         };
         /**
          * Operation
@@ -3359,6 +4032,26 @@ export interface components {
             name?: string | null;
         };
         /**
+         * Revised
+         * @description News: the scenario has been changed.
+         */
+        Revised: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "revised";
+            /** Revision */
+            revision: number;
+            /**
+             * Name
+             * @description of the last change
+             */
+            name: string;
+            /** Who */
+            who: string;
+        };
+        /**
          * Revision
          * @description What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was.
          */
@@ -3664,6 +4357,12 @@ export interface components {
             /** Attribution */
             attribution: string;
             /**
+             * Map
+             * @description digest of the map; the scene has a node /map/DIGEST as soon as it has the map
+             * @default
+             */
+            map: string;
+            /**
              * Begin
              * @description first time that was recorded [s]; null unless a run is played back
              */
@@ -3684,6 +4383,34 @@ export interface components {
              * @default []
              */
             notes: string[];
+            /**
+             * Ghosts
+             * @default []
+             */
+            ghosts: components["schemas"]["SceneGhost"][];
+            /**
+             * Missing
+             * @description layers that cannot be drawn, and why
+             * @default {}
+             */
+            missing: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * SceneGhost
+         * @description Another run among the cars: its colour, and by how much its clock is ahead.
+         */
+        SceneGhost: {
+            /** Run */
+            run: number;
+            /** Color */
+            color: string;
+            /**
+             * Offset
+             * @description [s]
+             */
+            offset: number;
         };
         /**
          * SceneVehicle
@@ -3696,6 +4423,26 @@ export interface components {
             index: number;
             /** Color */
             color: string;
+            /**
+             * Length
+             * @description [m]
+             */
+            length: number;
+            /**
+             * Width
+             * @description [m]
+             */
+            width: number;
+            /**
+             * Height
+             * @description [m]
+             */
+            height: number;
+            /**
+             * Middle
+             * @description [m] from its origin, below the centre of gravity, to the middle of the body
+             */
+            middle: number;
         };
         /**
          * Shown
@@ -3704,6 +4451,7 @@ export interface components {
         Shown: {
             /** Shown */
             shown: boolean;
+            layers?: components["schemas"]["Layers"] | null;
         };
         /**
          * SideBySide
@@ -3860,6 +4608,46 @@ export interface components {
             real_time_factor: number;
         };
         /**
+         * Step
+         * @description A change of the file that can be undone, or done again.
+         */
+        Step: {
+            /** Revision */
+            revision: number;
+            /** Name */
+            name: string;
+            /**
+             * Who
+             * @description which browser, or another program
+             */
+            who: string;
+            /**
+             * Time
+             * @description ISO 8601, UTC
+             */
+            time: string;
+        };
+        /**
+         * Stretch
+         * @description The measures of a stretch of a run, by name.
+         */
+        Stretch: {
+            /**
+             * Begin
+             * @description [s] the first sample in it
+             */
+            begin: number;
+            /**
+             * End
+             * @description [s] the last sample in it
+             */
+            end: number;
+            /** Metrics */
+            metrics: {
+                [key: string]: components["schemas"]["Metric"];
+            };
+        };
+        /**
          * Template
          * @description A scenario to begin with, which is laid on a way through a map.
          */
@@ -3924,6 +4712,44 @@ export interface components {
             values: (number | null)[];
         };
         /**
+         * Turn
+         * @description When an entry of the script is expected to begin.
+         */
+        Turn: {
+            /** Entry */
+            entry: string;
+            /**
+             * Told
+             * @description what it does, in words
+             */
+            told: string;
+            /**
+             * Begins
+             * @description [s]; null: it depends on what happens
+             */
+            begins: number | null;
+            /**
+             * Ends
+             * @description [s]; null: with the run, or it depends
+             */
+            ends: number | null;
+            /**
+             * Is Exact
+             * @description whether the file says the time itself; else it is reckoned with free roads
+             */
+            is_exact: boolean;
+            /**
+             * Why
+             * @description what it waits for, in words
+             */
+            why: string;
+            /**
+             * Never
+             * @description why it can never begin; empty when it may
+             */
+            never: string;
+        };
+        /**
          * TurnCount
          * @description Lanes with turn:lanes where ways part, and how many lead just where the tag says.
          */
@@ -3969,6 +4795,34 @@ export interface components {
              * @description UTC (ISO 8601)
              */
             when: string;
+        };
+        /**
+         * Way
+         * @description A way along the roads, or why none leads there.
+         */
+        Way: {
+            /** @description why there is no way; then the rest is empty */
+            problem?: components["schemas"]["Refusal"] | null;
+            /**
+             * Roads
+             * @description as a route names them
+             */
+            roads: string[];
+            /**
+             * Line
+             * @description [m]
+             */
+            line: [
+                number,
+                number
+            ][];
+            /**
+             * Length
+             * @description [m]
+             */
+            length: number;
+            /** Handles */
+            handles: components["schemas"]["Handle"][];
         };
         /**
          * Wheel
@@ -5981,6 +6835,132 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Trace"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    run_stretch_api_runs__run__stretch_get: {
+        parameters: {
+            query: {
+                /** @description [s] from then on */
+                begin: number;
+                /** @description [s] until then */
+                end: number;
+            };
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stretch"];
                 };
             };
             /** @description The body is no JSON. */
@@ -12838,6 +13818,878 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    editing_api_scenarios__scenario__editing_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    edit_api_scenarios__scenario__editing_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewEdit"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    undo_api_scenarios__scenario__editing_undo_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewTurn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    redo_api_scenarios__scenario__editing_redo_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewTurn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Editing"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    scenario_plan_api_scenarios__scenario__plan_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["MapPlan"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    a_way_api_scenarios__scenario__way_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewWay"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Way"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    socket_only_api_scenarios__scenario__editing_socket_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                scenario: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Upgrade Required */
+            426: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description 101: a WebSocket from here on; each message is one of the news */
+            "1XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["EditingNews"];
                 };
             };
         };

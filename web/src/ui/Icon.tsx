@@ -41,6 +41,10 @@ const PATHS = {
   download: "M12 4v11M7 10.5l5 5 5-5M4 17v3h16v-3",
   text: "M5 4h14v16H5zM8 9h8M8 12.5h8M8 16h5",
   save: "M4 4h13l3 3v13H4zM8 4v5h7V4M8 20v-6h8v6",
+  lock: "M6 11h12v9H6zM8.5 11V8a3.5 3.5 0 0 1 7 0v3",
+  redo: "M15 6l5 5-5 5M20 11h-9a6 6 0 0 0-6 6v2",
+  tape: "M4 16L16 4l4 4L8 20zM8 12l2 2M11 9l2 2M14 6l2 2",
+  route: "M6 20a2 2 0 1 0 0-4 2 2 0 0 0 0 4zM18 8a2 2 0 1 0 0-4 2 2 0 0 0 0 4zM8 18h7a3 3 0 0 0 0-6H9a3 3 0 0 1 0-6h7",
   eye: "M2 12c5-8 15-8 20 0-5 8-15 8-20 0zM12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
 } as const;
 

@@ -8,9 +8,10 @@ interface Props {
   value: string;
   quantities: readonly Quantity[];
   onChange: (name: string) => void;
+  label?: string;
 }
 
-export function QuantitySelect({ value, quantities, onChange }: Props) {
+export function QuantitySelect({ value, quantities, onChange, label = "Quantity of this chart" }: Props) {
   const data = quantities.map(({ name, label, unit }) => ({ value: name, label: withUnit(label, unit) }));
   // Chosen for another run, of other sensors perhaps: the select must not show what the chart does not.
   if (!quantities.some(({ name }) => name === value))
@@ -19,7 +20,7 @@ export function QuantitySelect({ value, quantities, onChange }: Props) {
     <NativeSelect
       size="xs"
       w={208}
-      aria-label="Quantity of this chart"
+      aria-label={label}
       title={quantity(value, quantities).meaning}
       value={value}
       onChange={(event) => onChange(event.currentTarget.value)}

@@ -3,6 +3,9 @@
 const LAST = "last scenario";
 export const draftKey = (id: string): string => `draft ${id}`;
 
+/** Under which the charts of a scenario are kept. */
+export const chartsKey = (id: string): string => `charts ${id}`;
+
 /** The scenario that was open last. */
 export const lastScenario = (): string | null => localStorage.getItem(LAST);
 
@@ -12,6 +15,9 @@ export const rememberScenario = (id: string): void => localStorage.setItem(LAST,
 /** A scenario has another name from now on. */
 export function moveMemory(from: string, to: string): void {
   if (lastScenario() === from) rememberScenario(to);
+  const charts = localStorage.getItem(chartsKey(from));
+  if (charts !== null) localStorage.setItem(chartsKey(to), charts);
+  localStorage.removeItem(chartsKey(from));
   const draft = sessionStorage.getItem(draftKey(from));
   if (draft === null) return;
   sessionStorage.setItem(draftKey(to), draft);

@@ -2,6 +2,7 @@
 
 import { Checkbox, Group, NativeSelect, Text } from "@mantine/core";
 import { useQueries } from "@tanstack/react-query";
+import { Link } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
 import { run as runQuery, trace } from "../../api/queries";
@@ -11,7 +12,7 @@ import { useZoom, type Zoom } from "../../charts/zoom";
 import { commonKinds, merged, namesOf, offsetsOf, type SideBySide } from "../../model/beside";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { carColors, paintsOf } from "../../model/palette";
-import type { RunDetail } from "../../model/run";
+import type { Run, RunDetail } from "../../model/run";
 import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
 import { QuantitySelect } from "../../ui/QuantitySelect";
@@ -58,6 +59,7 @@ function Charts({ found, details }: { found: SideBySide; details: readonly RunDe
         <h2>Over time</h2>
         <Align kinds={commonKinds(events)} chosen={aligned} onChoose={setAligned} />
         <Runs names={names} offsets={offsets} />
+        <InScene runs={found.runs} aligned={aligned} />
         <Vehicles colors={colors} hidden={hidden} onHidden={setHidden} plain={details.length > 2} />
       </Group>
       <div className={classes.charts}>
@@ -120,6 +122,20 @@ function Align({ kinds, chosen, onChoose }: AlignProps) {
         ...kinds.map((kind) => ({ value: kind, label: `by the first “${words(kind).toLowerCase()}”` })),
       ]}
     />
+  );
+}
+
+/** The first run in the 3D scene, and the others as ghosts among its cars, on one clock. */
+function InScene({ runs: [first, ...others], aligned }: { runs: readonly Run[]; aligned: string | undefined }) {
+  if (!first || others.length === 0) return null;
+  return (
+    <Link
+      to="/studio/$scenario"
+      params={{ scenario: first.scenario }}
+      search={{ run: first.run, ghosts: others.map(({ run }) => run).join(","), align: aligned }}
+    >
+      Show in the scene
+    </Link>
   );
 }
 

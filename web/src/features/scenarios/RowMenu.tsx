@@ -49,6 +49,14 @@ export function RowMenu({ open, onClose, onDeed }: Props) {
         </Menu.Item>
         <Menu.Item
           component={Link}
+          to="/edit/$scenario"
+          params={{ scenario: row.id } as never}
+          leftSection={icon("map")}
+        >
+          Edit on the plan
+        </Menu.Item>
+        <Menu.Item
+          component={Link}
           to="/scenarios/$scenario/text"
           params={{ scenario: row.id } as never}
           leftSection={icon("text")}

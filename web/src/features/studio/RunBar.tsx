@@ -9,6 +9,7 @@ import { formatNumber, formatTime } from "../../model/units";
 import { Icon, type IconName } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { StatusBadge } from "../../ui/StatusBadge";
+import { MOST_SEEDS } from "./control";
 import classes from "./Studio.module.css";
 
 export interface Progressing {
@@ -31,6 +32,8 @@ export interface Controls {
   onPace: (pace: Pace) => void;
   /** Null: as the scenario says. */
   onSeed: (seed: number | null) => void;
+  /** How many seeds are run at once. */
+  onSeeds: (seeds: number) => void;
 }
 
 interface Props extends Controls {
@@ -38,18 +41,19 @@ interface Props extends Controls {
   duration: number;
   pace: Pace;
   seed: number;
+  seeds: number;
   starting: boolean;
   /** Why no run can be started; empty when one can. */
   blocked: string;
 }
 
 const PACES = [
-  ...[0.1, 0.25, 0.5, 1, 2, 4, 8].map((pace) => ({ value: String(pace), label: `${pace} × real time` })),
+  ...[0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8].map((pace) => ({ value: String(pace), label: `${pace} × real time` })),
   { value: "fast", label: "As fast as possible" },
 ];
 
 export function RunBar(props: Props) {
-  const { progress, pace, seed, starting, blocked, onRun, onSeed, onPace } = props;
+  const { progress, pace, seed, seeds, starting, blocked, onRun, onSeed, onSeeds, onPace } = props;
   const live = isLive(progress?.status);
   return (
     <div className={classes.bar} role="toolbar" aria-label="Run control">
@@ -64,7 +68,7 @@ export function RunBar(props: Props) {
             disabled={live || blocked !== ""}
             loading={starting}
           >
-            {progress && !live ? "Run again" : "Run"}
+            {seeds > 1 ? `Run ${seeds} seeds` : progress && !live ? "Run again" : "Run"}
           </Button>
         </span>
       </Tooltip>
@@ -92,6 +96,23 @@ export function RunBar(props: Props) {
           value={seed}
           onNumber={onSeed}
           onEmpty={() => onSeed(null)}
+        />
+        <Tooltip label="So many seeds at once, from this one on: the first is shown, the others run unseen, and the tab Seeds tells their spread" multiline maw={300}>
+          <label htmlFor="seeds">×</label>
+        </Tooltip>
+        <NumberEntry
+          size="xs"
+          className={classes.seedsField}
+          id="seeds"
+          aria-label="Seeds at once"
+          min={1}
+          max={MOST_SEEDS}
+          step={1}
+          whole
+          disabled={live}
+          value={seeds}
+          onNumber={onSeeds}
+          onEmpty={() => onSeeds(1)}
         />
       </span>
       <TimeShown progress={progress} duration={progress?.duration || props.duration} />

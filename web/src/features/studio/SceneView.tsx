@@ -2,11 +2,13 @@
 
 import { NativeSelect, SegmentedControl } from "@mantine/core";
 import { memo, useCallback, useEffect, useRef, useState } from "react";
-import type { SceneVehicle } from "../../api/types";
+import type { Scene, SceneVehicle } from "../../api/types";
 import { isTraffic } from "../../model/channel";
-import { words } from "../../model/units";
+import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
-import { useBridge, type View } from "./bridge";
+import { useBridge, useMap, type View } from "./bridge";
+import { LayersMenu } from "./LayersMenu";
+import { type Sight, useLayers } from "./sight";
 import classes from "./Studio.module.css";
 
 const VIEWS = [
@@ -23,11 +25,22 @@ interface Props {
   active: boolean;
   /** Whether a run is going on: then the first car is followed, unless somebody has chosen a view. */
   running: boolean;
+  /** What the scene is to show; why it does not yet, empty when it does; and the map of it. */
+  title: string;
+  waits: string;
+  map: string | undefined;
+  /** Other runs that are among the cars. */
+  ghosts: Scene["ghosts"];
+  /** Whether what is shown is a run, live or played back. */
+  run: boolean;
+  /** What is drawn over the scene, and which layers of it cannot be. */
+  sight: Sight;
+  missing: Readonly<Record<string, string>>;
   /** The scene has lost what it showed, as after a restart of the server. */
   onEmptied: () => void;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, onEmptied }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, title, waits, map, ghosts, run, sight, missing, onEmptied }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
@@ -39,11 +52,19 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     setFollowed(vehicle);
     setView((before) => (vehicle === null ? "overview" : before === "overview" ? "chase" : before));
   }, []);
+  const there = useMap(frame, map ?? "");
   const { ready, send } = useBridge(frame, follow, onEmptied);
 
   // A scene that has just become ready must be told everything again.
   // `ready` counts how often that was.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
+  const [layers, chooseLayers] = useLayers();
+  useEffect(() => send({ studio: "rest", rest: !active }), [active, ready, send]);
+  useEffect(() => send({ studio: "layers", on: layers }), [layers, ready, send]);
+  useEffect(() => {
+    send({ studio: "cast", cars: vehicles });
+    return sight.show((seen) => send({ studio: "seen", layers: seen }));
+  }, [vehicles, sight, ready, send]);
   useEffect(() => {
     // Nothing was chosen for a scene that is built again, and the user may have turned it.
     if (followed === null && view === "overview" && told.current === view) return;
@@ -91,14 +112,48 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
             value={view}
             onChange={(value) => choose(value as View)}
           />
+          <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
         </div>
       ) : null}
+      {waits || !there ? <Cover key={title} title={title} what={waits || (ready ? "The browser loads the map" : "The 3D view comes up")} /> : null}
+      {active && ghosts?.length ? <Ghosts ghosts={ghosts} /> : null}
       <span className={classes.attribution} data-testid="attribution" hidden={attribution === ""}>
         {attribution}
       </span>
     </div>
   );
 });
+
+/** Over the scene while that is not what the title says: what is going on, and for how long. */
+function Cover({ title, what }: { title: string; what: string }) {
+  const [seconds, setSeconds] = useState(0);
+  useEffect(() => {
+    const timer = setInterval(() => setSeconds((before) => before + 1), 1000);
+    return () => clearInterval(timer);
+  }, []);
+  return (
+    <div className={classes.cover} role="status" aria-label="The scene is loading">
+      <b>{title}</b>
+      <span>
+        {what} … {seconds > 1 ? <span aria-hidden="true">{seconds} s</span> : null}
+      </span>
+    </div>
+  );
+}
+
+/** Which colour is whose run. */
+function Ghosts({ ghosts }: { ghosts: NonNullable<Scene["ghosts"]> }) {
+  return (
+    <ul className={classes.ghosts} aria-label="Ghosts of other runs">
+      {ghosts.map(({ run, color, offset }) => (
+        <li key={run}>
+          <span className={classes.ghost} style={{ background: color }} /> #{run}
+          {offset ? `, its clock ${formatDifference(Number(offset.toFixed(2)))} s` : ""}
+        </li>
+      ))}
+    </ul>
+  );
+}
 
 /** The platoon first, the surrounding traffic in a group of its own. */
 function followChoices(vehicles: readonly SceneVehicle[]) {

@@ -16,6 +16,7 @@ import { MetricList } from "../../ui/MetricList";
 import { Empty, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { type Playhead, useMoment } from "./playhead";
+import { Seeds } from "./Seeds";
 import classes from "./Studio.module.css";
 
 interface Props {
@@ -48,6 +49,7 @@ export const SidePanel = memo(function SidePanel({ scenario, run, detail, status
           Events
         </Tabs.Tab>
         <Tabs.Tab value="metrics">Metrics</Tabs.Tab>
+        <Tabs.Tab value="seeds">Seeds</Tabs.Tab>
       </Tabs.List>
       <Tabs.Panel value="runs" className={classes.sideBody}>
         <History scenario={scenario} shown={run} status={status} />
@@ -57,6 +59,9 @@ export const SidePanel = memo(function SidePanel({ scenario, run, detail, status
       </Tabs.Panel>
       <Tabs.Panel value="metrics" className={classes.sideBody}>
         <Metrics run={detail} head={head} />
+      </Tabs.Panel>
+      <Tabs.Panel value="seeds" className={classes.sideBody}>
+        <Seeds scenario={scenario} run={detail} />
       </Tabs.Panel>
     </Tabs>
   );

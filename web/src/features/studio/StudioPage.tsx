@@ -3,7 +3,7 @@
 import { Button, NativeSelect, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
-import { memo, useEffect, useState } from "react";
+import { memo, useEffect } from "react";
 import * as queries from "../../api/queries";
 import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
@@ -16,14 +16,17 @@ import { type Draft, useDraft } from "./draft";
 import { useFarewell } from "./farewell";
 import { type Form, useForm } from "./form";
 import { LiveCharts } from "./LiveCharts";
+import { useLayout } from "./arrange";
 import { type Playhead, usePlayhead } from "./playhead";
 import { ParameterPanel } from "./ParameterPanel";
 import { RunBar } from "./RunBar";
 import { SaveForm, useSaving } from "./SaveForm";
 import { SceneView } from "./SceneView";
 import { SidePanel } from "./SidePanel";
+import { Splitter, useBottom } from "./Splitter";
 import classes from "./Studio.module.css";
 import { useShownRun } from "./shown";
+import { useSight } from "./sight";
 import { useScene } from "./stage";
 import { Timeline } from "./Timeline";
 
@@ -35,32 +38,38 @@ interface Props {
   from: number | undefined;
   /** The time [s] to go to as soon as the run is played back. */
   time: number | undefined;
+  /** Other runs among the cars of this one, with commas; and what is at the same time in all of them. */
+  ghosts: string | undefined;
+  align: string | undefined;
   /** False while another page covers this one; the scene and the run go on. */
   active: boolean;
 }
 
-export function StudioPage({ scenario: id, run, from, time, active }: Props) {
+export function StudioPage({ scenario: id, run, from, time, ghosts, align, active }: Props) {
   const [draft, update, isFresh] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
-  const [charted, chart] = useState(["speed", "gap"]);
+  const [layout, arrange] = useLayout(id);
   const zoom = useZoom(run);
-  const shown = useShownRun(run, charted, zoom.span);
+  const shown = useShownRun(run, layout, zoom.span);
   const control = useControl({ id, draft, update, seed, live: shown.live, run, blocked: form.blocked });
   useTakeOver(id, from, isFresh ? run : undefined, update);
   useFarewell(shown.live, run);
   const status = shown.progress?.status;
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
   const playable = over && shown.channels.length > 0;
-  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable);
-  const head = usePlayhead(playable && !scene.settling ? run : undefined, scene);
-  useSeekOnce(id, run, head, time);
+  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable, ghosts, align, form.blocked);
+  const sight = useSight(shown.live, scene.vehicles);
+  const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
+  useSeekOnce(id, { run, ghosts, align }, head, time);
+  const bottom = useBottom();
+  const title = useQuery(queries.scenarios).data?.find((each) => each.id === id)?.title ?? id;
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
   useShortcuts({ " ": space, r: control.onRun, ...(over ? {} : { ".": control.onStep }) }, active);
   const duration = shown.progress?.duration || form.duration;
 
   return (
-    <div className={classes.studio} inert={!active} aria-hidden={!active}>
+    <div className={classes.studio} style={bottom.style} inert={!active} aria-hidden={!active}>
       {active ? <Parameters
           id={id}
           form={form}
@@ -75,24 +84,34 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
           duration={form.duration}
           pace={draft.pace}
           seed={seed}
+          seeds={draft.seeds}
           blocked={form.blocked}
         />
       ) : null}
-      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} /> : null}
+      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} span={zoom.span} /> : null}
       <SceneView
         vehicles={scene.vehicles}
         attribution={scene.attribution}
         active={active}
         onEmptied={scene.again}
+        title={title}
+        waits={scene.waits}
+        map={scene.map}
+        ghosts={scene.ghosts}
+        run={head !== undefined || shown.live !== undefined}
+        sight={sight}
+        missing={scene.missing}
         running={shown.live !== undefined && isLive(shown.live.status)}
       />
+      {active ? <Splitter {...bottom} /> : null}
       {active ? (
         <div className={classes.bottom}>
           <LiveCharts
             samples={shown.samples}
             channels={shown.channels}
-            chosen={charted}
-            onChoose={chart}
+            layout={layout}
+            onLayout={arrange}
+            document={shown.detail?.document}
             version={shown.version}
             duration={duration}
             paints={scene.paints}
@@ -107,13 +126,13 @@ export function StudioPage({ scenario: id, run, from, time, active }: Props) {
 }
 
 /** A link may name a time: the playback goes there, once, and then to wherever one likes. */
-function useSeekOnce(id: string, run: number | undefined, head: Playhead | undefined, time: number | undefined) {
+function useSeekOnce(id: string, { run, ghosts, align }: Pick<Props, "run" | "ghosts" | "align">, head: Playhead | undefined, time: number | undefined) {
   const navigate = useNavigate();
   useEffect(() => {
     if (!head || time === undefined) return;
     head.seek(time);
-    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run }, replace: true });
-  }, [id, run, head, time, navigate]);
+    navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run, ghosts, align }, replace: true });
+  }, [id, run, ghosts, align, head, time, navigate]);
 }
 
 interface ParametersProps {
@@ -203,6 +222,11 @@ function ScenarioHead({ id }: { id: string }) {
             navigate({ to: "/studio/$scenario", params: { scenario: event.currentTarget.value }, search: {} })
           }
         />
+        <Tooltip label="Edit it on the plan">
+          <Link to="/edit/$scenario" params={{ scenario: id }} className={classes.asText} aria-label="Edit this scenario on the plan">
+            <Icon name="pen" />
+          </Link>
+        </Tooltip>
         <Tooltip label="Edit its file as text">
           <Link
             to="/scenarios/$scenario/text"

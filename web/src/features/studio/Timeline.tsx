@@ -2,12 +2,14 @@
 
 import { ActionIcon, NativeSelect, Slider, Text, Tooltip, VisuallyHidden } from "@mantine/core";
 import { memo, useMemo } from "react";
+import type { Span } from "../../charts/zoom";
 import type { RunEvent } from "../../model/run";
 import { formatNumber, formatTime } from "../../model/units";
 import { Icon, type IconName } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { useShortcuts } from "../../ui/shortcut";
 import { PACES, type Playhead, useMoment, usePace, usePlaying } from "./playhead";
+import { Stretch } from "./Stretch";
 import classes from "./Studio.module.css";
 
 interface Props {
@@ -16,9 +18,11 @@ interface Props {
   /** What is not as it was, or is missing. */
   notes: readonly string[];
   active: boolean;
+  /** The stretch that the charts show [s]; none when they show all of it. */
+  span: Span | undefined;
 }
 
-export const Timeline = memo(function Timeline({ head, events, notes, active }: Props) {
+export const Timeline = memo(function Timeline({ head, events, notes, active, span }: Props) {
   const toEvent = (way: 1 | -1) => {
     const time = nextEvent(events, head.time, way);
     if (time !== undefined) head.seek(time);
@@ -47,6 +51,7 @@ export const Timeline = memo(function Timeline({ head, events, notes, active }: 
       <Speed head={head} />
       <Scrubber head={head} events={events} />
       <Moment head={head} />
+      <Stretch head={head} span={span} active={active} />
       {notes.length ? (
         <Tooltip label={notes.join(" ")} multiline maw={360}>
           <span className={classes.notes} role="note" tabIndex={0} data-testid="playback-notes">
@@ -91,7 +96,7 @@ function Speed({ head }: { head: Playhead }) {
       size="xs"
       className={classes.pace}
       aria-label="Pace of the playback"
-      data={PACES.map((each) => ({ value: String(each), label: `${each} × real time` }))}
+      data={PACES.map((each) => ({ value: String(each), label: Number.isFinite(each) ? `${each} × real time` : "Without a limit" }))}
       value={String(pace)}
       onChange={({ currentTarget: { value } }) => head.choosePace(Number(value))}
     />

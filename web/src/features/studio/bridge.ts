@@ -1,10 +1,16 @@
 /** Messages between the page and the 3D scene in its frame. */
 
 import { type RefObject, useCallback, useEffect, useState } from "react";
+import type { SceneVehicle } from "../../api/types";
+import type { Layers } from "../../model/layer";
 
 export type View = "overview" | "top" | "chase" | "driver";
 
 export type Command =
+  | { studio: "cast"; cars: readonly SceneVehicle[] }
+  | { studio: "layers"; on: readonly string[] }
+  | { studio: "seen"; layers: Layers | null }
+  | { studio: "rest"; rest: boolean }
   | { studio: "follow"; vehicle: number | null }
   | { studio: "view"; preset: View }
   | { studio: "theme"; dark: boolean };
@@ -94,3 +100,27 @@ export class Rebuilding {
 
 /** So many looks without anything there mean that the server has forgotten what it showed. */
 export const PATIENCE = 8;
+
+/** [ms] Between two looks whether the scene has a map. */
+const GLANCE_MS = 150;
+
+/** Whether the scene has all of a map, as the server names it. */
+export function useMap(frame: RefObject<HTMLIFrameElement | null>, map: string): boolean {
+  const [there, found] = useState("");
+  useEffect(() => {
+    if (there === map) return;
+    const look = () => {
+      if (nodesOf(frame.current)[`/map/${map}`]) found(map);
+    };
+    const timer = setInterval(look, GLANCE_MS);
+    return () => clearInterval(timer);
+  }, [frame, map, there]);
+  return map !== "" && there === map;
+}
+
+interface Tree extends Window {
+  __viserSceneTree?: { getState: () => Record<string, unknown> };
+}
+
+const nodesOf = (frame: HTMLIFrameElement | null): Record<string, unknown> =>
+  (frame?.contentWindow as Tree | null)?.__viserSceneTree?.getState() ?? {};

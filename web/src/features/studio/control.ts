@@ -46,6 +46,7 @@ export function useControl({
     onStop: () => tell("stop"),
     onStep: () => (live && isLive(live.status) ? tell("step") : start.begin(true)),
     onSeed: (seed) => update({ seed }),
+    onSeeds: (seeds) => update({ seeds: Math.min(Math.max(1, Math.round(seeds)), MOST_SEEDS) }),
     onPace: (next) => {
       update({ pace: next });
       if (run !== undefined && live && isLive(live.status))
@@ -54,20 +55,27 @@ export function useControl({
   };
 }
 
+/** So many seeds are run at once; those that have no place wait for their turn. */
+export const MOST_SEEDS = 100;
+
 /** Start a run of the draft and show it; the one after it will be its child. */
 function useStarter({ id, draft, update, seed, blocked }: Omit<ControlProps, "live" | "run">) {
   const start = queries.useStart();
+  const others = queries.useStartUnseen();
   const order = queries.useOrder();
   const navigate = useNavigate();
   const begin = (paused: boolean) => {
     if (start.isPending) return;
     if (blocked) return notify("No run was started", blocked, "red");
-    const { changes, pace, parent } = draft;
+    const { changes, pace, parent, seeds } = draft;
     const body = { scenario: id, set: changes, seed, pace, paused, ...(parent === null ? {} : { parent }) };
     start.mutate(body, {
       onError: (error) => notifyError(Object.keys(changes).length ? ofForm(error) : error),
       onSuccess: ({ run, status }) => {
         update({ parent: run });
+        const rest = Array.from({ length: paused ? 0 : seeds - 1 }, (_, place) => seed + 1 + place);
+        const family = parent === null ? {} : { parent };
+        if (rest.length) others.mutate({ scenario: id, set: changes, ...family, rest }, { onError: notifyError });
         // A first step out of rest is one step, too; a run that is not up yet just stays at its start.
         if (paused && status !== "waiting") order.mutate({ run, order: "step" });
         navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run } });

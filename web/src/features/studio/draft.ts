@@ -12,9 +12,11 @@ export interface Draft {
   seed: number | null;
   pace: Pace;
   parent: number | null;
+  /** How many seeds are run at once, from the one above on. */
+  seeds: number;
 }
 
-const FRESH: Draft = { changes: {}, seed: null, pace: 1, parent: null };
+const FRESH: Draft = { changes: {}, seed: null, pace: 1, parent: null, seeds: 1 };
 
 const NOTHING: Partial<Draft> = {};
 

@@ -68,6 +68,40 @@ describe("the playhead", () => {
     expect([at.time, at.playing]).toEqual([10, false]);
   });
 
+  it("plays a stretch over and over, from its beginning", () => {
+    const at = head();
+    at.repeat([3, 4]);
+    at.toggle();
+    const seen = new Set<number>();
+    for (let i = 0; i < 300; i++) {
+      vi.advanceTimersByTime(20);
+      seen.add(Math.floor(at.time * 10));
+    }
+    expect(at.playing).toBe(true);
+    expect(Math.min(...seen)).toBe(30);
+    expect(Math.max(...seen)).toBeLessThanOrEqual(40);
+    at.repeat(undefined);
+    vi.advanceTimersByTime(20000);
+    expect([at.time, at.playing]).toEqual([10, false]);
+  });
+
+  it("goes on without a limit as soon as the scene has shown what it was asked for, and no sooner", async () => {
+    const at = head();
+    at.choosePace(Number.POSITIVE_INFINITY);
+    at.toggle();
+    vi.advanceTimersByTime(500);
+    expect(at.time).toBe(0); // the scene has not answered
+    answer[0]?.();
+    await vi.advanceTimersByTimeAsync(20);
+    expect(at.time).toBe(0.25);
+  });
+
+  it("keeps a stretch within the run", () => {
+    const at = head();
+    at.repeat([-5, 99]);
+    expect(at.loop).toEqual([0, 10]);
+  });
+
   it("finds the event before and after", () => {
     const events = [event(1), event(1), event(4)];
     expect(nextEvent(events, 1, 1)).toBe(4);

@@ -3,8 +3,14 @@
 import { useEffect, useMemo, useSyncExternalStore } from "react";
 import { answer, client } from "../../api/client";
 import type { Scene } from "../../api/types";
+import type { Layers } from "../../model/layer";
+import type { Server } from "../../model/run";
+import type { Sight } from "./sight";
 
-export const PACES = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8];
+export const PACES = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, Number.POSITIVE_INFINITY];
+
+/** [s] Between two pictures without a limit: as fast as the scene can show them. */
+const STRIDE = 0.25;
 
 /** Between two pictures; by a clock and not by what is drawn, so that a slow picture does not slow down the time. */
 const PERIOD_MS = 20;
@@ -22,6 +28,8 @@ export class Playhead {
   time: number;
   playing = false;
   pace = 1;
+  /** From when to when [s] it plays over and over. */
+  loop: readonly [number, number] | undefined;
   private readonly listeners = new Set<() => void>();
   private readonly asking: Asking = { busy: false, wanted: undefined };
   private clock = 0;
@@ -69,18 +77,35 @@ export class Playhead {
     this.tell();
   };
 
-  /** At the end, from the beginning. */
+  /** Plays a stretch over and over from now on; without one, to the end. */
+  readonly repeat = (loop: readonly [number, number] | undefined): void => {
+    this.loop = loop && [Math.max(loop[0], this.begin), Math.min(loop[1], this.end)];
+    this.tell();
+  };
+
+  /** At the end, from the beginning; outside of what it plays over and over, from the beginning of that. */
   play(): void {
-    if (this.time >= this.end) this.seek(this.begin);
+    const [from, to] = this.loop ?? [this.begin, this.end];
+    if (this.time >= to || (this.loop && this.time < from)) this.seek(from);
     this.playing = true;
     let last = performance.now();
     this.clock = window.setInterval(() => {
       const now = performance.now();
-      this.seek(this.time + (this.pace * (now - last)) / 1000);
+      this.goOn((now - last) / 1000);
       last = now;
-      if (this.time >= this.end) this.pause();
     }, PERIOD_MS);
     this.tell();
+  }
+
+  /** Some seconds of real time have passed. */
+  private goOn(seconds: number): void {
+    const [from, to] = this.loop ?? [this.begin, this.end];
+    const unlimited = this.pace === Number.POSITIVE_INFINITY;
+    if (unlimited && this.asking.busy) return;
+    this.seek(Math.min(this.time + (unlimited ? STRIDE : this.pace * seconds), to));
+    if (this.time < to) return;
+    if (this.loop && to > from) this.seek(from);
+    else this.pause();
   }
 
   readonly pause = (): void => {
@@ -89,6 +114,9 @@ export class Playhead {
     this.playing = false;
     this.tell();
   };
+
+  /** Has the time shown where it stands. */
+  readonly refresh = (): void => this.ask(this.time);
 
   /** Another question only when the last one is answered: a slow scene skips pictures and stays on time. */
   private ask(time: number): void {
@@ -112,12 +140,16 @@ export class Playhead {
   }
 }
 
-/** Shows a time of a run in the scene; when another page has had it show something else, it is told `again` what this one wants. */
-export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<void> {
-  const ask = () => answer(client.PUT("/api/scene/time", { body: { run, time } }));
-  if ((await ask()).shown) return;
+/**
+ * Shows a time of a run in the scene, and answers what can be drawn over it; when another page has had it show something else, it is
+ * told `again` what this one wants.
+ */
+export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<Layers | null> {
+  const ask = () => answer(client.PUT("/api/scene/time", { body: { run, time, layers: true } })) as Promise<Server["Shown"]>;
+  const first = await ask();
+  if (first.shown) return first.layers ?? null;
   await again();
-  await ask();
+  return (await ask()).layers ?? null;
 }
 
 interface Playing extends Pick<Scene, "begin" | "end" | "step"> {
@@ -125,15 +157,18 @@ interface Playing extends Pick<Scene, "begin" | "end" | "step"> {
 }
 
 /** The playhead of the run that the scene plays back; none while it shows something else. */
-export function usePlayhead(run: number | undefined, { begin, end, step, again }: Playing): Playhead | undefined {
+export function usePlayhead(run: number | undefined, { begin, end, step, again }: Playing, sight: Sight): Playhead | undefined {
   const head = useMemo(
     () =>
       run === undefined || !isNumber(begin) || !isNumber(end) || !isNumber(step) || end <= begin
         ? undefined
-        : new Playhead(run, begin, end, step, (which, time) => showInScene(which, time, again)),
-    [run, begin, end, step, again],
+        : new Playhead(run, begin, end, step, async (which, time) => sight.put(await showInScene(which, time, again))),
+    [run, begin, end, step, again, sight],
   );
-  useEffect(() => head?.pause, [head]);
+  useEffect(() => {
+    head?.refresh();
+    return head?.pause;
+  }, [head]);
   return head;
 }
 
@@ -149,6 +184,9 @@ export function useMoment(head: Playhead | undefined, grain = 0): number | undef
 
 /** Whether it plays. */
 export const usePlaying = (head: Playhead): boolean => useSyncExternalStore(head.subscribe, () => head.playing);
+
+/** What it plays over and over. */
+export const useLoop = (head: Playhead): Playhead["loop"] => useSyncExternalStore(head.subscribe, () => head.loop);
 
 /** How fast it plays. */
 export const usePace = (head: Playhead): number => useSyncExternalStore(head.subscribe, () => head.pace);

@@ -6,7 +6,8 @@ import { type LiveState, useLive } from "../../api/live";
 import * as queries from "../../api/queries";
 import type { Span } from "../../charts/zoom";
 import { drawn } from "../../model/channel";
-import { isLive, type RunDetail } from "../../model/run";
+import { type Layout, needed } from "../../model/layout";
+import { type Channel, isLive, type RunDetail } from "../../model/run";
 import type { Samples } from "../../model/samples";
 import { durationOf } from "./form";
 import type { Progressing } from "./RunBar";
@@ -14,7 +15,7 @@ import type { Progressing } from "./RunBar";
 const NONE: never[] = [];
 
 /** The run in the address: its live state while it goes, its stored trace of what the charts show otherwise. */
-export function useShownRun(run: number | undefined, charted: readonly string[], span: Span | undefined) {
+export function useShownRun(run: number | undefined, layout: Layout, span: Span | undefined) {
   const stored = useQuery({ ...queries.run(run ?? 0), enabled: run !== undefined });
   const detail = run === undefined ? undefined : stored.data;
   const [followed, follow] = useState<number>();
@@ -28,7 +29,7 @@ export function useShownRun(run: number | undefined, charted: readonly string[],
   useEffect(() => {
     if (lost) follow(undefined);
   }, [lost]);
-  const samples = useStoredSamples(live ? undefined : detail, charted, span);
+  const samples = useStoredSamples(live ? undefined : detail, layout, span);
   return {
     live,
     detail,
@@ -63,12 +64,13 @@ const fromStored = ({ run, status, sim_time_s, error, document }: RunDetail): Pr
 /** The trace of a finished run in the same shape as live samples. */
 function useStoredSamples(
   run: RunDetail | undefined,
-  charted: readonly string[],
+  layout: Layout,
   span: Span | undefined,
 ): Samples | undefined {
   const finished = run !== undefined && !isLive(run.status);
-  const names = finished ? run.channels.map(({ name }) => name) : NONE;
-  const channels = charted.flatMap((quantity) => drawn(quantity, names));
+  const known = finished ? run.channels : NONE;
+  const names = useMemo(() => known.map(({ name }: Channel) => name), [known]);
+  const channels = useMemo(() => needed(layout, (quantity) => drawn(quantity, names), new Set(names)), [layout, names]);
   const { data } = useQuery(queries.trace(run?.run ?? 0, channels, { span }));
   return useMemo(() => {
     if (!finished || !data) return undefined;

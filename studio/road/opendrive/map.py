@@ -18,14 +18,14 @@ from studio.road.assembly.plan import Plan, Wish
 from studio.road.assembly.priority import counts, law_by_limits
 from studio.road.formats import limit as limits
 from studio.road.formats import osm
-from studio.road.formats.xodr import Document, Header, XRoad, document, read_header
 from studio.road.network import Net, Network, Scenery
 from studio.road.network.report import DriveSide, LimitCount, Notes, Report, SignalCount, Spot
+from studio.road.opendrive.document import Document, Header, Remark, XRoad
+from studio.road.opendrive.file import WIDEST, document, read_header
 
 ENDINGS = (".xodr",)
 HEAD = 2**16  # [B] at the start of a file, in which its header stands
 MARGIN = 50.0  # [m] of ground around the lanes
-WIDEST = 100_000.0  # [m] from one end of the map to the other
 LEAST_EASTING = 100_000.0  # [m] of a place in a UTM zone
 TRUE_SCALE = "+k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m"
 NEAR = 25.0  # [m] from a light to its stop line
@@ -138,31 +138,26 @@ def plan(path: Path, data: bytes, kept: str, progress: Callable[[str], None]) ->
 
 def planned(found: Document) -> Plan:
     """The same; messages do not name the file."""
-    from studio.road.assembly.lane_graph import net as network_of
+    from studio.road.opendrive.build import build
 
-    notes = Notes()
-    middle = middle_of(found)
-    earth = Earth(found.header, middle)
-    side = side_of(found)
+    notes, middle = Notes(), middle_of(found)
+    earth, side = Earth(found.header, middle), side_of(found)
 
     def spot(road: str, s: float) -> Spot:
-        return earth.spot(found.roads[road], s) if road in found.roads else Spot("the map", *earth.degrees(middle))
+        if road in found.roads:
+            return earth.spot(found.roads[road], s)
+        return Spot(f"road {road}" if road else "the map", *earth.degrees(middle))
 
     country = country_of(found, earth, middle)
     earth.tell(notes, spot(next(iter(found.roads)), 0.0))
     rules = Limits(found.roads, country, spot, notes)
-    net, places = network_of(found, rules.of, spot, notes)
-    if net.junctions:
-        notes.guess(
-            "right of way",
-            "the higher limit first, equal ones by side",
-            spot(next(iter(found.roads)), 0.0),
-            source="limits of the roads",
-            sure="low",
-        )
-    for each in found.remarks:
-        notes.skip(each.kind, each.what, spot(each.road, each.s), each.reason)
-    net, places = shifted(net, middle), [place - middle for place in places]
+    made = build(found, rules.of, spot, notes)
+    if made.net.junctions:
+        source = "signs and priorities of junctions, then limits of the roads"
+        what = "who has it by sign or junction first, then the higher limit, equal ones by side"
+        notes.guess("right of way", what, spot(next(iter(found.roads), ""), 0.0), source=source, sure="low")
+    tell(found, earth, spot, notes)
+    net, places = shifted(made.net, middle), [place - middle for place in made.places]
     return Plan(
         net=net,
         signalled=net.signalled,
@@ -171,10 +166,24 @@ def planned(found: Document) -> Plan:
         bounds=bounds_of(net),
         attribution=credit(found.header),
         licence=found.header.licence,
-        law=law_by_limits(net, country=country, left_hand=side.side == "left"),
+        law=law_by_limits(net, country=country, left_hand=side.side == "left", signs=made.signs, before=made.before),
         report=lambda network: report(network, places, rules, notes, side=side, country=country),
         datum=(float(middle[0]), float(middle[1])),
     )
+
+
+def tell(found: Document, earth: "Earth", spot: Callable[[str, float], Spot], notes: Notes) -> None:
+    """What is left out and what was taken without being said, each at its place."""
+
+    def at(each: Remark) -> Spot:
+        if each.at is None:
+            return spot(each.road, each.s)
+        return Spot(f"road {each.road}, s = {each.s:.1f} m", *earth.degrees(np.array(each.at)))
+
+    for each in found.remarks:
+        notes.skip(each.kind, each.what, at(each), each.reason)
+    for each in found.guesses:
+        notes.guess(each.kind, each.what, at(each), source=each.reason, sure="medium")
 
 
 # -- the place -------------------------------------------------------------------------------------
@@ -254,15 +263,8 @@ def flat(projection: str) -> str:
 
 
 def side_of(found: Document) -> DriveSide:
-    """The side that is driven on; a map has one.
-
-    Raises:
-        MapError: some roads are driven on the left and some on the right.
-    """
-    left = [road.id for road in found.roads.values() if road.left_hand]
-    right = [road.id for road in found.roads.values() if not road.left_hand]
-    if left and right:
-        raise MapError(f"road {left[0]}: rule of <road> is LHT, that of road {right[0]} is RHT; a map is driven on one side")
+    """The side that is driven on; a map has one."""
+    left = any(road.left_hand for road in found.roads.values())
     why = f"rule={'LHT' if left else 'RHT'} of its roads, or OpenDRIVE's default"
     return DriveSide("left", why) if left else DriveSide("right", why)
 

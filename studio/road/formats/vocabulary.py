@@ -1,0 +1,128 @@
+"""The tags of car ways and of their nodes that say something about driving and are not used: each with the reason that is told.
+
+Keys are those of the OpenStreetMap wiki (Map features: Highway, Restrictions, Lanes, Barrier, Traffic calming; Key:…). A key may be
+said for a direction, a side, a lane or a condition (`overtaking:forward:conditional`); then the reason of the key holds. What is used
+stands where it is used, in netconvert or in this package. Values that change nothing are told of nobody.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from studio.road.formats.access import KEYS
+from studio.road.formats.identity import named
+from studio.road.formats.way import Way, spot_of
+from studio.road.network.report import Notes, Spot
+
+TIMES = "nothing changes with time"
+LIMITS = "one limit holds for all lanes and vehicles"
+SIZES = "vehicles of every size and weight drive there"
+LINES = "lines between lanes forbid nothing"
+SHAPE = "lanes have one width, about the line of their way"
+GROUND = "roads are even, dry and paved unless the scenario says otherwise"
+BESIDE = "lanes of others are not built"
+WAYS = {
+    "maxspeed:lanes": LIMITS, "maxspeed:hgv": LIMITS, "maxspeed:bus": LIMITS, "maxspeed:trailer": LIMITS, "maxspeed:variable": LIMITS,
+    "maxspeed:advisory": LIMITS, "maxspeed:practical": LIMITS, "maxspeed:hazard": LIMITS, "maxspeed:wet": LIMITS, "minspeed": LIMITS,
+    "overtaking": "drivers overtake where lanes allow it", "change": LINES, "change:lanes": LINES, "lane_markings": LINES, "divider": LINES,
+    "placement": SHAPE, "placement:end": SHAPE, "placement:start": SHAPE, "width:lanes": SHAPE, "width:carriageway": SHAPE,
+    "est_width": SHAPE, "width:start": SHAPE, "width:end": SHAPE, "lanes:transition": SHAPE, "transition": SHAPE, "narrow": SHAPE,
+    "turn": "arrows are read of lanes, not of ways", "hov": "only lanes and ways closed to cars are known", "hgv": SIZES, "goods": SIZES,
+    "hov:lanes": "lanes for several passengers are open to all", "taxi:lanes": BESIDE, "bicycle:lanes": BESIDE, "hgv:lanes": SIZES,
+    "motorcar:lanes": "lanes are closed by access:lanes, vehicle:lanes, motor_vehicle:lanes, bus:lanes or psv:lanes",
+    "maxweight": SIZES, "maxheight": SIZES, "maxlength": SIZES, "maxwidth": SIZES, "maxaxleload": SIZES, "maxweightrating": SIZES,
+    "maxbogieweight": SIZES, "maxheight:physical": SIZES, "maxwidth:physical": SIZES, "toll": "nobody pays", "motorroad": LIMITS,
+    "traffic_calming": GROUND, "incline": "heights come from ele of nodes", "surface": GROUND, "smoothness": GROUND, "tracktype": GROUND,
+    "ford": GROUND, "winter_road": GROUND, "ice_road": GROUND, "embedded_rails": GROUND, "flood_prone": GROUND, "seasonal": TIMES,
+    "hazard": "drivers see hazards, not signs", "shoulder": BESIDE, "cycleway": BESIDE, "busway": BESIDE, "passing_places": SHAPE,
+    "priority": "nobody waits where a road gets narrow", "traffic_sign": "signs count by the tags of what they mean",
+    "bicycle_road": "drivers do not mind cyclists more than elsewhere", "cyclestreet": "drivers do not mind cyclists more than elsewhere",
+    "tunnel": "what lies below the ground is built as on it", "covered": "roofs over roads are not built", "bridge": "no bridges are drawn",
+    "layer": "ways of other layers do not meet, and are drawn on the ground", "cutting": "ground is level", "embankment": "ground is level",
+    "bridge:movable": "bridges do not open", "temporary": TIMES, "opening_hours": TIMES, "lanes:hov": BESIDE, "reversible": TIMES,
+}  # fmt: skip
+SILENT = {
+    "surface": {"asphalt", "paved", "concrete", "chipseal", "concrete:plates"},
+    "smoothness": {"excellent", "good", "intermediate"},
+    "layer": {"0"},
+    "maxheight": {"default", "below_default", "unsigned"},
+    "lane_markings": {"yes"},
+    "hgv": {"yes", "designated", "permissive"},
+    "goods": {"yes", "designated", "permissive"},
+    "incline": {"0", "0%"},
+}
+NOTHING = {"no", "none", "separate", "unspecified"}
+NODES = {
+    "traffic_calming": GROUND, "hazard": "drivers see hazards, not signs", "ford": GROUND, "maxheight": SIZES, "maxwidth": SIZES,
+    "maxweight": SIZES, "toll": "nobody pays", "traffic_sign": "signs count by the tags of what they mean",
+    "priority": "nobody waits where a road gets narrow", "overtaking": "drivers overtake where lanes allow it",
+    "give_way": "signs are read from highway", "maxspeed": LIMITS, "railway": "trains and trams do not run", "crossing:barrier": TIMES,
+    "bridge:movable": "bridges do not open",
+}  # fmt: skip
+PLACES = {  # highway=… of a node
+    "turning_circle": "turning places are not wider than their road",
+    "turning_loop": "turning places are not wider than their road",
+    "passing_place": SHAPE,
+    "speed_camera": "nobody is caught",
+    "toll_gantry": "nobody pays",
+    "traffic_mirror": "drivers see what they can see themselves",
+    "ford": GROUND,
+}
+MODES = {*KEYS, "oneway", "maxspeed", "lanes", "turn", "overtaking", "hov", "change", "parking", "bus", "psv", "restriction"}
+
+
+def tell(ways: Iterable[Way], nodes: Mapping[int, Mapping[str, str]], notes: Notes) -> None:
+    """Tells what the ways that are kept, and their nodes, say of driving and is not used; one entry for each of them."""
+    seen: set[int] = set()
+    for way in ways:
+        entry(unused(way.tags), spot_of(way), notes)
+        for node, (longitude, latitude) in zip(way.nodes, way.points, strict=True):
+            if node in nodes and node not in seen:
+                seen.add(node)
+                name = named("node", node)
+                entry(unused_of_node(nodes[node]), Spot(name, latitude, longitude, name), notes)
+
+
+def entry(found: Iterator[tuple[str, str]], spot: Spot, notes: Notes) -> None:
+    """One entry for all that is not used of an element."""
+    reasons = dict(found)
+    if reasons:
+        notes.skip("tags", ", ".join(reasons), spot, "; ".join(dict.fromkeys(reasons.values())))
+
+
+def unused(tags: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """The tags of a way that are not used, and why.
+
+    >>> dict(unused({"overtaking:forward": "no", "name": "A 1", "maxheight": "3.8"}))
+    {'overtaking:forward=no': 'drivers overtake where lanes allow it', 'maxheight=3.8': 'vehicles of every size and weight drive there'}
+    """
+    for key, value in tags.items():
+        reason = reason_of(key)
+        if reason and not says_nothing(key, value):
+            yield f"{key}={value[:60]}", reason
+
+
+def reason_of(key: str) -> str:
+    """Why a key of a way is not used, or nothing."""
+    parts = key.split(":")
+    if "conditional" in parts:
+        return TIMES if parts[0] in MODES and key != "maxspeed:conditional" else ""
+    plain = ":".join(part for part in parts if part not in ("forward", "backward", "left", "right", "both"))
+    return WAYS.get(plain, "")
+
+
+def says_nothing(key: str, value: str) -> bool:
+    """Whether a value is what is built anyway."""
+    name = key.partition(":")[0]
+    return (value in NOTHING and name not in ("overtaking", "lane_markings", "change", "hgv", "goods")) or value in SILENT.get(name, ())
+
+
+def unused_of_node(tags: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """The tags of a node on a way that are not used, and why."""
+    if reason := PLACES.get(tags.get("highway", "")):
+        yield f"highway={tags['highway']}", reason
+    for key in (key for key in tags if key in NODES):
+        if not says_nothing(key, tags[key]):
+            yield f"{key}={tags[key][:60]}", NODES[key]
+    closing = [key for key in ("barrier", *KEYS) if key in tags]
+    is_barred = tags.get("barrier") not in (None, "kerb", "entrance", "no")
+    if is_barred or any(tags.get(key) in ("no", "private") for key in KEYS):
+        yield ", ".join(f"{key}={tags[key]}" for key in closing), "cars drive through; a road ends at no node"

@@ -1,0 +1,62 @@
+"""Ghosts: the named cars of other runs that are over, on the clock of the one that is played back."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from studio.errors import Problem, UnknownError
+from studio.scene.fleet import Look
+from studio.scene.ghost import COLOURS
+from studio.server.frame import looks
+from studio.server.replay import Replay
+
+
+@dataclass(frozen=True)
+class Ghost:
+    """One run: by how much its clock is ahead [s], its colour, and which of its cars are shown: traffic is left out."""
+
+    replay: Replay
+    offset: float
+    color: str
+    columns: np.ndarray
+
+    @property
+    def looks(self) -> list[Look]:
+        """How its cars look."""
+        whole = looks(self.replay.setting)
+        return [replace(whole[column], color=self.color) for column in self.columns]
+
+    def poses(self, time: float) -> np.ndarray:
+        """Where they were, float32[POSE_ROWS, car], when the clock of the run that is played back says so [s]."""
+        return self.replay.frame(time + self.offset).poses[:, self.columns]
+
+    def told(self) -> dict[str, Any]:
+        """For the page."""
+        return {"run": self.replay.run, "color": self.color, "offset": self.offset}
+
+
+def haunting(played: Replay, others: Sequence[Replay], align: str) -> tuple[Ghost, ...]:
+    """Other runs as ghosts of one. Raises UnknownError for one of another map, or without the event that they are aligned by."""
+    zero = first(played, align) if others else 0.0
+    for each in others:
+        if each.setting.network.digest != played.setting.network.digest:
+            problem = Problem("ghosts", "drives on another map", str(each.run), "runs of one map", "compare their charts instead")
+            raise UnknownError(f"Run {each.run} cannot be shown beside run {played.run}.", [problem])
+    named = [len(each.setting.scenario.vehicles) for each in others]
+    return tuple(
+        Ghost(each, first(each, align) - zero, COLOURS[i % len(COLOURS)], np.arange(count))
+        for i, (each, count) in enumerate(zip(others, named, strict=True))
+    )
+
+
+def first(played: Replay, align: str) -> float:
+    """When the first event of a kind was [s]; 0 without a kind."""
+    if not align:
+        return 0.0
+    times = [each.time for each in played.happenings if each.kind == align]
+    if not times:
+        problem = Problem("align", "has not happened", align, f"what happened in run {played.run} and in all others")
+        raise UnknownError(f"Run {played.run} has no such event.", [problem])
+    return min(times)

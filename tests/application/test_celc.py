@@ -1,0 +1,171 @@
+"""Cooperative emergency lane change on whole vehicles: least distances against the formula, and everything that can go wrong."""
+
+from itertools import pairwise, product
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+from docs.figures.convoy import run
+from docs.figures.situation import APPEARS, formula, least, situation, survived, way_aside
+from studio import job
+from studio.conventions import GRAVITY
+from studio.model.evasion import left_over
+
+IDLE, ASKING, COMMITTED, EVADING, ASIDE, BRAKING, WEIGHING, YIELDING, REFUSING, FOLLOWING, RESUMING = range(11)
+SPEEDS, LATENCIES = (40.0, 75.0, 110.0), (0.01, 0.1, 0.2)
+PATIENT = {"always": True, "patience": 0.6}
+FAST = 100.0 / 3.6
+
+
+def stages(record, name):
+    """The stages that the application of a car went through, in order."""
+    values = record.probes[f"{name}.evasion.stage"].values
+    values = values[np.isfinite(values)].astype(int)
+    return [int(values[0]), *(int(b) for a, b in pairwise(values) if a != b)]
+
+
+def cases():
+    return [{"speed": v / 3.6, "latency": latency, "parameters": PATIENT} for v, latency in product(SPEEDS, LATENCIES)]
+
+
+def test_the_way_is_that_of_the_formula():
+    """1.00 to 1.30 times it from 40 to 110 km/h and 10 to 200 ms, and at 1.3 times nobody touches anybody."""
+    records = run([situation(**each, distance=1.3 * formula(each["speed"], each["latency"])) for each in cases()])
+    ratios = [way_aside(record) / formula(each["speed"], each["latency"]) for record, each in zip(records, cases(), strict=True)]
+    assert all(1.0 <= ratio <= 1.3 for ratio in ratios), ratios
+    assert all(survived(record) for record in records)
+    assert all(stages(record, "A") == [IDLE, ASKING, COMMITTED, EVADING, ASIDE] for record in records)
+
+
+def test_no_evasion_undercuts_the_friction_circle():
+    """The least distances without contact, found by bisection: above that of a point, 2 m aside at mu 0.85, braking as it may."""
+    found = least(cases(), low=0.5, high=1.3, steps=5)
+    for each, distance in zip(cases(), found, strict=True):
+        v = each["speed"]
+
+        def needed(a_y, v=v):
+            t = np.sqrt(4.0 / a_y)
+            return v * t - 0.5 * left_over(0.85 * GRAVITY, a_y) * t * t
+
+        bound = minimize_scalar(needed, bounds=(3.0, 0.85 * GRAVITY), method="bounded").fun
+        assert bound < distance <= 1.3 * formula(v, each["latency"])
+
+
+def together(**changes):
+    """100 km/h, 1.25 times the formula's distance, too near to stop."""
+    return situation(**{"speed": FAST, "latency": 0.02, "distance": 1.25 * formula(FAST, 0.02), "parameters": {}} | changes)
+
+
+def test_coordination_is_what_saves():
+    """Together nobody is touched. Without an answer A brakes and hits the obstacle; without a look aside it hits B; and so do people."""
+    blind = together()
+    blind["vehicles"]["A"]["sensors"] = blind["vehicles"]["A"]["sensors"] | {"around": {"kind": "blind_spot", "range": 0.0}}
+    answered, alone, careless, people = run([together(), together(loss=1.0), blind, together(application=False)])
+    assert survived(answered) and stages(answered, "B")[:4] == [IDLE, WEIGHING, YIELDING, RESUMING]
+    assert stages(alone, "A")[:3] == [IDLE, ASKING, BRAKING] and hits(alone) == {("A", "obstacle")}
+    assert stages(careless, "A")[:2] == [IDLE, EVADING] and ("A", "B") in hits(careless)
+    assert ("A", "obstacle") in hits(people)
+
+
+def hits(record):
+    """Who touched whom."""
+    return {
+        tuple(sorted(each.units)) if len(each.units) > 1 else (each.units[0], "obstacle")
+        for each in record.happenings
+        if each.kind == "collision"
+    }
+
+
+def test_where_braking_is_enough_it_brakes():
+    (record,) = run([situation(speed=14.0, latency=0.02, distance=22.0)])
+    assert survived(record) and stages(record, "A") == [IDLE, BRAKING]
+    assert record.trace("A.speed")[-1] < 0.5
+
+
+def test_an_answer_that_comes_too_late_is_none():
+    """0.15 s each way and 0.3 s of patience: A gives up, says so and brakes, and B, which had begun to brake, goes on."""
+    (record,) = run([together(latency=0.15, parameters={"patience": 0.3})])
+    assert stages(record, "A")[:3] == [IDLE, ASKING, BRAKING]
+    assert RESUMING in stages(record, "B") and record.trace("B.speed").min() > 20.0
+
+
+def test_who_is_pressed_refuses():
+    """Somebody is 22 m behind B, who wants 30 m: it says no, and A brakes."""
+    (record,) = run([together(others=1, parameters={"room": 30.0})])
+    assert REFUSING in stages(record, "B") and YIELDING not in stages(record, "B")
+    assert BRAKING in stages(record, "A") and EVADING not in stages(record, "A")
+
+
+def test_a_partner_that_falls_silent():
+    """B is not heard from 60 ms after the obstacle on: it brakes for a commitment that never comes, and A brakes when its patience ends."""
+    document = together(parameters={"patience": 0.3})
+    document["script"]["silence"] = {"when": {"kind": "time", "at": APPEARS}, "do": {"kind": "drop_messages", "unit": "B", "count": 1000}}
+    (record,) = run([document])
+    assert stages(record, "A")[:3] == [IDLE, ASKING, BRAKING]
+    assert stages(record, "B")[:4] == [IDLE, WEIGHING, YIELDING, RESUMING]
+
+
+def test_followers_brake_with_those_ahead():
+    """0.8 s behind, 100 km/h: who follows A stands before the obstacle, who follows B keeps off it; all by message."""
+    (record,) = run([together(others=1, duration=9.0)])
+    assert survived(record)
+    assert FOLLOWING in stages(record, "behind_A_1") and FOLLOWING in stages(record, "behind_B_1")
+    assert record.trace("behind_A_1.speed")[-1] < 1.0
+
+
+def test_twenty_cars():
+    """Nine behind each, 0.8 s apart: nobody touches anybody, those in A's lane slow down one behind the other, A drives on."""
+    (record,) = run([together(others=9, duration=16.0)])
+    assert survived(record) and record.trace("behind_A_1.speed")[-1] < 1.0
+    assert max(record.trace(f"behind_A_{i}.speed").min() for i in range(1, 10)) < 15.0
+    assert record.trace("A.speed")[-1] > 20.0
+
+
+def test_time_to_agree_over_loss():
+    """Request and answer, each repeated every 20 ms, a third of them lost: P(agreed within two repetitions) = q² (1 + 2 p + 3 p²)."""
+    loss, n, latency = 0.3, 150, 0.01
+    records = run(
+        [situation(speed=20.0, latency=latency, distance=60.0, loss=loss, parameters=PATIENT, duration=1.8, seed=seed) for seed in range(n)]
+    )
+    begun = [record.time[np.argmax(record.probes["A.evasion.stage"].values >= COMMITTED)] for record in records]
+    earliest = min(begun)
+    share = np.mean([each <= earliest + 0.041 for each in begun])
+    expected = (1.0 - loss) ** 2 * (1.0 + 2.0 * loss + 3.0 * loss**2)
+    assert share == pytest.approx(expected, abs=3.0 * np.sqrt(expected * (1.0 - expected) / n) + 0.02)
+
+
+def test_it_brakes_no_more_than_the_tyres_have_left():
+    """Braking while evading, within 7 m/s² of grip: the sum of both stays near it, and it comes out slower than without."""
+    braking = {"always": True, "evasion_braking": 4.0, "grip": 7.0}
+    easy, hard = run([situation(speed=25.0, latency=0.02, distance=45.0, parameters=each) for each in ({"always": True}, braking)])
+    both = np.hypot(hard.trace("A.acceleration"), hard.trace("A.lateral_acceleration"))
+    assert both.max() < 8.0 and survived(hard)
+    assert hard.trace("A.speed").min() < easy.trace("A.speed").min() - 1.0
+
+
+def test_a_slippery_road_is_too_much():
+    """The parameters that work on a dry road fail at 0.25: the car cannot have 6 m/s² across."""
+    dry, icy = run([together(), together(friction=0.25)])
+    assert survived(dry) and not survived(icy)
+
+
+def sample(root, **changes):
+    """The sample of CELC, with changes by path."""
+    return job.run(job.load(root / "scenarios" / "celc.yaml", changes))
+
+
+def test_the_sample_is_solved(root):
+    outcome = sample(root)
+    assert outcome.status == "done" and not outcome.unmet
+    assert outcome.metrics["commit_time"].value == pytest.approx(0.1, abs=0.03) and outcome.metrics["maneuvers_aborted"].value == 0.0
+
+
+def test_what_fails_and_the_measure_that_tells(root):
+    """B that brakes too little: an impact at full speed though all agreed. A late radio: taken back, and an impact with braking."""
+    soft = sample(root, **{"applications.evasion.parameters.yielding": 3.0}).metrics
+    late = sample(root, **{"radio.delay": 0.2}).metrics
+    people = sample(root, applications={}).metrics
+    assert soft["commit_time"].value < 0.2 and soft["max_impact_speed"].value > 25.0
+    assert late["maneuvers_aborted"].value == 1.0 and late["max_impact_speed"].value < 20.0
+    assert people["collisions"].value == 2.0 and people["maneuvers_aborted"].value is None

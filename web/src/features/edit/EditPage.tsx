@@ -1,0 +1,342 @@
+/** The editor: everything in a scenario in a list and on a plan from above, its form, and what happens when. */
+
+import { Alert, Button } from "@mantine/core";
+import { useLocalStorage } from "@mantine/hooks";
+import { Link } from "@tanstack/react-router";
+import { useCallback, useMemo, useRef, useState } from "react";
+import { findWay, useEdited, useEditing, useNews } from "../../api/editing";
+import * as deeds from "../../model/editing/deed";
+import { type Deed, type Editing, type Item, named, OPEN, owner, present, toggled, type Veil } from "../../model/editing/item";
+import { type Lane, onLane } from "../../model/editing/snap";
+import type { Plan } from "../../model/map";
+import { strips } from "../../model/picking";
+import type { Point } from "../../model/view";
+import { Icon } from "../../ui/Icon";
+import { notify, notifyError } from "../../ui/notify";
+import { Failure, Loading } from "../../ui/State";
+import classes from "./Edit.module.css";
+import { Head } from "./Head";
+import { useKeys } from "./keys";
+import { Outline } from "./Outline";
+import { type Looker, PlanView, type Tool } from "./PlanView";
+import { PointMenu, type Pointed } from "./PointMenu";
+import { Properties } from "./Properties";
+import { Timetable } from "./Timetable";
+import { Toolbar } from "./Toolbar";
+
+interface Props {
+  id: string;
+  /** What is chosen, paths with commas between them: it stands in the address. */
+  at: string | undefined;
+  onAt: (at: string | undefined) => void;
+}
+
+export function EditPage({ id, at, onAt }: Props) {
+  const { state, plan } = useEdited(id);
+  if (state.error && !state.data) return <Broken id={id} error={state.error} onRetry={() => void state.refetch()} />;
+  if (plan.error) return <Failure error={plan.error} onRetry={() => void plan.refetch()} />;
+  if (!state.data) return <Loading what="the scenario" />;
+  if (!plan.data) return <Loading what="the map" />;
+  return <Editor id={id} at={at} onAt={onAt} state={state.data} plan={plan.data} />;
+}
+
+/** A file that is no scenario now can be mended as text. */
+const Broken = ({ id, error, onRetry }: { id: string; error: Error; onRetry: () => void }) => (
+  <>
+    <Failure error={error} onRetry={onRetry} />
+    <Button m="md" component={Link} to="/scenarios/$scenario/text" params={{ scenario: id } as never}>
+      Mend it as text
+    </Button>
+  </>
+);
+
+const SELECT: Tool = { is: "select" };
+const NOTHING: string[] = [];
+/** What was copied last, also from another scenario. */
+let clipboard: deeds.Copied[] = [];
+
+function Editor({ id, at, onAt, state, plan }: Props & { state: Editing; plan: Plan }) {
+  const choosing = useMemo(() => ({ wanted: at ? at.split(",") : NOTHING, choose: (paths: string[]) => onAt(paths.length ? paths.join(",") : undefined) }), [at, onAt]);
+  const editor = useEditor(id, state, plan, choosing);
+  const { tool, setTool, chosen, choose, items, veil, looker } = editor;
+  const news = useNews(id);
+  const [names, setNames] = useState(true);
+  const [pointed, setPointed] = useState<Pointed>();
+  const mine = state.items.filter(({ path }) => chosen.includes(path));
+  useKeys({
+    undo: editor.undo,
+    redo: editor.redo,
+    copy: editor.copy,
+    paste: editor.paste,
+    duplicate: editor.duplicate,
+    delete: editor.remove,
+    all: () => choose(items.filter(({ group }) => group !== "route").map(({ path }) => path)),
+    focus: () => looker.current?.focus(mine.length ? mine : state.items),
+    measure: () => setTool(tool.is === "measure" ? SELECT : { is: "measure", points: [] }),
+    names: () => setNames(!names),
+    route: () => editor.routeOf && setTool(tool.is === "route" ? SELECT : { is: "route", route: editor.routeOf }),
+    escape: () => (tool.is === "select" ? choose([]) : editor.back()),
+    enough: editor.enough,
+    nudge: editor.nudge,
+  });
+  return (
+    <div className={classes.page}>
+      <Head state={state} news={news} onUndo={editor.undo} onRedo={editor.redo} />
+      {state.sealed ? <Sealed id={id} why={state.sealed} /> : null}
+      <Toolbar tool={tool} onTool={setTool} route={editor.routeOf} names={names} onNames={setNames} onEvent={editor.event} onEnough={editor.enough} state={state} onAnew={editor.anew} chosen={mine} />
+      <div className={classes.main}>
+        <Outline
+          items={state.items}
+          turns={state.turns}
+          chosen={chosen}
+          veil={veil}
+          onVeil={editor.setVeil}
+          onChoose={(paths, add) => choose(add ? paths.reduce(toggled, chosen as string[]) : paths)}
+          onFocus={(item) => looker.current?.focus([item])}
+        />
+        <PlanView
+          looker={looker}
+          plan={plan}
+          state={state}
+          lanes={editor.lanes}
+          items={items}
+          chosen={chosen}
+          locked={veil.locked}
+          tool={tool}
+          names={names}
+          onChoose={choose}
+          onMove={editor.move}
+          onTurn={editor.turn}
+          onPoint={editor.point}
+          onCorner={editor.corner}
+          onHandle={editor.handle}
+          onEnough={editor.enough}
+          onMenu={(screen, ground, item) => {
+            if (item && !chosen.includes(item.path)) choose([item.path]);
+            setPointed({ screen, ground, item });
+          }}
+        />
+        <Properties
+          id={id}
+          state={state}
+          chosen={chosen}
+          onDeed={editor.attempt}
+          onRenamed={(path) => choose([path])}
+          middle={() => looker.current?.middle() ?? { x: 0, y: 0 }}
+          actions={mine.length ? <Actions editor={editor} /> : null}
+        />
+      </div>
+      <Timetable turns={state.turns} duration={state.duration} chosen={chosen} onChoose={(path) => choose([path])} />
+      <PointMenu pointed={pointed} onClose={() => setPointed(undefined)} editor={editor} onFocus={() => looker.current?.focus(mine)} />
+    </div>
+  );
+}
+
+const Sealed = ({ id, why }: { id: string; why: string }) => (
+  <Alert color="yellow" variant="light" py={6} radius={0} icon={<Icon name="warning" />}>
+    {why}{" "}
+    <Link to="/scenarios" search={{ q: id } as never}>
+      Duplicate it among the scenarios
+    </Link>
+  </Alert>
+);
+
+function Actions({ editor }: { editor: Editor }) {
+  return (
+    <div className={classes.actions}>
+      <Button size="compact-xs" variant="default" leftSection={<Icon name="copy" size={13} />} onClick={editor.duplicate}>
+        Duplicate
+      </Button>
+      {editor.routeOf ? (
+        <Button size="compact-xs" variant="default" leftSection={<Icon name="route" size={13} />} onClick={() => editor.setTool({ is: "route", route: editor.routeOf as string })}>
+          Edit route
+        </Button>
+      ) : null}
+      <Button size="compact-xs" variant="default" color="red" leftSection={<Icon name="trash" size={13} />} onClick={editor.remove}>
+        Delete
+      </Button>
+    </div>
+  );
+}
+
+export type Editor = ReturnType<typeof useEditor>;
+
+/** What is chosen and what is done with it. */
+function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: { wanted: string[]; choose: (paths: string[]) => void }) {
+  const { edit, undo, redo } = useEditing(id);
+  const looker = useRef<Looker>(null);
+  const lanes: Lane[] = useMemo(() => strips(plan.lanes.filter(({ internal, open }) => !internal && open)), [plan]);
+  const [veil, setVeil] = useLocalStorage<Veil>({ key: `veil ${id}`, defaultValue: OPEN, getInitialValueInEffect: false });
+  const [tool, setTool] = useState<Tool>(SELECT);
+  const chosen = present(wanted, state.items);
+  const items = useMemo(() => state.items.filter(({ path }) => !veil.hidden.includes(path)), [state.items, veil.hidden]);
+  const mine = state.items.filter(({ path }) => chosen.includes(path));
+  const free = mine.filter(({ path }) => !veil.locked.includes(path));
+  const [single] = mine;
+  const routeOf = mine.length !== 1 ? undefined : single?.group === "route" ? single.name : (single?.route ?? undefined);
+
+  const { mutateAsync } = edit;
+  const base = state.revision;
+  const attempt = useCallback((deed: Deed) => mutateAsync({ ...deed, base }), [mutateAsync, base]);
+  /** Does it, and tells when it is refused. */
+  const perform = useCallback(
+    (deed: Deed | undefined, then: readonly string[] = []) => {
+      if (!deed) return;
+      attempt(deed).then(() => then.length && choose([...then]), notifyError);
+    },
+    [attempt, choose],
+  );
+
+  const move = (held: Item[], drag: deeds.Drag) => {
+    const [only] = held;
+    if (held.length === 1 && only?.group === "vehicle") {
+      const [x = 0, y = 0] = only.figures[0]?.anchor ?? [];
+      const to = { x: x + drag.to.x - drag.from.x, y: y + drag.to.y - drag.from.y };
+      if (deeds.whereabouts(state, only, to, lanes).is === "off") return elsewhere(only, to);
+    }
+    const deed = deeds.moved(state, held, drag, lanes);
+    if (deed) perform(deed);
+    else notify("It stays where it is.", "Routes are drawn with their own tool, and vehicles stand on lanes.", "yellow");
+  };
+
+  /** A vehicle that was put onto another road gets a way from there on. */
+  const elsewhere = (item: Item, to: Point) => {
+    const place = onLane(lanes, to);
+    if (!place) return notify(`${item.name} stays where it is.`, "Vehicles stand on lanes: let it go on a road.", "yellow");
+    wayFrom(place, to).then((roads) => perform(deeds.rerouted(state, item, roads, spot(place))), notifyError);
+  };
+
+  const wayFrom = (place: NonNullable<ReturnType<typeof onLane>>, to: Point) =>
+    findWay(id, { points: [[to.x, to.y]], roads: [place.road], onwards: true }).then(({ roads }) => roads);
+
+  const addVehicle = (to: Point) => {
+    const place = onLane(lanes, to);
+    if (!place) return notify("No road is there.", "Vehicles stand on lanes: click on a road.", "yellow");
+    const speed = Math.min(13.9, lanes.find(({ road }) => road === place.road)?.speed ?? 13.9);
+    wayFrom(place, to).then((roads) => {
+      const { deed, path } = deeds.vehicleOn(state, roads, spot(place), speed);
+      perform(deed, [path]);
+    }, notifyError);
+  };
+
+  const point = (to: Point) => {
+    if (tool.is === "measure") return setTool({ ...tool, points: [...tool.points, to] });
+    if (tool.is === "area") return setTool({ ...tool, corners: [...tool.corners, to] });
+    if (tool.is === "route") return extend(tool.route, to);
+    if (tool.is !== "add") return;
+    if (tool.what === "vehicle") return addVehicle(to);
+    const made = deeds.placed(state, tool.what, to, lanes);
+    if (!made) return notify("No road is there.", "A friction patch lies on a lane: click on a road.", "yellow");
+    const shown = tool.what === "radio" ? `${made.path}.do.area` : made.path;
+    perform(made.deed, [shown]);
+  };
+
+  const roadsOf = (route: string): string[] => {
+    const roads = deeds.at(state.document, `routes.${route}.roads`);
+    return Array.isArray(roads) ? roads.map(String) : [];
+  };
+  const reroute = (route: string, roads: string[]) =>
+    perform({ name: `Change route ${route}`, patch: [{ op: "replace", path: `/routes/${route}/roads`, value: roads }] as Deed["patch"] & object });
+  const extend = (route: string, to: Point) =>
+    void findWay(id, { points: [[to.x, to.y]], roads: roadsOf(route), onwards: false }).then(({ roads }) => {
+      if (roads.length === roadsOf(route).length) notify("The route leads there already.", "Its last road is this one.", "yellow");
+      else reroute(route, roads);
+    }, notifyError);
+
+  /** A point of a route that was dragged onto another road, or clicked, which takes it out. */
+  const handle = (number: number, to: Point | undefined) => {
+    if (tool.is !== "route") return;
+    const roads = roadsOf(tool.route);
+    if (!to) {
+      if (roads.length > 1) return reroute(tool.route, roads.filter((_, at) => at !== number));
+      return notify("A route needs at least one road.", "Drag its point onto another road instead.", "yellow");
+    }
+    const place = onLane(lanes, to, 6);
+    if (!place) return notify("No road is there.", "Let the point go on a road.", "yellow");
+    reroute(tool.route, roads.map((road, at) => (at === number ? place.road : road)).filter((road, at, all) => road !== all[at - 1]));
+  };
+
+  /** The vehicle that is chosen gets a way of its own, which begins where it stands. */
+  const anew = () => {
+    if (single?.group !== "vehicle" || !single.road) return;
+    const deed = deeds.ownWay(state, single);
+    attempt(deed.deed).then(() => setTool({ is: "route", route: deed.route }), notifyError);
+  };
+
+  const corner = (item: Item, number: number, to: Point) => {
+    const name = `Reshape ${named([item.path])}`;
+    const path = `/${item.path.split(".").join("/")}/corners/${number}`;
+    perform({ name, patch: [{ op: "replace", path, value: [Number(to.x.toFixed(2)), Number(to.y.toFixed(2))] }] as Deed["patch"] & object });
+  };
+
+  const enough = () => {
+    if (tool.is === "area" && tool.corners.length > 2) {
+      const { deed, path } = deeds.area(state, tool.corners.filter((each, at, all) => at === 0 || Math.hypot(each.x - (all[at - 1]?.x ?? 0), each.y - (all[at - 1]?.y ?? 0)) > 0.2));
+      perform(deed, [path]);
+    }
+    if (tool.is !== "select") setTool(SELECT);
+  };
+
+  /** Takes the last point back, or leaves the tool. */
+  const back = () => {
+    if (tool.is === "area" && tool.corners.length > 0) return setTool({ ...tool, corners: tool.corners.slice(0, -1) });
+    if (tool.is === "measure" && tool.points.length > 0) return setTool({ ...tool, points: tool.points.slice(0, -1) });
+    setTool(SELECT);
+  };
+
+  const paste = () => {
+    const made = deeds.pasted(state, clipboard);
+    if (made) perform(made.deed, made.paths);
+  };
+  const copy = () => {
+    clipboard = deeds.copied(state, chosen);
+    if (clipboard.length) notify(`Copied ${named(clipboard.map(({ part, name }) => `${part}.${name}`))}`, "Ctrl+V puts it beside it, here or in another scenario.", "teal", { autoClose: 2500 });
+  };
+  const duplicate = () => {
+    const made = deeds.pasted(state, deeds.copied(state, chosen));
+    if (made) perform(made.deed, made.paths);
+  };
+  const remove = () => {
+    const paths = [...new Set(free.map(({ path }) => owner(path)))];
+    if (paths.length === 0) return mine.length ? notify("It is locked.", "Unlock it in the list first.", "yellow") : undefined;
+    perform({ name: `Delete ${named(paths)}`, remove: paths });
+  };
+  const turning = (way: "undo" | "redo") => () => {
+    if (tool.is === "area" && tool.corners.length > 0 && way === "undo") return back();
+    if ((way === "undo" ? state.done : state.undone).length === 0) return;
+    (way === "undo" ? undo : redo).mutate(undefined, { onError: notifyError });
+  };
+  const nudge = useNudge((dx, dy) => perform(deeds.nudged(state, free, dx, dy, lanes)));
+  const event = () => {
+    const name = deeds.eventName(state);
+    perform(deeds.newEvent(state, name), [`script.${name}`]);
+  };
+
+  return {
+    looker, lanes, veil, setVeil, chosen, choose, tool, setTool, items, routeOf, attempt, event,
+    move, turn: (item: Item, heading: number) => perform(deeds.turnedTo(state, item, heading)),
+    point, handle, anew, corner, enough, back, copy, paste, duplicate, remove, nudge,
+    undo: turning("undo"), redo: turning("redo"), isEmpty: chosen.length === 0, canPaste: () => clipboard.length > 0,
+  };
+}
+
+const spot = ({ road, lane, foot }: NonNullable<ReturnType<typeof onLane>>) => ({ road, lane, offset: foot.along });
+
+/** Strokes of the arrow keys that come close together are one step. */
+const CALM_MS = 350;
+
+function useNudge(act: (dx: number, dy: number) => void) {
+  const latest = useRef(act);
+  latest.current = act;
+  const waiting = useRef({ dx: 0, dy: 0, timer: undefined as ReturnType<typeof setTimeout> | undefined });
+  return (dx: number, dy: number) => {
+    const sum = waiting.current;
+    clearTimeout(sum.timer);
+    sum.dx += dx;
+    sum.dy += dy;
+    sum.timer = setTimeout(() => {
+      latest.current(sum.dx, sum.dy);
+      waiting.current = { dx: 0, dy: 0, timer: undefined };
+    }, CALM_MS);
+  };
+}

@@ -1,0 +1,99 @@
+/** What is edited, what can be undone, who else edits, and where one goes from here. */
+
+import { ActionIcon, Badge, Button, Menu, Text, Title, Tooltip } from "@mantine/core";
+import { Link } from "@tanstack/react-router";
+import type { useNews } from "../../api/editing";
+import type { Editing, Step } from "../../model/editing/item";
+import { Icon } from "../../ui/Icon";
+import classes from "./Edit.module.css";
+
+interface Props {
+  state: Editing;
+  news: ReturnType<typeof useNews>;
+  onUndo: () => void;
+  onRedo: () => void;
+}
+
+export function Head({ state, news, onUndo, onRedo }: Props) {
+  const [last, next] = [state.done.at(-1), state.undone.at(-1)];
+  const params = { scenario: state.scenario } as never;
+  return (
+    <header className={classes.head}>
+      <Title order={1} fz="md" className={classes.title}>
+        {state.title}
+      </Title>
+      <TurnButton step={last} icon="undo" what="Undo" keys="Ctrl+Z" onClick={onUndo} />
+      <TurnButton step={next} icon="redo" what="Redo" keys="Ctrl+Shift+Z" onClick={onRedo} />
+      <StepList state={state} />
+      <Text size="xs" c="dimmed" role="status" className={classes.status}>
+        {saying(state, news)}
+      </Text>
+      <Button size="xs" component={Link} to="/studio/$scenario" params={params} search={{} as never} leftSection={<Icon name="run" size={14} />}>
+        Run
+      </Button>
+      <Button size="xs" variant="default" component={Link} to="/scenarios/$scenario/text" params={params} leftSection={<Icon name="text" size={14} />}>
+        Text
+      </Button>
+    </header>
+  );
+}
+
+function saying(state: Editing, { connected, by, gone }: Props["news"]): string {
+  if (gone) return gone.message;
+  if (!connected) return "The server does not answer. What was saved is safe; nothing more can be saved until it answers, and it is asked again and again.";
+  if (state.sealed) return "Read only";
+  if (by && by.revision === state.revision) return `“${by.name}” by ${by.who || "another program"}`;
+  const last = state.done.at(-1);
+  return last ? `Saved: ${last.name}` : "Every step is saved at once";
+}
+
+function TurnButton({ step, icon, what, keys, onClick }: { step: Step | undefined; icon: "undo" | "redo"; what: string; keys: string; onClick: () => void }) {
+  const label = step ? `${what}: ${step.name}` : `Nothing to ${what.toLowerCase()}`;
+  return (
+    <Tooltip label={`${label} (${keys})`}>
+      <ActionIcon variant="default" size={30} aria-label={label} disabled={!step} onClick={onClick}>
+        <Icon name={icon} />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+const MOST_STEPS = 12;
+
+/** The names of the last steps, the latest first. */
+function StepList({ state }: { state: Editing }) {
+  return (
+    <Menu position="bottom-start" width={320}>
+      <Menu.Target>
+        <Button size="xs" variant="subtle" disabled={state.done.length + state.undone.length === 0}>
+          Steps
+        </Button>
+      </Menu.Target>
+      <Menu.Dropdown aria-label="Steps">
+        {state.undone.slice(-MOST_STEPS).map((step) => (
+          <StepLine key={step.revision} step={step} undone />
+        ))}
+        {state.done
+          .slice(-MOST_STEPS)
+          .reverse()
+          .map((step) => (
+            <StepLine key={step.revision} step={step} />
+          ))}
+      </Menu.Dropdown>
+    </Menu>
+  );
+}
+
+const StepLine = ({ step, undone = false }: { step: Step; undone?: boolean }) => (
+  <Menu.Item closeMenuOnClick={false} c={undone ? "dimmed" : undefined}>
+    {step.name}{" "}
+    <Text span size="xs" c="dimmed">
+      {new Date(step.time).toLocaleTimeString()} {step.who}
+    </Text>
+    {undone ? (
+      <Badge size="xs" variant="light" color="gray" tt="none" ml={4}>
+        undone
+      </Badge>
+    ) : null}
+  </Menu.Item>
+);

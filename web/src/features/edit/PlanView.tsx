@@ -1,0 +1,413 @@
+/** The plan of the editor: what is looked at, what the pointer does, and what is drawn of that. */
+
+import { type MouseEvent, type PointerEvent, type RefObject, useCallback, useEffect, useImperativeHandle, useMemo, useRef, useState, type WheelEvent } from "react";
+import { type Addition, type Drag, at, ghostOf, isTurnable } from "../../model/editing/deed";
+import { boundsOfItems, hit, placeOf, within } from "../../model/editing/hit";
+import type { Editing, Handle, Item } from "../../model/editing/item";
+import type { Line } from "../../model/editing/line";
+import { type Lane, onLane } from "../../model/editing/snap";
+import type { Plan } from "../../model/map";
+import { type Bounds, dragged, fitted, type Point, scaleBar, type Size, toGround, toScreen, type View, zoomed } from "../../model/view";
+import { useDark } from "../../ui/dark";
+import type { Board, Ghost, Picture } from "./Board";
+import classes from "./Edit.module.css";
+
+/** What a click on the plan does. */
+export type Tool =
+  | { is: "select" }
+  | { is: "add"; what: Addition }
+  | { is: "area"; corners: Point[] }
+  | { is: "measure"; points: Point[] }
+  | { is: "route"; route: string };
+
+/** What the page may ask the plan to show. */
+export interface Looker {
+  focus: (items: readonly Item[]) => void;
+  all: () => void;
+  middle: () => Point;
+}
+
+interface Props {
+  looker: RefObject<Looker | null>;
+  plan: Plan;
+  state: Editing;
+  lanes: readonly Lane[];
+  /** Those that are not hidden. */
+  items: readonly Item[];
+  chosen: readonly string[];
+  locked: readonly string[];
+  tool: Tool;
+  names: boolean;
+  onChoose: (paths: string[]) => void;
+  onMove: (items: Item[], drag: Drag) => void;
+  onTurn: (item: Item, heading: number) => void;
+  onPoint: (point: Point) => void;
+  onCorner: (item: Item, corner: number, to: Point) => void;
+  onHandle: (handle: number, to: Point | undefined) => void;
+  onMenu: (at: Point, ground: Point, item: Item | undefined) => void;
+  onEnough: () => void;
+}
+
+/** A press that moves by less is a click [px]. */
+const STILL = 4;
+/** The pointer reaches so far around thin things [px]. */
+const REACH = 7;
+/** How far before its middle the handle to turn something by lies [px]. */
+const ARM = 34;
+
+type Grip = { is: "turn"; item: Item } | { is: "corner"; item: Item; corner: number } | { is: "handle"; handle: number };
+
+type Press =
+  | { is: "pan"; last: Point; moved: boolean }
+  | { is: "rectangle"; from: Point; add: boolean; moved: boolean }
+  | { is: "things"; items: Item[]; from: Point; start: Point; moved: boolean; click: string[] }
+  | { is: "grip"; grip: Grip; moved: boolean; start: Point }
+  | { is: "point"; start: Point };
+
+export function PlanView(props: Props) {
+  const { looker, plan, state, lanes, items, chosen, locked, tool, names } = props;
+  const place = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const dark = useDark();
+  const [size, setSize] = useState<Size>({ width: 0, height: 0 });
+  const [view, setView] = useState<View>();
+  const [press, setPress] = useState<Press>();
+  const [pointer, setPointer] = useState<Point>();
+  const board = useBoard(canvas, size);
+
+  useEffect(() => {
+    const watcher = new ResizeObserver(([entry]) => entry && setSize({ width: entry.contentRect.width, height: entry.contentRect.height }));
+    watcher.observe(place.current as HTMLElement);
+    return () => watcher.disconnect();
+  }, []);
+  const frame = useCallback((bounds: Bounds, margin: number, most: number) => {
+    const found = fitted(bounds, size, margin);
+    setView({ ...found, scale: Math.min(found.scale, most) });
+  }, [size]);
+  // What is in the scenario is looked at first, and of the map as much as is around it.
+  useEffect(() => {
+    if (view || size.width === 0) return;
+    frame(boundsOfItems(state.items.filter(({ group }) => group !== "route").map(({ figures, ...each }) => ({ ...each, figures: figures.map((f) => ({ ...f, line: f.shape === "body" ? [] : (f.line ?? []) })) }))) ?? plan.bounds_m, 120, 6);
+  }, [view, size, state, plan, frame]);
+  useImperativeHandle(looker, () => ({
+    focus: (wanted) => frame(boundsOfItems(wanted) ?? plan.bounds_m, 140, 9),
+    all: () => frame(plan.bounds_m, 24, 60),
+    middle: () => ({ x: view?.x ?? 0, y: view?.y ?? 0 }),
+  }), [frame, plan, view]);
+
+  const reach = REACH / (view?.scale ?? 1);
+  const pickable = useMemo(() => items.filter(({ path }) => !locked.includes(path)), [items, locked]);
+  const ground = pointer && view ? toGround(view, size, pointer) : undefined;
+  const hovered = ground && !press && tool.is === "select" ? hit(pickable, ground, reach) : undefined;
+  const mine = items.filter(({ path }) => chosen.includes(path));
+  const grips = useMemo(() => (view ? gripsOf(state, mine, locked, tool, view) : []), [state, mine, locked, tool, view]);
+  const drag: Drag | undefined = press?.is === "things" && press.moved && ground ? { from: press.from, to: ground } : undefined;
+  const picture = useMemo(
+    () => pictureOf({ plan, items, chosen, dark, hovered: hovered?.path, tool, ground, lanes, state, drag, press, grips }),
+    [plan, items, chosen, dark, hovered, tool, ground, lanes, state, drag, press, grips],
+  );
+  useEffect(() => board?.show(picture), [board, picture]);
+  useEffect(() => view && board?.look(view), [board, view]);
+
+  const local = (event: { clientX: number; clientY: number }): Point => {
+    const box = (place.current as HTMLElement).getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+
+  const down = (event: PointerEvent) => {
+    if (!view || (event.target as HTMLElement).closest("[data-over]")) return;
+    (event.currentTarget as HTMLElement).focus({ preventScroll: true });
+    (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+    const screen = local(event);
+    const on = toGround(view, size, screen);
+    setPointer(screen);
+    if (event.button === 1 || event.button === 2) return setPress({ is: "pan", last: screen, moved: false });
+    const grip = grips.find(({ point }) => distance(toScreen(view, size, point), screen) <= 9);
+    if (grip) return setPress({ is: "grip", grip: grip.grip, moved: false, start: screen });
+    if (tool.is !== "select") return setPress({ is: "point", start: screen });
+    const found = hit(pickable, on, reach);
+    const add = event.shiftKey || event.ctrlKey || event.metaKey;
+    if (!found) return setPress({ is: "rectangle", from: screen, add, moved: false });
+    const already = chosen.includes(found.path);
+    const next = add ? (already ? chosen.filter((path) => path !== found.path) : [...chosen, found.path]) : [found.path];
+    if (!already) props.onChoose(next);
+    const held = already ? chosen : next;
+    setPress({ is: "things", items: pickable.filter(({ path }) => held.includes(path)), from: on, start: screen, moved: false, click: next });
+  };
+
+  const move = (event: PointerEvent) => {
+    const screen = local(event);
+    setPointer(screen);
+    if (!press || !view) return;
+    if (press.is === "pan") {
+      if (!press.moved && distance(press.last, screen) < STILL) return;
+      setView(dragged(view, screen.x - press.last.x, screen.y - press.last.y));
+      return setPress({ ...press, last: screen, moved: true });
+    }
+    const from = press.is === "rectangle" ? press.from : press.start;
+    if (press.is !== "point" && !press.moved && distance(from, screen) >= STILL) setPress({ ...press, moved: true });
+  };
+
+  const up = (event: PointerEvent) => {
+    if (!press || !view) return;
+    setPress(undefined);
+    const screen = local(event);
+    const on = toGround(view, size, screen);
+    switch (press.is) {
+      case "pan":
+        if (!press.moved && event.button === 2) props.onMenu({ x: event.clientX, y: event.clientY }, on, hit(items, on, reach));
+        return;
+      case "rectangle": {
+        const found = press.moved ? within(pickable, spanned(toGround(view, size, press.from), on)).map(({ path }) => path) : [];
+        return props.onChoose(press.add ? [...new Set([...chosen, ...found])] : found);
+      }
+      case "things":
+        if (press.moved) props.onMove(press.items, { from: press.from, to: on });
+        else props.onChoose(press.click);
+        return;
+      case "grip":
+        return letGo(press, on);
+      case "point":
+        if (distance(press.start, screen) < 3 * STILL) props.onPoint(on);
+    }
+  };
+
+  const letGo = ({ grip, moved }: Press & { is: "grip" }, on: Point) => {
+    if (grip.is === "handle") return props.onHandle(grip.handle, moved ? on : undefined);
+    if (!moved) return;
+    if (grip.is === "corner") return props.onCorner(grip.item, grip.corner, on);
+    const middle = placeOf(grip.item);
+    if (middle) props.onTurn(grip.item, Math.atan2(on.y - middle.y, on.x - middle.x));
+  };
+
+  const wheel = (event: WheelEvent) => {
+    if (!view) return;
+    setView(zoomed(view, size, Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), local(event)));
+  };
+
+  const bar = view ? scaleBar(view.scale) : undefined;
+  return (
+    <div
+      ref={place}
+      className={classes.plan}
+      data-tool={tool.is}
+      data-hit={hovered ? true : undefined}
+      tabIndex={0}
+      role="application"
+      aria-label="Plan of the scenario"
+      onPointerDown={down}
+      onPointerMove={move}
+      onPointerUp={up}
+      onPointerCancel={() => setPress(undefined)}
+      onPointerLeave={() => setPointer(undefined)}
+      onWheel={wheel}
+      onDoubleClick={() => tool.is !== "select" && props.onEnough()}
+      onContextMenu={(event: MouseEvent) => event.preventDefault()}
+    >
+      <canvas ref={canvas} className={classes.canvas} aria-hidden="true" />
+      {view ? <Names items={items} chosen={chosen} hovered={hovered?.path} view={view} size={size} all={names} /> : null}
+      {view && tool.is === "route" ? <Numbers points={grips.map(({ point }) => point)} view={view} size={size} /> : null}
+      {press?.is === "rectangle" && press.moved && pointer ? <Rectangle from={press.from} to={pointer} /> : null}
+      {view && tool.is === "measure" ? <Tape points={tool.points} to={ground} view={view} size={size} /> : null}
+      <span className={classes.corner} aria-hidden="true">
+        <span className={classes.bar} style={{ width: bar?.pixels }}>
+          {bar?.label}
+        </span>
+        {ground ? ` ${ground.x.toFixed(1)} m east, ${ground.y.toFixed(1)} m north` : ""}
+      </span>
+      <span className={classes.attribution}>{plan.attribution}</span>
+    </div>
+  );
+}
+
+const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
+
+const spanned = (a: Point, b: Point): Bounds => [Math.min(a.x, b.x), Math.min(a.y, b.y), Math.max(a.x, b.x), Math.max(a.y, b.y)];
+
+/** The drawing of the graphics card: loaded when it is wanted. */
+function useBoard(canvas: RefObject<HTMLCanvasElement | null>, size: Size): Board | undefined {
+  const [board, setBoard] = useState<Board>();
+  const ready = size.width > 0;
+  useEffect(() => {
+    if (!ready) return;
+    let [made, gone] = [undefined as Board | undefined, false];
+    void import("./Board").then(({ Board: Made }) => {
+      if (gone || !canvas.current) return;
+      made = new Made(canvas.current, { width: canvas.current.clientWidth, height: canvas.current.clientHeight });
+      setBoard(made);
+    });
+    return () => {
+      gone = true;
+      made?.close();
+      setBoard(undefined);
+    };
+  }, [canvas, ready]);
+  useEffect(() => board?.resize(size.width, size.height), [board, size]);
+  return board;
+}
+
+interface Held {
+  grip: Grip;
+  point: Point;
+}
+
+/** What can be taken hold of besides the things themselves. */
+function gripsOf(state: Editing, mine: readonly Item[], locked: readonly string[], tool: Tool, view: View): Held[] {
+  if (tool.is === "route") {
+    const handles: Handle[] = state.items.find(({ path }) => path === `routes.${tool.route}`)?.figures[0]?.handles ?? [];
+    return handles.map(({ x, y }, handle) => ({ grip: { is: "handle", handle }, point: { x, y } }));
+  }
+  const [item] = mine;
+  if (!item || mine.length !== 1 || locked.includes(item.path) || tool.is !== "select") return [];
+  const corners = at(state.document, `${item.path}.corners`);
+  if ((item.group === "area" || item.group === "radio") && Array.isArray(corners))
+    return corners.map((corner, number) => ({ grip: { is: "corner", item, corner: number }, point: pointOf(corner as [number, number]) }));
+  const middle = placeOf(item);
+  if (!middle || !isTurnable(state, item)) return [];
+  const [heading, arm] = [item.figures[0]?.heading ?? 0, ARM / view.scale];
+  return [{ grip: { is: "turn", item }, point: { x: middle.x + arm * Math.cos(heading), y: middle.y + arm * Math.sin(heading) } }];
+}
+
+const pointOf = ([x, y]: readonly [number, number]): Point => ({ x, y });
+
+interface Scene {
+  plan: Plan;
+  items: readonly Item[];
+  chosen: readonly string[];
+  dark: boolean;
+  hovered: string | undefined;
+  tool: Tool;
+  ground: Point | undefined;
+  lanes: readonly Lane[];
+  state: Editing;
+  drag: Drag | undefined;
+  press: Press | undefined;
+  grips: readonly Held[];
+}
+
+function pictureOf({ plan, items, chosen, dark, hovered, tool, ground, lanes, state, drag, press, grips }: Scene): Picture {
+  const base: Picture = { plan, items, chosen, dark, hovered, ghosts: [], outlines: [], lines: [], handles: grips.map(({ point }) => point) };
+  if (drag && press?.is === "things") return { ...base, ...draggedThings(state, press.items, drag, lanes) };
+  if (press?.is === "grip" && press.moved && ground) return { ...base, ...grippedThing(press.grip, ground, state) };
+  if (tool.is === "measure" || tool.is === "area") {
+    const made = tool.is === "measure" ? tool.points : tool.corners;
+    const line = [...made, ...(ground ? [ground] : [])].map(({ x, y }) => [x, y] as [number, number]);
+    return { ...base, lines: line.length > 1 ? [line] : [], outlines: tool.is === "area" && line.length > 2 ? [line] : [], handles: made };
+  }
+  if (tool.is === "add" && ground) return { ...base, ghosts: [ghostFor(tool.what, ground, lanes)] };
+  if (tool.is === "route") {
+    const line = state.items.find(({ path }) => path === `routes.${tool.route}`)?.figures[0]?.line ?? [];
+    const lane = ground ? onLane(lanes, ground)?.foot : undefined;
+    return { ...base, lines: line.length > 1 ? [line] : [], ghosts: lane ? [{ ...lane, length: 1.5, width: 1.5 }] : [] };
+  }
+  return base;
+}
+
+function draggedThings(state: Editing, held: readonly Item[], drag: Drag, lanes: readonly Lane[]): Pick<Picture, "ghosts" | "outlines"> {
+  const [dx, dy] = [drag.to.x - drag.from.x, drag.to.y - drag.from.y];
+  const ghosts: Ghost[] = held.flatMap((item) =>
+    item.figures.filter(({ shape }) => shape === "body" || shape === "point").map(({ length = 0, width = 0 }) => ({ ...ghostOf(state, item, drag, lanes), length: length || 2, width: width || 2 })),
+  );
+  const outlines = held.flatMap(({ figures }) =>
+    figures.filter(({ shape }) => shape === "area" || shape === "patch").map(({ line = [] }) => line.map(([x, y]) => [x + dx, y + dy] as [number, number])),
+  );
+  return { ghosts, outlines };
+}
+
+function grippedThing(grip: Grip, to: Point, state: Editing): Partial<Picture> {
+  if (grip.is === "handle") return { ghosts: [{ ...to, heading: 0, length: 1.5, width: 1.5 }] };
+  if (grip.is === "corner") {
+    const corners = at(state.document, `${grip.item.path}.corners`) as [number, number][];
+    return { outlines: [corners.map((corner, number) => (number === grip.corner ? [to.x, to.y] : corner))] };
+  }
+  const [figure, middle] = [grip.item.figures[0], placeOf(grip.item)];
+  if (!figure || !middle) return {};
+  const heading = Math.atan2(to.y - middle.y, to.x - middle.x);
+  return { ghosts: [{ ...middle, heading, length: figure.length || 2, width: figure.width || 2 }], lines: [[[middle.x, middle.y], [to.x, to.y]]] };
+}
+
+/** About how large what is added will be [m]. */
+const EXTENT: Partial<Record<Addition, [number, number]>> = { vehicle: [4.6, 1.8], friction: [20, 3.5], wall: [4, 0.3], barrier: [1.5, 0.3], radio: [100, 100], cyclist: [1.9, 0.6] };
+
+function ghostFor(what: Addition, ground: Point, lanes: readonly Lane[]): Ghost {
+  const foot = onLane(lanes, ground)?.foot;
+  const snapped = what === "vehicle" || what === "friction";
+  const [length, width] = EXTENT[what] ?? [1, 1];
+  return { ...(snapped && foot ? foot : ground), heading: foot?.heading ?? 0, length, width };
+}
+
+// -- over the drawing ----------------------------------------------------------------------------
+
+const MOST_NAMES = 80;
+
+function Names({ items, chosen, hovered, view, size, all }: { items: readonly Item[]; chosen: readonly string[]; hovered: string | undefined; view: View; size: Size; all: boolean }) {
+  const isLit = ({ path }: Item) => path === hovered || chosen.includes(path);
+  const shown = items
+    .filter(({ path, group }) => (all && group !== "route") || path === hovered || chosen.includes(path))
+    .flatMap((item) => {
+      const place = placeOf(item);
+      const screen = place && toScreen(view, size, place);
+      const seen = screen && screen.x > -20 && screen.y > -20 && screen.x < size.width + 20 && screen.y < size.height + 20;
+      return seen ? [{ item, screen }] : [];
+    })
+    .slice(0, MOST_NAMES)
+    .sort((a, b) => Number(isLit(b.item)) - Number(isLit(a.item)))
+    .reduce<Named[]>((kept, each) => (isLit(each.item) || kept.every((other) => !covers(other, each)) ? [...kept, each] : kept), []);
+  return (
+    <div className={classes.names}>
+      {shown.map(({ item: { path, name, told }, screen }) => (
+        <span key={path} className={classes.name} data-testid={`on-plan-${path}`} data-chosen={chosen.includes(path) || undefined} style={{ left: screen.x, top: screen.y }}>
+          {name}
+          {path === hovered ? <small> {told}</small> : null}
+        </span>
+      ))}
+    </div>
+  );
+}
+
+interface Named {
+  item: Item;
+  screen: Point;
+}
+
+/** About how wide a letter is, and how high a name [px]. */
+const LETTER = 6.5;
+const LINE = 17;
+
+/** Whether one name would lie on another. */
+const covers = (one: Named, other: Named): boolean =>
+  Math.abs(one.screen.y - other.screen.y) < LINE &&
+  Math.abs(one.screen.x - other.screen.x) < 5 + (LETTER * (one.item.name.length + other.item.name.length)) / 2;
+
+/** The points of a route, in the order in which they are driven. */
+const Numbers = ({ points, view, size }: { points: readonly Point[]; view: View; size: Size }) =>
+  points.map((point, number) => {
+    const { x, y } = toScreen(view, size, point);
+    return (
+      <span key={`${number} ${point.x}`} className={classes.name} data-chosen data-testid={`route-point-${number + 1}`} style={{ left: x, top: y }}>
+        {number + 1}
+      </span>
+    );
+  });
+
+const Rectangle = ({ from, to }: { from: Point; to: Point }) => (
+  <div
+    className={classes.rectangle}
+    style={{ left: Math.min(from.x, to.x), top: Math.min(from.y, to.y), width: Math.abs(to.x - from.x), height: Math.abs(to.y - from.y) }}
+  />
+);
+
+/** The length of the tape, at its end. */
+function Tape({ points, to, view, size }: { points: readonly Point[]; to: Point | undefined; view: View; size: Size }) {
+  const all = [...points, ...(to ? [to] : [])];
+  const line: Line = all.map(({ x, y }) => [x, y] as const);
+  const last = all.at(-1);
+  if (all.length < 2 || !last) return null;
+  const total = line.slice(1).reduce((sum, [x, y], n) => sum + Math.hypot(x - (line[n]?.[0] ?? x), y - (line[n]?.[1] ?? y)), 0);
+  const screen = toScreen(view, size, last);
+  return (
+    <span className={classes.name} data-chosen data-testid="tape" style={{ left: screen.x, top: screen.y }}>
+      {total.toFixed(2)} m
+    </span>
+  );
+}
