@@ -1,9 +1,10 @@
 """Commands about runs: make one, list, show and compare them, check what is to be run."""
 
 import sys
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, BinaryIO, Literal
 
 import typer
 
@@ -47,9 +48,13 @@ def run(
 def runs(
     db: Db = DEFAULT_DB,
     limit: Annotated[int, typer.Option(help="How many, newest first.", min=1, max=1_000_000)] = 50,
+    out: Annotated[Path | None, typer.Option("--out", help="A file for the whole table: .csv, .parquet, .json.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Lists the runs of the database."""
+    if out is not None:
+        write_ledger(existing(db), out)
+        return
     rows = existing(db).select(limit=limit)
     if as_json:
         print_json([run_json(row) for row in rows])
@@ -62,6 +67,30 @@ def runs(
         [[str(row.run), row.scenario, row.status, row.verdict, str(row.parent or ""), str(row.seed), settings(row.parameters),
           metric_text(row, "min_ttc"), metric_text(row, "worst_hop_gain")] for row in rows],
     )  # fmt: skip
+
+
+def write_ledger(found, out: Path) -> None:
+    """Writes the table of runs, in the form that the ending of the file says."""
+    from studio.store.ledger import FORMS, ledger
+
+    form = next((each for each in FORMS if each == out.suffix.removeprefix(".").lower()), None)
+    if form is None:
+        raise StoreError(
+            f"{out} is of no form.", [Problem("--out", "has an unknown ending", out.suffix, ", ".join(f".{each}" for each in FORMS))]
+        )
+    data = ledger(found, form)
+    put(out, lambda file: file.write(data))
+    print(f"{out}: the table of runs, {len(data) / 1e6:.1f} MB")
+
+
+def put(out: Path, write: Callable[[BinaryIO], Any]) -> None:
+    """Writes a file; raises StoreError when the disk does not take it."""
+    try:
+        with out.open("wb") as file:
+            write(file)
+    except OSError as error:
+        problem = Problem("--out", "cannot be written", str(out), remedy="name a file in a folder that exists, with room")
+        raise StoreError(f"{out}: {error.strerror or error}", [problem]) from None
 
 
 @commands.command()
@@ -168,21 +197,28 @@ def compare(
 def export(
     run: Annotated[int, typer.Argument(help="Number of the run.")],
     out: Annotated[Path, typer.Option("--out", help="The file to write; one that is there is replaced.")],
-    format_: Annotated[Literal["fcd", "csv"], typer.Option("--format", help="SUMO's floating car data (XML), or a table.")] = "fcd",
+    format_: Annotated[
+        Literal["fcd", "csv", "parquet", "channels"],
+        typer.Option(
+            "--format", help="Trajectories: SUMO's floating car data (XML), or a table. All recorded channels: Parquet, or a table (CSV)."
+        ),
+    ] = "fcd",
     as_degrees: Annotated[bool, typer.Option("--degrees", help="Longitude and latitude instead of metres of the map.")] = False,
     db: Db = DEFAULT_DB,
 ) -> None:
-    """Writes the trajectories of a run for other programs: those of the recorded vehicles, with recording.traffic of all."""
+    """Writes a run for other programs: trajectories of the recorded vehicles, with recording.traffic of all, or all that was recorded."""
+    from studio.store import trace
     from studio.store.export import export as exported
 
-    found = exported(existing(db), run, format_, as_degrees=as_degrees)
-    try:
-        with out.open("w", encoding="utf-8", newline="") as file:
-            file.writelines(found)
-    except OSError as error:
-        problem = Problem("--out", "cannot be written", str(out), remedy="name a file in a folder that exists, with room")
-        raise StoreError(f"{out}: {error.strerror or error}", [problem]) from None
-    print(f"{out}: the trajectories of run {run}, {out.stat().st_size / 1e6:.1f} MB")
+    runs = existing(db)
+    if format_ == "parquet":
+        parts = iter([runs.parquet(run)])
+    else:
+        texts = trace.lines(runs.parquet(run)) if format_ == "channels" else exported(runs, run, format_, as_degrees=as_degrees)
+        parts = (each.encode() for each in texts)
+    put(out, lambda file: file.writelines(parts))
+    what = "trajectories" if format_ in ("fcd", "csv") else "recorded channels"
+    print(f"{out}: the {what} of run {run}, {out.stat().st_size / 1e6:.1f} MB")
 
 
 @commands.command()

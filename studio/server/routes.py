@@ -1,7 +1,7 @@
 """REST under /api. Every route calls the function that the command line calls too."""
 
 from collections.abc import Iterator
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
 from starlette.responses import HTMLResponse, Response, StreamingResponse
@@ -9,7 +9,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from studio import job
 from studio.assess.compare import ALIKE
-from studio.errors import Problem, ScenarioError, StudioError, UnknownError
+from studio.errors import Problem, ScenarioError, StudioError, UnknownError, short
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.parcel.report import report
@@ -29,6 +29,8 @@ from studio.store.comparison import beside, numbers
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
+from studio.store.ledger import MEDIA as LEDGER_MEDIA
+from studio.store.ledger import Form, ledger
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
@@ -39,6 +41,13 @@ PAGE: dict[int | str, dict[str, Any]] = {200: {"description": "HTML", "content":
 TRAJECTORIES: dict[int | str, dict[str, Any]] = {
     200: {"description": "piece by piece", "content": {each: {"schema": {"type": "string"}} for each in MEDIA.values()}}
 }
+LEDGER: dict[int | str, dict[str, Any]] = {
+    200: {"description": "a file", "content": {each: {"schema": {"type": "string", "format": "binary"}} for each in LEDGER_MEDIA.values()}}
+}
+RECORDING: dict[int | str, dict[str, Any]] = {
+    200: {"description": "a file", "content": {LEDGER_MEDIA[each]: {"schema": {"type": "string"}} for each in ("parquet", "csv")}}
+}
+MOST_CHOSEN, LONGEST_NUMBER = 10_000, 19  # runs that are named, and digits of each
 SOCKET: dict[int | str, dict[str, Any]] = {
     "1XX": {"model": News, "description": "101: a WebSocket from here on; each message is one of the news"}
 }
@@ -188,6 +197,31 @@ def runs(
     return Response(listing(kept, where=where, values=list(conditions.values()), limit=limit), media_type="application/json")
 
 
+@router.get("/table", response_class=Response, responses=LEDGER)
+def table_of_runs(
+    kept: KeptRuns,
+    form: Annotated[Form, Query(alias="format")] = "csv",
+    scenario: Annotated[str | None, Query(description="only runs of this scenario")] = None,
+    runs: Annotated[str, Query(description="only these numbers, separated by commas")] = "",
+) -> Response:
+    """The table of runs as a file: parameters, metrics with units, verdicts."""
+    where, values = chosen_runs(scenario, runs)
+    named = {"Content-Disposition": f'attachment; filename="runs.{form}"'}
+    return Response(ledger(kept, form, where=where, values=values), media_type=LEDGER_MEDIA[form], headers=named)
+
+
+def chosen_runs(scenario: str | None, runs: str) -> tuple[str, list[Any]]:
+    """A condition of SQL with its values; raises ScenarioError for what is no number of a run."""
+    wanted = [each.strip() for each in runs.split(",")] if runs else []
+    wrong = [each for each in wanted if not (each.isascii() and each.isdigit() and len(each) < LONGEST_NUMBER)]
+    if wrong or len(wanted) > MOST_CHOSEN:
+        problem = Problem("runs", "are no numbers of runs", short(", ".join(wrong or wanted)), f"at most {MOST_CHOSEN}, such as 1,2,5")
+        raise ScenarioError("Which runs?", [problem])
+    conditions = [f"run in ({', '.join('?' * len(wanted))})"] if wanted else []
+    conditions += ["scenario = ?"] if scenario else []
+    return " and ".join(conditions) or "1", [*map(int, wanted), *([scenario] if scenario else [])]
+
+
 @router.post("/runs", status_code=202)
 def start_run(new: answer.NewRun, desk: AtDesk) -> answer.Started:
     """Starts a run as fast as possible, watched by nobody, or lets it wait for its turn; its row tells when it is done."""
@@ -256,6 +290,24 @@ def run_stretch(
     """The measures of a stretch of a run, where they can be made from what was recorded: each without the others' time."""
     first, last, metrics = stretch(kept, run, begin, end)
     return answer.Stretch(begin=first, end=last, metrics={name: answer.Metric(**vars(each)) for name, each in metrics.items()})
+
+
+@router.get("/runs/{run}/recording", response_class=StreamingResponse, responses=RECORDING)
+def run_recording(
+    run: int,
+    kept: KeptRuns,
+    form: Annotated[
+        Literal["parquet", "csv"], Query(alias="format", description="parquet: as it is kept, with units; csv: a table")
+    ] = "parquet",
+    channels: Annotated[str, Query(description="of csv: names, separated by commas; all without it")] = "",
+) -> Response:
+    """All recorded channels of a run as a file."""
+    parquet = kept.parquet(run)
+    named = {"Content-Disposition": f'attachment; filename="run_{run}.{form}"'}
+    if form == "parquet":
+        return Response(parquet, media_type=LEDGER_MEDIA["parquet"], headers=named)
+    names = [name.strip() for name in channels.split(",") if name.strip()]
+    return StreamingResponse(trace.lines(parquet, names), media_type="text/csv", headers=named)
 
 
 @router.get("/runs/{run}/trajectories", response_class=StreamingResponse, responses=TRAJECTORIES)

@@ -3,7 +3,7 @@
 import io
 import json
 import mmap
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from studio.world.channel import CHANNELS, catalogue
 
 UNIT, LABEL = b"unit", b"label"
 FORM: Any = {"compression": "zstd", "use_dictionary": False, "use_byte_stream_split": True, "data_page_size": 1 << 15}
+BATCH = 512  # samples that are read at a time
 ABOUT = b"record"  # what the columns are about, as JSON
 
 
@@ -106,6 +107,26 @@ def read(parquet: bytes, names: list[str]) -> dict[str, np.ndarray]:
             raise UnknownError(f"This run has no channel {short(name)}; {problem.remedy}", [problem])
     table = pq.read_table(io.BytesIO(parquet), columns=["time", *dict.fromkeys(names)])
     return {name: table[name].to_numpy() for name in table.column_names}
+
+
+def lines(parquet: bytes, names: Sequence[str] = ()) -> Iterator[str]:
+    """The recorded channels, or some, as CSV, piece by piece: units in the head, all bits of every number, empty where there is none.
+
+    Raises UnknownError before the first piece.
+    """
+    units = {each["name"]: each["unit"] for each in channels(parquet)}
+    if lacking := [name for name in names if name not in units]:
+        read(parquet, lacking)
+    return pieces(parquet, {name: units[name] for name in names or units})
+
+
+def pieces(parquet: bytes, units: Mapping[str, str]) -> Iterator[str]:
+    """The head, then some samples at a time."""
+    yield ",".join(["time [s]", *(f"{name} [{unit}]" for name, unit in units.items())]) + "\n"
+    columns = ["time", *units]
+    for batch in pq.ParquetFile(pa.BufferReader(parquet), pre_buffer=False).iter_batches(BATCH, columns=columns):
+        rows = zip(*(batch.column(name).to_pylist() for name in columns), strict=True)
+        yield "".join(",".join("" if value is None or value != value else repr(value) for value in row) + "\n" for row in rows)
 
 
 def between(columns: dict[str, np.ndarray], begin: float | None, end: float | None) -> dict[str, np.ndarray]:

@@ -27,6 +27,7 @@ import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
+import { ExportMenu } from "./ExportMenu";
 import { VerdictCard } from "./VerdictCard";
 
 export function RunPage({ run }: { run: number }) {
@@ -110,6 +111,7 @@ function Ways({ run }: { run: RunDetail }) {
       <Button size="xs" variant="default" component="a" href={`/api/runs/${run.run}/report`} download>
         Report
       </Button>
+      <ExportMenu label="Export" disabled={run.channels.length === 0} ways={exportsOf(run.run)} />
       <Button
         size="xs"
         variant="default"
@@ -133,6 +135,14 @@ function Ways({ run }: { run: RunDetail }) {
     </Group>
   );
 }
+
+/** What is recorded, in the forms that others read. */
+const exportsOf = (run: number) => [
+  { label: "All channels, Parquet", href: `/api/runs/${run}/recording?format=parquet` },
+  { label: "All channels, CSV", href: `/api/runs/${run}/recording?format=csv` },
+  { label: "Trajectories, CSV", href: `/api/runs/${run}/trajectories?format=csv` },
+  { label: "Trajectories, SUMO FCD", href: `/api/runs/${run}/trajectories?format=fcd` },
+];
 
 function Card({ title, children }: { title: string; children: ReactNode }) {
   return (

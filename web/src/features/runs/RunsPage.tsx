@@ -17,6 +17,7 @@ import { useShortcuts } from "../../ui/shortcut";
 import { Board } from "./Board";
 import { ColumnMenu, useArrangement } from "./ColumnMenu";
 import { useColumns } from "./columns";
+import { ExportMenu } from "./ExportMenu";
 import { FilterField } from "./FilterField";
 import { Lineage } from "./Lineage";
 import classes from "./Runs.module.css";
@@ -85,6 +86,23 @@ const WAYS = [
   { value: "lineage", label: "Lineage" },
   { value: "board", label: "Board" },
 ];
+
+/** So many runs are named in an address at most. */
+const MOST_NAMED = 5000;
+
+/** The runs that are shown, as a file; all of them need not be named. */
+function Exports({ shown, isAll, scenario }: { shown: readonly ListedRun[]; isAll: boolean; scenario: string | undefined }) {
+  const query = new URLSearchParams(scenario ? { scenario } : {});
+  if (!isAll) query.set("runs", shown.map(({ run }) => run).join(","));
+  const ways = ["csv", "parquet", "json"].map((form) => ({ label: form.toUpperCase(), href: `/api/table?format=${form}&${query}` }));
+  return (
+    <ExportMenu
+      label={isAll ? "Export" : `Export ${shown.length}`}
+      ways={ways}
+      disabled={shown.length === 0 || (!isAll && shown.length > MOST_NAMED)}
+    />
+  );
+}
 
 interface ListedProps extends Props {
   runs: readonly ListedRun[];
@@ -157,6 +175,7 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
           ) : null}
           {as === "table" || as === "space" ? <ColumnMenu columns={every} arrangement={arrangement} onArrange={arrange} /> : null}
           <FilterField text={q} wrong={filter.wrong} columns={columns} onText={(next) => onView({ ...view, q: next || undefined })} />
+          <Exports shown={shown} isAll={shown.length === all.length} scenario={scenario} />
           <CompareButton selected={selected} />
         </Group>
       </Group>
