@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 from studio.errors import Problem, UnknownError
+from studio.execution.record import SAME_TIME
+from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.ghost import COLOURS
 from studio.server.frame import looks
@@ -29,8 +31,12 @@ class Ghost:
         return [replace(whole[column], color=self.color) for column in self.columns]
 
     def poses(self, time: float) -> np.ndarray:
-        """Where they were, float32[POSE_ROWS, car], when the clock of the run that is played back says so [s]."""
-        return self.replay.frame(time + self.offset).poses[:, self.columns]
+        """Where they were, float32[POSE_ROWS, car], when the clock of the run that is played back says so [s]; beyond their run nowhere."""
+        own, times = time + self.offset, self.replay.time
+        found = self.replay.frame(own).poses[:, self.columns]
+        if not times[0] - SAME_TIME <= own <= times[-1] + SAME_TIME:
+            found[pose.VISIBLE] = 0.0
+        return found
 
     def told(self) -> dict[str, Any]:
         """For the page."""

@@ -7,7 +7,7 @@ origin below the centre of gravity, wherever the picture has the car just now; o
 is told, so that nobody takes it for nothing.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import cos, degrees, isfinite, sin
@@ -197,16 +197,24 @@ class Layers:
         return list(zip(np.interp(own, known, points[PATH_X]).tolist(), np.interp(own, known, points[PATH_Y]).tolist(), strict=True))
 
 
-def missing(record: Record) -> dict[str, str]:
-    """What of a record that is over cannot be drawn, layer by layer, and why."""
-    wanted = {"gaps": ("gap", "ahead"), "paths": ("station",), "trails": ("x", "y"), "speed": ("speed",), "lamps": ("acceleration",)}
-    found = {}
-    for layer, channels in wanted.items():
-        if lacking := [name for name in channels if not np.isfinite(record.channel(name)).any()]:
-            found[layer] = f"{', '.join(lacking)} was not recorded: see recording.channels"
+def missing(record: Record, kept: Collection[str]) -> dict[str, str]:
+    """What of a record that is over cannot be drawn, layer by layer, and why; `kept` are the channels that were recorded.
+
+    A channel that was kept may hold no number: a gap is none where nobody is ahead.
+    """
+    known = {name.partition(".")[2] for name in kept}
+    wanted = {"gaps": ("gap", "ahead"), "paths": ("station",), "trails": ("x", "y"), "speed": ("speed",)}
+    found = {
+        layer: NOT_KEPT.format(", ".join(lacking)) for layer, names in wanted.items() if (lacking := [n for n in names if n not in known])
+    }
+    if not {"acceleration", "brake_torque"} & known:
+        found["lamps"] = NOT_KEPT.format("acceleration")
     if not record.messages.units:
         found["messages"] = "this run has no log of messages"
     return found
+
+
+NOT_KEPT = "{} was not recorded: see recording.channels"
 
 
 def slots(at: str, record: Record) -> Iterator[tuple[str, tuple[str, str]]]:

@@ -50,6 +50,7 @@ class Replay:
     brought: dict[str, Brought]
     notes: tuple[str, ...]
     record: Record | None = None  # all that was kept; none of a recording that is too long for the memory
+    kept: frozenset[str] = frozenset()  # channels that were recorded
 
     def frame(self, time: float) -> Frame:
         """The picture at a time [s]; before the first and after the last sample that of this."""
@@ -71,7 +72,7 @@ class Replay:
     @cached_property
     def missing(self) -> dict[str, str]:
         """Which layers cannot be drawn, and why."""
-        return missing(self.record) if self.record else dict.fromkeys(LAYERS, "the recording is too long")
+        return missing(self.record, self.kept) if self.record else dict.fromkeys(LAYERS, "the recording is too long")
 
     def seen(self, t: float) -> np.ndarray:
         """Poses of all vehicles."""
@@ -154,6 +155,7 @@ def replay(runs: Runs, run: int, path: Path) -> Replay:
         brought=about["brought"],
         notes=tuple(notes),
         record=record,
+        kept=frozenset(names),
     )
 
 

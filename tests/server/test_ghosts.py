@@ -36,6 +36,12 @@ def test_a_ghost_is_where_its_run_was_and_traffic_is_none(sample, runs):
     assert np.abs(ghost.poses(4.0)[pose.X] - one.frame(4.0).poses[pose.X, :5]).max() > 0.5
 
 
+def test_a_ghost_whose_run_is_over_is_not_there(sample, runs):
+    one, short = played(runs, sample), played(runs, sample, clock__duration=2.0)
+    (ghost,) = haunting(one, [short], "")
+    assert ghost.poses(2.0)[pose.VISIBLE].all() and not ghost.poses(2.1)[pose.VISIBLE].any() and not ghost.poses(-0.1)[pose.VISIBLE].any()
+
+
 def test_runs_are_aligned_by_the_first_event_of_a_kind(sample, runs):
     one = played(runs, sample, script__hard_brake__when__at=1.0)
     late = played(runs, sample, script__hard_brake__when__at=2.5)

@@ -130,13 +130,15 @@ def test_a_run_that_goes_on_has_the_same_layers(played, sample):
 
 
 def test_what_was_not_recorded_is_told(sample, tmp_path, played):
-    assert missing(played.record) == {}
+    assert played.missing == {}
     runs = open_runs(tmp_path / "runs.db")
     kept = {"clock.duration": 1.0, "recording.channels": ["x", "y", "heading"]}
     poor = replay(runs, job.run(job.load(sample, kept), runs=runs).row.run, sample)
     assert {"gaps", "paths", "speed", "lamps"} <= poor.missing.keys() and "trails" not in poor.missing
     assert "recording.channels" in poor.missing["gaps"]
     assert poor.layers(0.5).paths == []
+    nobody = replace(played.record, values=np.full_like(played.record.values, np.nan))
+    assert missing(nobody, played.kept) == {}  # a gap that is none is not one that was not kept
     runs.close()
 
 

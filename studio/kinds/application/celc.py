@@ -12,6 +12,10 @@ takes follows from what it sees and hears:
     COMMIT   begins to steer as soon as the other has fallen back by then              repeated until it is done
     DONE     in the other lane; or ABORT: brakes instead                               repeated for a while
 
+Who hears any of it and has a car ahead brakes with it: lanes cannot be told apart by what is heard, so every unit must name in `listens_to`
+whom it would follow and who drives beside it. An evasion happens once: afterwards the car keeps the other lane and its gap to the end of
+the run, and takes part in no further maneuver.
+
 All of it carries the number that who asked has given it. The safe default is to brake: when nobody answers in time or one refuses, when
 the other one was heard to brake but is not seen to, and where braking alone is enough. Who has accepted and hears no commitment until
 GRACE after the deadline goes on as before.
@@ -22,7 +26,7 @@ one, braking as it has told, will have fallen back by LONG_MARGIN at the moment 
 It is followed as in the action change_lane, by the lane's markings, which the car keeps seeing from the other lane.
 """
 
-from math import atan, cos, sin
+from math import atan, cos, floor, sin
 from typing import Annotated, NamedTuple
 
 from studio.application.contract import (
@@ -253,15 +257,29 @@ def entered(m, stage, time):
 
 
 @compiled
+def alone(m):
+    """Without a maneuver: what is done now is of none that was before, and nothing is said of it."""
+    return Memory(m.stage, m.since, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, m.first, m.closed)
+
+
+@compiled
 def over(m, stage, time):
     """The maneuver is over: nothing more of it is minded."""
     return Memory(stage, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.place, m.first, m.identity)
 
 
 @compiled
-def recognised(p, m, time, obstacle, beside):
+def number_of(time, own):
+    """A number that no other maneuver has: the millisecond, and behind the point the place of who asks, which is nobody else's."""
+    place = own.gps_x + 0.618 * own.gps_y
+    return float(int(1000.0 * time)) + 1.0 + place - floor(place)
+
+
+@compiled
+def recognised(p, m, sees, obstacle, beside):
     """What is done about an obstacle: braking where that is enough or all there is, going around it where nobody is beside, else asking."""
-    identity, first = float(int(1000.0 * time)) + 1.0, obstacle.distance
+    time, first = sees.clock.time, obstacle.distance
+    identity = number_of(time, sees.own)
     stage = ASKING if beside.count > 0 else EVADING
     new = Memory(stage, time, identity, -1.0, time + p.patience, -1.0, time, 0.0, 0.0, 0.0, first, m.closed)
     return new if p.side != 0.0 else entered(new, BRAKING, time)
@@ -291,9 +309,9 @@ def as_asking(p, m, sees, obstacle, beside, offset):
     time, v = sees.clock.time, sees.own.speed
     if m.stage == IDLE and is_recognised(p, obstacle) and v > SLOWEST:
         if must_evade(p, v, obstacle.distance):
-            new = recognised(p, m, time, obstacle, beside)
+            new = recognised(p, m, sees, obstacle, beside)
             return new if new.stage != EVADING else started(new, time, offset)
-        return entered(m, BRAKING, time) if must_brake(p, v, obstacle.distance) else m
+        return entered(alone(m), BRAKING, time) if must_brake(p, v, obstacle.distance) else m
     if m.stage == ASKING:
         accepted, refused, offered, age = answer(m, sees.heard)
         if refused or time > m.deadline:
@@ -459,9 +477,9 @@ def decide(parameters, memory, sees):
     offset = offset_of(sees, m.place)
     obstacle, beside = look_ahead(p, sees, offset), look_aside(p.side, sees)
     m = as_asking(p, m, sees, obstacle, beside, offset)
-    if p.cooperates:
-        m = called(p, m, sees, obstacle) if m.stage in (IDLE, RESUMING) else m
-        m = as_asked(p, m, sees, obstacle)
+    if p.cooperates and m.stage in (IDLE, RESUMING):
+        m = called(p, m, sees, obstacle)
+    m = as_asked(p, m, sees, obstacle)
     says = is_said(p, m, time)
     if says:
         m = Memory(m.stage, m.since, m.identity, m.asking, m.deadline, time, m.begin, m.braked, m.offered, m.place, m.first, m.closed)

@@ -1,5 +1,6 @@
 /** One quantity over another: a curve for each car, and where it is at the time of the playback. */
 
+import { Text } from "@mantine/core";
 import { type ReactNode, useMemo, useSyncExternalStore } from "react";
 import { formatNumber } from "../model/units";
 import { Stroke } from "./Stroke";
@@ -78,6 +79,11 @@ export function XYChart({ x, y, curves, version, lead, head }: Props) {
           </span>
         ))}
       </figcaption>
+      {curves.some(hasPoints) ? null : (
+        <Text size="xs" c="dimmed">
+          No car has values of both quantities here.
+        </Text>
+      )}
       <svg className={classes.xy} viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={`${curves.length} curves`}>
         {ticksOf(across).map((tick) => (
           <g key={tick}>
@@ -109,6 +115,9 @@ export function XYChart({ x, y, curves, version, lead, head }: Props) {
     </figure>
   );
 }
+
+/** Whether there is anything to draw of a curve. */
+const hasPoints = ({ x, y }: Curve): boolean => x.some((value, i) => typeof value === "number" && typeof y[i] === "number");
 
 const still = () => () => undefined;
 /** [s] Not every picture of a playback is worth a rendering. */

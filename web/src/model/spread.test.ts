@@ -3,11 +3,11 @@ import type { Run } from "./run";
 import { alike, spreadOf } from "./spread";
 
 const run = (number: number, seed: number, value: number | null, part: Partial<Run> = {}): Run =>
-  ({ run: number, seed, status: "done", scenario_hash: "a", metrics: { min_gap: { value, unit: "m" } }, ...part }) as Run;
+  ({ run: number, seed, status: "done", scenario_hash: "a", code_version: "1", metrics: { min_gap: { value, unit: "m" } }, ...part }) as Run;
 
 it("takes every seed of the same setting once, the newest, and only whole runs", () => {
-  const runs = [run(5, 2, 1), run(4, 1, 1), run(3, 1, 1), run(2, 3, 1, { status: "stopped" }), run(1, 4, 1, { scenario_hash: "b" })];
-  expect(alike(runs, { scenario_hash: "a" }).map((each) => each.run)).toEqual([4, 5]);
+  const runs = [run(5, 2, 1), run(4, 1, 1), run(3, 1, 1), run(2, 3, 1, { status: "stopped" }), run(1, 4, 1, { scenario_hash: "b" }), run(0, 5, 1, { code_version: "1+changed" })];
+  expect(alike(runs, { scenario_hash: "a", code_version: "1" }).map((each) => each.run)).toEqual([4, 5]);
 });
 
 it("tells mean, deviation of the sample, least and greatest with their runs", () => {

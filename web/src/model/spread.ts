@@ -14,10 +14,16 @@ export interface Spread {
   most: { value: number; run: number };
 }
 
+type Setting = Pick<Run, "scenario_hash" | "code_version">;
+
+/** Whether only the seeds of two runs differ: the code of the studio and of its kinds is part of a setting. */
+export const isSameSetting = (one: Setting, other: Setting): boolean =>
+  one.scenario_hash === other.scenario_hash && one.code_version === other.code_version;
+
 /** The whole runs of the same setting as one run, each seed once, the newest of a seed; that run among them. */
-export function alike<Some extends Run>(runs: readonly Some[], run: Pick<Run, "scenario_hash">): Some[] {
+export function alike<Some extends Run>(runs: readonly Some[], run: Setting): Some[] {
   const bySeed = new Map<number, Some>();
-  for (const each of runs) if (isWhole(each) && each.scenario_hash === run.scenario_hash && !bySeed.has(each.seed)) bySeed.set(each.seed, each);
+  for (const each of runs) if (isWhole(each) && isSameSetting(each, run) && !bySeed.has(each.seed)) bySeed.set(each.seed, each);
   return [...bySeed.values()].sort((one, other) => one.seed - other.seed);
 }
 

@@ -20,3 +20,10 @@ it("has nothing to say of other quantities, nor without goals", () => {
   expect(bandsOf(document, "speed")).toEqual([]);
   expect(bandsOf({}, "gap")).toEqual([]);
 });
+
+it("draws no limit of a measure that looks at a part of the run, or at some vehicles", () => {
+  const of = (part: Record<string, unknown>) => bandsOf({ goals: { late: { least: 2 } }, measures: { late: { kind: "min_gap", begin: null, end: null, vehicles: [], ...part } } } as never, "gap");
+  expect(of({})).toHaveLength(1);
+  expect(of({ begin: { at: 20 } })).toEqual([]);
+  expect(of({ vehicles: ["follower_3"] })).toEqual([]);
+});

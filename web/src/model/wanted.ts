@@ -24,9 +24,16 @@ export function bandsOf(document: Json | undefined, quantity: string): Band[] {
   if (!isTree(document) || !isTree(document.goals)) return [];
   return Object.entries(document.goals).flatMap(([name, goal]) => {
     const about = OF_QUANTITY[kindOf(document.measures, name)];
-    if (about?.quantity !== quantity || !isTree(goal)) return [];
+    if (about?.quantity !== quantity || !isTree(goal) || isOfAPart(document.measures, name)) return [];
     return bands(name, goal.least, goal.most, about);
   });
+}
+
+/** Whether a measure looks at a part of the run, or at some vehicles: then its limit is none of the whole chart. */
+function isOfAPart(measures: Json | undefined, name: string): boolean {
+  const own = isTree(measures) ? measures[name] : undefined;
+  if (!isTree(own)) return false;
+  return isTree(own.begin) || isTree(own.end) || (Array.isArray(own.vehicles) && own.vehicles.length > 0);
 }
 
 const kindOf = (measures: Json | undefined, name: string): string => {

@@ -8,20 +8,23 @@ import { useGlossary } from "../../api/glossary";
 import { runs as runsQuery } from "../../api/queries";
 import { titleOf } from "../../model/measure";
 import { isLive, type RunDetail } from "../../model/run";
-import { alike, spreadOf } from "../../model/spread";
+import { alike, isSameSetting, spreadOf } from "../../model/spread";
 import { formatNumber, unitText } from "../../model/units";
 import { Empty } from "../../ui/State";
 import classes from "./Studio.module.css";
 
+/** So many runs of the scenario are looked through, the newest. */
+const MOST = 10_000;
+
 export function Seeds({ scenario, run }: { scenario: string; run: RunDetail | undefined }) {
-  const { data = [] } = useQuery(runsQuery({ scenario }));
+  const { data = [] } = useQuery(runsQuery({ scenario, limit: MOST }));
   const known = useGlossary().metrics;
   const some = useMemo(() => (run ? alike(data, run) : []), [data, run]);
-  const going = run ? data.filter((each) => isLive(each.status) && each.scenario_hash === run.scenario_hash).length : 0;
+  const going = run ? data.filter((each) => isLive(each.status) && isSameSetting(each, run)).length : 0;
   const rows = useMemo(() => spreadOf(some), [some]);
   if (some.length < 2) {
     return (
-      <Empty icon="table" title={going ? `${going} still going` : "One seed so far"}>
+      <Empty icon="table" title={going ? `${going} still going` : some.length ? "One seed so far" : "No whole run of this setting yet"}>
         Set how many seeds are run at once beside the seed above: how far their metrics spread is told here.
       </Empty>
     );

@@ -12,7 +12,7 @@ import { Icon } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
-import { type Playhead, useLoop } from "./playhead";
+import { type Playhead, useLoop, useMoment } from "./playhead";
 import classes from "./Studio.module.css";
 
 interface Props {
@@ -22,15 +22,21 @@ interface Props {
   active: boolean;
 }
 
+/** [s] Whether a stretch can begin or end here need not be told of every picture. */
+const GRAIN = 0.1;
+
 export function Stretch({ head, span, active }: Props) {
   const loop = useLoop(head);
   const [open, setOpen] = useState(false);
   const [from, to] = loop ?? [head.begin, head.end];
   const begin = (time: number) => head.repeat([time, time < to ? to : head.end]);
   const end = (time: number) => head.repeat([time > from ? from : head.begin, time]);
-  useShortcuts({ i: () => begin(head.time), o: () => end(head.time) }, active);
+  const time = useMoment(head, GRAIN) ?? head.time;
+  const fromHere = [time, time < to ? to : head.end] as const;
+  const toHere = [time > from ? from : head.begin, time] as const;
+  useShortcuts({ i: () => head.repeat(fromHere), o: () => head.repeat(toHere) }, active);
   return (
-    <Popover position="bottom-end" shadow="md" withinPortal opened={open} onChange={setOpen} returnFocus>
+    <Popover position="bottom-end" shadow="md" withinPortal trapFocus opened={open} onChange={setOpen} returnFocus>
       <Popover.Target>
         <Button size="compact-xs" variant={loop ? "light" : "default"} onClick={() => setOpen(!open)} leftSection={<Icon name="swap" size={12} />}>
           {loop ? `${formatTime(from)}–${formatTime(to)} s` : "Stretch"}
@@ -43,13 +49,13 @@ export function Stretch({ head, span, active }: Props) {
             <Edge label="To" value={to} range={[from, head.end]} onTime={end} />
           </Group>
           <Group gap={6}>
-            <Button size="compact-xs" variant="default" onClick={() => begin(head.time)}>
+            <Button size="compact-xs" variant="default" disabled={!head.holds(fromHere)} onClick={() => head.repeat(fromHere)}>
               From here (i)
             </Button>
-            <Button size="compact-xs" variant="default" onClick={() => end(head.time)}>
+            <Button size="compact-xs" variant="default" disabled={!head.holds(toHere)} onClick={() => head.repeat(toHere)}>
               To here (o)
             </Button>
-            <Button size="compact-xs" variant="default" disabled={!span} onClick={() => span && head.repeat(span)}>
+            <Button size="compact-xs" variant="default" disabled={!span || !head.holds(span)} onClick={() => span && head.repeat(span)}>
               As the charts show
             </Button>
           </Group>

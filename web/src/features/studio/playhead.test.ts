@@ -102,6 +102,15 @@ describe("the playhead", () => {
     expect(at.loop).toEqual([0, 10]);
   });
 
+  it("takes no stretch in which nothing was recorded", () => {
+    const at = head();
+    at.repeat([3, 4]);
+    at.repeat([20, 40]); // what charts may show of a run that was stopped
+    at.repeat([10, 10]);
+    expect(at.loop).toEqual([3, 4]);
+    expect([at.holds([9, 12]), at.holds([10, 10])]).toEqual([true, false]);
+  });
+
   it("finds the event before and after", () => {
     const events = [event(1), event(1), event(4)];
     expect(nextEvent(events, 1, 1)).toBe(4);

@@ -1,10 +1,11 @@
 /** The playhead of a run that is over: one time for the scene, the charts, the events and the clock. */
 
 import { useEffect, useMemo, useSyncExternalStore } from "react";
-import { answer, client } from "../../api/client";
+import { answer, client, Unreachable } from "../../api/client";
 import type { Scene } from "../../api/types";
 import type { Layers } from "../../model/layer";
 import type { Server } from "../../model/run";
+import { notifyError } from "../../ui/notify";
 import type { Sight } from "./sight";
 
 export const PACES = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, Number.POSITIVE_INFINITY];
@@ -33,6 +34,7 @@ export class Playhead {
   private readonly listeners = new Set<() => void>();
   private readonly asking: Asking = { busy: false, wanted: undefined };
   private clock = 0;
+  private failed = false;
 
   constructor(
     readonly run: number,
@@ -77,11 +79,23 @@ export class Playhead {
     this.tell();
   };
 
-  /** Plays a stretch over and over from now on; without one, to the end. */
+  /** Plays a stretch over and over from now on; without one, to the end. One that holds no two samples is none. */
   readonly repeat = (loop: readonly [number, number] | undefined): void => {
-    this.loop = loop && [Math.max(loop[0], this.begin), Math.min(loop[1], this.end)];
+    if (loop && !this.holds(loop)) return;
+    this.loop = loop && this.within(loop);
     this.tell();
   };
+
+  /** Whether something of the run was recorded in a stretch. */
+  readonly holds = (loop: readonly [number, number]): boolean => {
+    const [from, to] = this.within(loop);
+    return to - from >= this.step - SAME;
+  };
+
+  private within([from, to]: readonly [number, number]): readonly [number, number] {
+    const inside = (time: number) => Math.min(Math.max(time, this.begin), this.end);
+    return [inside(from), inside(to)];
+  }
 
   /** At the end, from the beginning; outside of what it plays over and over, from the beginning of that. */
   play(): void {
@@ -130,9 +144,20 @@ export class Playhead {
     while (this.asking.wanted !== undefined) {
       const time = this.asking.wanted;
       this.asking.wanted = undefined;
-      await this.show(this.run, time).catch(() => undefined);
+      await this.show(this.run, time).then(
+        () => {
+          this.failed = false;
+        },
+        (error: Error) => this.fail(error),
+      );
     }
     this.asking.busy = false;
+  }
+
+  /** The scene does not follow: told once, until it does again. That the server is gone is told elsewhere. */
+  private fail(error: Error): void {
+    if (!this.failed && !(error instanceof Unreachable)) notifyError(error);
+    this.failed = true;
   }
 
   private tell(): void {
