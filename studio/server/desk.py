@@ -94,8 +94,8 @@ class Desk:
         self.stage.on_frame(live, frame)
 
     def files(self) -> dict[str, Path]:
-        """Scenario files by id."""
-        return {path.stem: path for path in sorted(self.scenarios.glob("*.yaml"))}
+        """Scenario files by id, the one that a newcomer sees first in front."""
+        return {path.stem: path for path in sorted(self.scenarios.glob("*.yaml"), key=lambda path: (path.stem != sample.FIRST, path.stem))}
 
     def file(self, scenario: str) -> Path:
         """The file of a scenario; raises UnknownError."""
