@@ -140,7 +140,25 @@ def test_what_is_sent_names_no_file_elsewhere(client, project, path):
     mapping = f"dbc: {path!r}\nsignals:\n  speed: {{from: v, unit: m/s}}\n"
     sent = client.put(f"/api/validations/{project}/files/other.yaml", content=mapping.encode())
     assert sent.status_code == 422 and "leads out" in sent.text
+    assert client.put(f"/api/validations/{project}/files/other.YAML", content=mapping.encode()).status_code == 422
+    tyres = f"tyres:\n  front: {path!r}\n"
+    sent = client.put(f"/api/validations/{project}/files/car.yaml", content=tyres.encode())
+    assert sent.status_code == 422 and "tyres.front" in sent.text
+    patch = [{"op": "add", "path": "/changes", "value": {"tyres.front": path}}]
+    changed = client.patch(f"/api/validations/{project}", json=patch, headers=PATCH)
+    assert changed.status_code == 422 and "leads out" in changed.text
     assert detail(client, project)["text"] == before["text"]
+
+
+def test_a_mapping_is_not_hidden_in_a_log(client, project):
+    hidden = b"dbc: /etc/passwd\nsignals:\n  speed: {from: v, unit: m/s}\n"
+    assert client.put(f"/api/validations/{project}/files/hidden.csv", content=hidden).status_code == 201
+    looked = client.post(f"/api/validations/{project}/jobs", json={"task": "look", "log": "turn_0.csv", "mapping": "hidden.csv"})
+    assert looked.status_code == 422 and "is no YAML file" in looked.text
+    for place, value in (("mapping", "hidden.csv"), ("vehicle", "./hidden.csv")):
+        patch = [{"op": "add", "path": f"/{place}", "value": value}]
+        assert client.patch(f"/api/validations/{project}", json=patch, headers=PATCH).status_code == 422
+    assert client.delete(f"/api/validations/{project}/files/hidden.csv").status_code == 204
 
 
 def test_what_is_wrong_is_told_at_its_line(client, project):

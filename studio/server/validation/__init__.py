@@ -32,7 +32,8 @@ from studio.validation import known, project
 
 CALLED, PROJECT, RESULTS = "validation", "project.yaml", "results"
 OTHERS: dict[str, answer.FileKind] = {".yaml": "mapping", ".dbc": "dbc", ".tir": "tyre"}
-PATHS = ("log", "mapping", "dbc", "vehicle")  # what names a file in a project, a mapping or a vehicle
+PATHS = ("log", "mapping", "dbc", "vehicle", "front", "rear")  # what names a file in a project, a mapping or a vehicle, also as tyres.front
+DOCUMENTS = ("mapping", "vehicle")  # of them those that name files themselves
 LARGEST = 500 * 2**20  # [B] of a log that is sent
 
 
@@ -210,9 +211,14 @@ def kind_of(path: Path) -> answer.FileKind:
         return "project"
     if reading.suffix(path) in reading.known():
         return "log"
-    if path.suffix == ".yaml":
+    if is_document(path.name):
         return "mapping" if b"signals:" in path.read_bytes()[:100_000] else "vehicle"
     return OTHERS.get(path.suffix.lower(), "other")
+
+
+def is_document(name: str) -> bool:
+    """Whether a file is one that may name others, by its ending; on many systems capitals make no difference."""
+    return name.lower().endswith((".yaml", ".yml"))
 
 
 def endings() -> list[str]:
@@ -283,7 +289,7 @@ def paths(value: Any, where: str = "") -> Iterator[tuple[str, str]]:
     for key, each in items:
         place = f"{where}.{key}" if where else str(key)
         if isinstance(each, str):
-            if key in PATHS or each.lower().endswith(".tir"):
+            if str(key).rpartition(".")[2] in PATHS or each.lower().endswith(".tir"):
                 yield place, each
         else:
             yield from paths(each, place)
@@ -296,8 +302,20 @@ def check_inside(value: Any, before: Collection[str] = ()) -> None:
         for place, each in paths(value)
         if each not in before and leads_out(each)
     ]
+    found += [
+        Problem(place, "is no YAML file", short(each), "a name that ends with .yaml", "send the file with this ending")
+        for place, each in paths(value)
+        if each not in before and is_disguised(place, each)
+    ]
     if found:
         raise ScenarioError("A project uses files of its own folder.", found)
+
+
+def is_disguised(place: str, text: str) -> bool:
+    """Whether a mapping or a vehicle is taken from a file that was not looked at for what it names when it was sent."""
+    what = place.rpartition(".")[2]
+    is_file = what == "mapping" or "/" in text or "\\" in text
+    return what in DOCUMENTS and is_file and not is_document(text)
 
 
 def leads_out(text: str) -> bool:

@@ -22,7 +22,19 @@ from studio.server.routes import PAGE, AtDesk, AtOwnDesk, IfMatch, KeptRuns, exp
 from studio.server.scenarios import name as names
 from studio.server.scenarios.routes import BODY as YAML_BODY
 from studio.server.scenarios.routes import YAML, received
-from studio.server.validation import LARGEST, answer, check_inside, checked, courses_of, endings, kind_of, kinds, report_of, vehicle_of
+from studio.server.validation import (
+    LARGEST,
+    answer,
+    check_inside,
+    checked,
+    courses_of,
+    endings,
+    is_document,
+    kind_of,
+    kinds,
+    report_of,
+    vehicle_of,
+)
 from studio.store import iteration
 
 BYTES = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
@@ -117,6 +129,7 @@ def begin_job(project: str, new: answer.NewJob, desk: AtOwnDesk) -> answer.Proje
         )
     for wanted in [each for each in (new.log, new.mapping) if each is not None]:
         desk.projects.file(project, wanted)
+    check_inside({"mapping": new.mapping})
     if new.task == "look" and new.log is None:
         raise ScenarioError("Nobody says which log.", [Problem("log", "is missing", remedy="name a file of the project")])
     return desk.project_jobs.begin(project, folder, new)
@@ -214,7 +227,7 @@ async def stored(body: AsyncIterator[bytes], beside: Path) -> None:
 
 def taken(beside: Path, path: Path) -> answer.ProjectFile:
     """Gives a file its name, if it is what it says; raises ScenarioError."""
-    if path.suffix == ".yaml":
+    if is_document(path.name):
         check_inside(checked(source.decoded(file.content(beside, "file", file.SIZE_LIMIT), path.name), path.name).value)
     try:
         os.replace(beside, path)
