@@ -93,10 +93,12 @@ def test_4_a_project_of_ones_own_from_a_log_in_other_units(page):
     page.get_by_role("tab", name="Maneuvers").click()
     expect(page.get_by_role("region", name="Maneuver j_turn")).to_contain_text("turn.csv")
     begin = page.get_by_label("Begin of turn.csv for validation")
-    begin.fill("0.5")
-    begin.press("Tab")
+    begin.clear()
+    begin.press_sequentially("0.55", delay=120)
+    expect(begin).to_be_focused()
+    begin.press("Enter")
     page.get_by_role("tab", name="Text").click()
-    expect(page.get_by_label("Text of project.yaml")).to_contain_text("begin: 0.5")
+    expect(page.get_by_label("Text of project.yaml")).to_contain_text("begin: 0.55")
 
 
 def log(name):

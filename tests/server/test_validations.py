@@ -122,6 +122,32 @@ def test_a_new_project_gets_its_files_and_loses_none(client, running):
     assert client.delete("/api/validations/mine/files/project.yaml").status_code == 409
 
 
+def test_a_title_is_of_one_project(client, project):
+    title = detail(client, project)["document"]["title"]
+    made = client.post("/api/validations", json={"name": "same", "title": title, "vehicle": "bmw_320i"}).json()
+    assert made["document"]["title"] == f"{title}_2" and made["iterations"] == []
+    refused = client.patch("/api/validations/same", json=[{"op": "replace", "path": "/title", "value": title}], headers=PATCH)
+    assert refused.status_code == 409 and "iterations are kept by title" in refused.text
+    put = client.put("/api/validations/same/text", content=made["text"].replace(f"{title}_2", title).encode())
+    assert put.status_code == 409 and detail(client, "same")["text"] == made["text"]
+    kept = client.patch("/api/validations/same", json=[{"op": "add", "path": "/confidence", "value": "one-sided"}], headers=PATCH)
+    assert kept.status_code == 200
+
+
+def test_a_sample_that_comes_to_nothing_leaves_its_name_free(client, project, running):
+    long = client.post(f"/api/validations/{project}/jobs", json={"task": "calibrate", "afresh": True}).json()
+    waiting = client.post("/api/validations/sample", json={"name": "second"}).json()
+    assert client.delete(f"/api/validation-jobs/{waiting['id']}").json()["status"] == "cancelled"
+    assert not (running[1] / "second").exists()
+    more = [client.post(f"/api/validations/{project}/jobs", json={"task": "validate"}).json() for _ in range(15)]
+    assert client.post("/api/validations/sample", json={"name": "second"}).status_code >= 400 and not (running[1] / "second").exists()
+    for each in [*more, long]:
+        client.delete(f"/api/validation-jobs/{each['id']}")
+    again = client.post("/api/validations/sample", json={"name": "second"})
+    assert again.status_code == 202 and ended(client, again.json())["status"] == "done"
+    assert detail(client, "second")["document"]["title"] != detail(client, project)["document"]["title"]
+
+
 @pytest.mark.parametrize(
     "name", ["../out.csv", "..%2Fout.csv", "project.yaml", "drive.exe", ".hidden.csv", "con.csv"],
 )  # fmt: skip

@@ -13,7 +13,7 @@ from fastapi import APIRouter, Body, Query, Request
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, Response
 
-from studio.errors import ConflictError, Problem, ScenarioError, SizeError, UnknownError, short
+from studio.errors import ConflictError, Problem, ScenarioError, ServerError, SizeError, UnknownError, short
 from studio.scenario import file
 from studio.scenario.text import source
 from studio.scenario.text.patch import Operation, operations
@@ -63,7 +63,12 @@ def new_validation(new: answer.NewProject, desk: AtOwnDesk, kept: KeptRuns) -> a
 def sample(new: answer.NewProject, desk: AtOwnDesk) -> answer.ProjectJob:
     """Makes a project to learn with: ten drives of a car whose truth is known."""
     name = names.checked(new.name)
-    return desk.project_jobs.begin(name, desk.projects.make(name), answer.NewJob(task="sample"))
+    folder = desk.projects.make(name)
+    try:
+        return desk.project_jobs.begin(name, folder, answer.NewJob(task="sample"))
+    except ServerError:
+        folder.rmdir()
+        raise
 
 
 @router.get("/validations/{project}")

@@ -13,7 +13,7 @@ from typing import Any
 
 from studio.errors import Problem, ScenarioError, StudioError
 from studio.server.errand import MOST_MEMORY, ServerGone, confine, tell
-from studio.server.validation import PROJECT, RESULTS, courses_of, report_of, vehicle_of
+from studio.server.validation import PROJECT, RESULTS, Projects, courses_of, report_of, vehicle_of
 from studio.server.validation.answer import NewJob
 
 POINTS = 1500  # of a signal that is drawn
@@ -184,7 +184,7 @@ def sample(pipe: Connection, order: Order) -> dict[str, Any]:
     from studio.validation import sample as samples
 
     tell(pipe, "stage", "driving", None)
-    samples.write(order.folder)
+    samples.write(order.folder, Projects(order.folder.parent.parent).free_title(samples.TITLE))
     return {"iterations": []}
 
 
