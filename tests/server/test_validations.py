@@ -116,6 +116,8 @@ def test_a_new_project_gets_its_files_and_loses_none(client, running):
     assert client.put("/api/validations/mine/files/mapping.yaml", content=mapping).json()["kind"] == "mapping"
     known = begun(client, "mine", task="look", log="drive.csv", mapping="mapping.yaml")["looked"]
     assert known["ours"][0]["low"] == pytest.approx(10.0) and known["ours"][0]["unit"] == "m/s"
+    assert known["mapping"]["signals"]["speed"]["from"] == "Geschwindigkeit" and known["mapping"]["dbc"] is None
+    assert unknown["mapping"] is None
     nothing = begun(client, "mine", task="validate")
     assert nothing["status"] == "failed" and "nothing to validate with" in nothing["problem"]["message"]
     assert client.delete("/api/validations/mine/files/drive.csv").status_code == 204
