@@ -291,6 +291,29 @@ def test_a_place_is_reckoned_with_the_speeds_of_the_road(desk, folder):
     assert not turn.is_exact and 100 / 20 < turn.begins < 100 / 5
 
 
+@pytest.mark.parametrize(
+    "deed",
+    [
+        {"kind": "set_speed", "vehicle": "first", "speed": 60, "acceleration": 10},
+        {"kind": "change_lane", "vehicle": "first", "offset": 1.0},
+        {"kind": "steer", "vehicle": "first", "angle": 0.05},
+    ],
+)
+def test_of_a_vehicle_that_the_script_drives_nobody_knows(desk, folder, deed):
+    """It may be faster than the limit, and off its way: what is told of others must not be told of it."""
+    path = folder / "stepping_out.yaml"
+    far = {"kind": "passed", "vehicle": "first", "along": 850}
+    beside = {"kind": "in_area", "vehicle": "first", "area": {"x": 0, "y": 0, "radius": 15}}
+    state = edit(desk, path, "Add", 0, patch=[
+        operation("add", ["script", "far"], value={"when": far, "do": {"kind": "mark"}}),
+        operation("add", ["script", "beside"], value={"when": beside, "do": {"kind": "mark"}}),
+    ])  # fmt: skip
+    assert all(each.never for each in state.turns if each.entry in ("far", "beside"))
+    driven = {"when": {"kind": "time", "at": 2}, "do": deed}
+    state = edit(desk, path, "Drive", 1, patch=[operation("add", ["script", "driven"], value=driven)])
+    assert [(each.begins, each.never) for each in state.turns if each.entry in ("far", "beside")] == [(None, ""), (None, "")]
+
+
 @pytest.mark.parametrize("shape", ["cuboid", "cylinder", "cone", "barrier", "wall", "tree"])
 def test_an_object_stands_where_it_is_put_and_looks_where_it_is_turned(desk, folder, shape):
     value = {"do": {"kind": "object", "shape": shape, "x": -150.0, "y": -300.0, "heading": 1.25}}
