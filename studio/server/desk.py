@@ -159,7 +159,7 @@ class Desk:
             renamed = self.scenario_files.rename(path, name, title, expected)
             if renamed.stem != scenario:
                 kept.rename_scenario(scenario, renamed.stem)
-                self.editing.history.rename(scenario, renamed.stem)
+                self.editing.rename(scenario, renamed.stem)
         return renamed
 
     def replay(self, runs: Runs, run: int) -> Replay:

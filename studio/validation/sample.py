@@ -14,6 +14,7 @@ from studio.rig import side
 from studio.rig.side import Order
 from studio.scenario import catalogue
 
+TITLE = "A car with worn front tyres"
 CAR, WORN, TRUTH = "bmw_320i", "tyres.front_cornering", 0.85
 RUNS, CALIBRATE = 10, 4
 LONG, RISE = 5.0, 0.12  # [s] a drive, and until the wheel is at its angle
@@ -21,13 +22,13 @@ ANGLE, SPEED = 0.03, 20.0  # [rad], [m/s]
 NOISE = {"speed": ("vx_mps", 0.02), "yaw_rate": ("yaw_rate_radps", 0.003), "lateral_acceleration": ("ay_mps2", 0.05)}
 
 
-def write(folder: Path) -> None:
+def write(folder: Path, title: str = TITLE) -> None:
     """Writes logs and project into a folder that is there; raises ScenarioError when the disk does not take them."""
     model = catalogue.find_vehicle(CAR, {WORN: TRUTH})
     orders = [order(model, np.random.default_rng(i)) for i in range(RUNS)]
     for i, made in enumerate(side.together(orders, step=0.005, period=PERIOD)):
         recording.write(recorded(orders[i], made.columns, np.random.default_rng(RUNS + i)), folder / f"turn_{i}.csv")
-    text = yaml.safe_dump(project(), sort_keys=False, default_flow_style=None, width=100)
+    text = yaml.safe_dump(project(title), sort_keys=False, default_flow_style=None, width=100)
     (folder / "project.yaml").write_text(f"# Ten drives whose truth is known: {WORN} is {TRUTH:g}.\n{text}", encoding="utf-8")
 
 
@@ -48,9 +49,9 @@ def recorded(given: Order, made: dict[str, np.ndarray], random: np.random.Genera
     return Recording("turn", time, {"road_wheel_angle": wheel} | seen)
 
 
-def project() -> dict:
+def project(title: str) -> dict:
     """The project: four runs calibrate, six validate."""
     runs = [{"log": f"turn_{i}.csv"} for i in range(RUNS)]
     trial = {"kind": "j_turn", "calibration": runs[:CALIBRATE], "validation": runs[CALIBRATE:]}
     lateral = {"parameters": {WORN: {"low": 0.5, "high": 1.5}}}
-    return {"title": "A car with worn front tyres", "vehicle": CAR, "maneuvers": {"turn": trial}, "calibration": {"lateral": lateral}}
+    return {"title": title, "vehicle": CAR, "maneuvers": {"turn": trial}, "calibration": {"lateral": lateral}}

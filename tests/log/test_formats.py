@@ -172,4 +172,4 @@ def test_a_trace_of_the_bus(tmp_path, bus, ending):
     other.write_text(DBC.replace("257", "258"))
     assert "knows none of its frames (0x101, 0x2bc)" in str(refused(path, other))
     other.write_text("this is no database")
-    assert "is no DBC" in str(refused(path, other))
+    assert "is no DBC" in str(refused(path, other)) and "no database" not in str(refused(path, other))

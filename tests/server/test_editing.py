@@ -126,6 +126,43 @@ def test_what_is_changed_as_text_is_a_step_too(desk, path):
     assert path.read_text() == between
 
 
+def test_a_text_changed_before_the_first_step_is_a_step_too(desk, path):
+    first = path.read_text()
+    assert desk.editing.state(path).revision == 0
+    path.write_text(first.replace("duration: 60", "duration: 55"))
+    state = desk.editing.state(path)
+    assert state.revision == 1 and "text" in state.done[-1].name
+    with pytest.raises(ConflictError):
+        edit(desk, path, "Longer", 0, set={"clock.duration": 70})
+    desk.editing.undo(path, NewTurn(base=1))
+    assert path.read_text() == first
+
+
+def test_a_new_file_of_the_name_is_not_a_change_of_the_old_one(desk, path):
+    desk.editing.state(path)
+    path.write_text(path.read_text().replace("duration: 60", "duration: 55"))
+    desk.editing.forget(path.stem)
+    assert desk.editing.state(path).done == []
+
+
+def test_a_text_that_was_broken_for_a_moment_does_not_block_undo(desk, path):
+    edit(desk, path, "Move leader", 0, set=lead(path, 363))
+    good = path.read_text()
+    for broken in (good.replace("duration: 60", "duration: -5"), "clock: ["):
+        path.write_text(broken)
+        with pytest.raises(StudioError):
+            desk.editing.state(path)
+        assert desk.editing.latest(path).name == "Move leader"
+    path.write_text(good.replace("duration: 60", "duration: 55"))
+    assert desk.editing.state(path).revision == 2
+    path.write_text(good.replace("duration: 60", "duration: -5"))
+    edit(desk, path, "Longer", 2, patch=[operation("replace", ["clock", "duration"], value=70)])
+    for base, duration in ((3, 55), (4, 60)):
+        assert desk.editing.undo(path, NewTurn(base=base)).document["clock"]["duration"] == duration
+    assert path.read_text() == good
+    desk.editing.undo(path, NewTurn(base=5))
+
+
 def test_what_cannot_be_run_is_refused_and_not_written(desk, path):
     before = path.read_bytes()
     for what in (
@@ -252,6 +289,29 @@ def test_a_place_is_reckoned_with_the_speeds_of_the_road(desk, folder):
     ])  # fmt: skip
     turn = next(each for each in state.turns if each.entry == "mine")
     assert not turn.is_exact and 100 / 20 < turn.begins < 100 / 5
+
+
+@pytest.mark.parametrize(
+    "deed",
+    [
+        {"kind": "set_speed", "vehicle": "first", "speed": 60, "acceleration": 10},
+        {"kind": "change_lane", "vehicle": "first", "offset": 1.0},
+        {"kind": "steer", "vehicle": "first", "angle": 0.05},
+    ],
+)
+def test_of_a_vehicle_that_the_script_drives_nobody_knows(desk, folder, deed):
+    """It may be faster than the limit, and off its way: what is told of others must not be told of it."""
+    path = folder / "stepping_out.yaml"
+    far = {"kind": "passed", "vehicle": "first", "along": 850}
+    beside = {"kind": "in_area", "vehicle": "first", "area": {"x": 0, "y": 0, "radius": 15}}
+    state = edit(desk, path, "Add", 0, patch=[
+        operation("add", ["script", "far"], value={"when": far, "do": {"kind": "mark"}}),
+        operation("add", ["script", "beside"], value={"when": beside, "do": {"kind": "mark"}}),
+    ])  # fmt: skip
+    assert all(each.never for each in state.turns if each.entry in ("far", "beside"))
+    driven = {"when": {"kind": "time", "at": 2}, "do": deed}
+    state = edit(desk, path, "Drive", 1, patch=[operation("add", ["script", "driven"], value=driven)])
+    assert [(each.begins, each.never) for each in state.turns if each.entry in ("far", "beside")] == [(None, ""), (None, "")]
 
 
 @pytest.mark.parametrize("shape", ["cuboid", "cylinder", "cone", "barrier", "wall", "tree"])

@@ -116,10 +116,38 @@ def test_a_new_project_gets_its_files_and_loses_none(client, running):
     assert client.put("/api/validations/mine/files/mapping.yaml", content=mapping).json()["kind"] == "mapping"
     known = begun(client, "mine", task="look", log="drive.csv", mapping="mapping.yaml")["looked"]
     assert known["ours"][0]["low"] == pytest.approx(10.0) and known["ours"][0]["unit"] == "m/s"
+    assert known["mapping"]["signals"]["speed"]["from"] == "Geschwindigkeit" and known["mapping"]["dbc"] is None
+    assert unknown["mapping"] is None
     nothing = begun(client, "mine", task="validate")
     assert nothing["status"] == "failed" and "nothing to validate with" in nothing["problem"]["message"]
     assert client.delete("/api/validations/mine/files/drive.csv").status_code == 204
     assert client.delete("/api/validations/mine/files/project.yaml").status_code == 409
+
+
+def test_a_title_is_of_one_project(client, project):
+    title = detail(client, project)["document"]["title"]
+    made = client.post("/api/validations", json={"name": "same", "title": title, "vehicle": "bmw_320i"}).json()
+    assert made["document"]["title"] == f"{title}_2" and made["iterations"] == []
+    refused = client.patch("/api/validations/same", json=[{"op": "replace", "path": "/title", "value": title}], headers=PATCH)
+    assert refused.status_code == 409 and "iterations are kept by title" in refused.text
+    put = client.put("/api/validations/same/text", content=made["text"].replace(f"{title}_2", title).encode())
+    assert put.status_code == 409 and detail(client, "same")["text"] == made["text"]
+    kept = client.patch("/api/validations/same", json=[{"op": "add", "path": "/confidence", "value": "one-sided"}], headers=PATCH)
+    assert kept.status_code == 200
+
+
+def test_a_sample_that_comes_to_nothing_leaves_its_name_free(client, project, running):
+    long = client.post(f"/api/validations/{project}/jobs", json={"task": "calibrate", "afresh": True}).json()
+    waiting = client.post("/api/validations/sample", json={"name": "second"}).json()
+    assert client.delete(f"/api/validation-jobs/{waiting['id']}").json()["status"] == "cancelled"
+    assert not (running[1] / "second").exists()
+    more = [client.post(f"/api/validations/{project}/jobs", json={"task": "validate"}).json() for _ in range(15)]
+    assert client.post("/api/validations/sample", json={"name": "second"}).status_code >= 400 and not (running[1] / "second").exists()
+    for each in [*more, long]:
+        client.delete(f"/api/validation-jobs/{each['id']}")
+    again = client.post("/api/validations/sample", json={"name": "second"})
+    assert again.status_code == 202 and ended(client, again.json())["status"] == "done"
+    assert detail(client, "second")["document"]["title"] != detail(client, project)["document"]["title"]
 
 
 @pytest.mark.parametrize(
@@ -140,7 +168,25 @@ def test_what_is_sent_names_no_file_elsewhere(client, project, path):
     mapping = f"dbc: {path!r}\nsignals:\n  speed: {{from: v, unit: m/s}}\n"
     sent = client.put(f"/api/validations/{project}/files/other.yaml", content=mapping.encode())
     assert sent.status_code == 422 and "leads out" in sent.text
+    assert client.put(f"/api/validations/{project}/files/other.YAML", content=mapping.encode()).status_code == 422
+    tyres = f"tyres:\n  front: {path!r}\n"
+    sent = client.put(f"/api/validations/{project}/files/car.yaml", content=tyres.encode())
+    assert sent.status_code == 422 and "tyres.front" in sent.text
+    patch = [{"op": "add", "path": "/changes", "value": {"tyres.front": path}}]
+    changed = client.patch(f"/api/validations/{project}", json=patch, headers=PATCH)
+    assert changed.status_code == 422 and "leads out" in changed.text
     assert detail(client, project)["text"] == before["text"]
+
+
+def test_a_mapping_is_not_hidden_in_a_log(client, project):
+    hidden = b"dbc: /etc/passwd\nsignals:\n  speed: {from: v, unit: m/s}\n"
+    assert client.put(f"/api/validations/{project}/files/hidden.csv", content=hidden).status_code == 201
+    looked = client.post(f"/api/validations/{project}/jobs", json={"task": "look", "log": "turn_0.csv", "mapping": "hidden.csv"})
+    assert looked.status_code == 422 and "is no YAML file" in looked.text
+    for place, value in (("mapping", "hidden.csv"), ("vehicle", "./hidden.csv")):
+        patch = [{"op": "add", "path": f"/{place}", "value": value}]
+        assert client.patch(f"/api/validations/{project}", json=patch, headers=PATCH).status_code == 422
+    assert client.delete(f"/api/validations/{project}/files/hidden.csv").status_code == 204
 
 
 def test_what_is_wrong_is_told_at_its_line(client, project):

@@ -39,8 +39,8 @@ def meaning(cantools, dbc: Path):
     """What a DBC says; raises ScenarioError."""
     try:
         return cantools.database.load_file(dbc)
-    except Exception as error:  # cantools raises errors of its parser and of the file
-        problem = Problem(str(dbc), f"is no DBC: {type(error).__name__}: {error}", remedy="name the file that describes the bus")
+    except Exception as error:  # cantools raises errors of its parser, which quote the file, and of the file
+        problem = Problem(str(dbc), f"is no DBC: {type(error).__name__}", remedy="name the file that describes the bus")
         raise ScenarioError(f"{dbc.name} cannot be read.", [problem]) from None
 
 

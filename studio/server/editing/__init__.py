@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from studio import job
-from studio.errors import ConflictError, Problem, ScenarioError, SealedError
+from studio.errors import ConflictError, Problem, ScenarioError, SealedError, StudioError
 from studio.job import Loaded
 from studio.scenario import setup
 from studio.scenario.schema import Scenario
@@ -20,7 +20,7 @@ from studio.scenario.text import source as sources
 from studio.scenario.text.document import digest
 from studio.scenario.text.migration import migrated
 from studio.scenario.text.patch import Operation, operations, patched
-from studio.server.documents import Documents, changed, check_version
+from studio.server.documents import Documents, changed, check_text, check_version, names_in
 from studio.server.editing.answer import Editing as Edited
 from studio.server.editing.answer import NewEdit, NewTurn, Step
 from studio.server.editing.figure import items
@@ -41,6 +41,7 @@ class Editing:
     history: History
     lock: threading.RLock = field(default_factory=threading.RLock)
     seen: dict[str, tuple[tuple[int, int], Change | None]] = field(default_factory=dict)
+    first: dict[str, str] = field(default_factory=dict)  # texts as they were seen before any change
 
     # -- what is told ------------------------------------------------------------------------------
 
@@ -66,13 +67,36 @@ class Editing:
             return self.seen[path.stem][1]
 
     def noted(self, path: Path) -> list[Change]:
-        """All changes of a file; what somebody has done to it past this room is written down first."""
+        """All changes of a file; what somebody has done to it past this room is written down first, once it is a scenario again."""
         changes = self.history.changes(path.stem)
         now = self.documents.text(path)
-        if changes and changes[-1].after != digest(now):
-            self.history.add(path.stem, "elsewhere", ELSEWHERE, "", before=self.history.text(changes[-1].after), after=now)
-            changes = self.history.changes(path.stem)
+        before = self.before(path, changes)
+        if before != now and is_scenario(now, path):
+            if before is None:
+                self.first[path.stem] = now
+            else:
+                self.history.add(path.stem, "elsewhere", ELSEWHERE, "", before=before, after=now)
+                changes = self.history.changes(path.stem)
         return changes
+
+    def before(self, path: Path, changes: list[Change]) -> str | None:
+        """The text that was a scenario last, as far as it is known here: after the last change, else as it was first seen."""
+        return self.history.text(changes[-1].after) if changes else self.first.get(path.stem)
+
+    def forget(self, scenario: str) -> None:
+        """A new file has this name: what was done to an older one is not its history."""
+        with self.lock:
+            self.first.pop(scenario, None)
+            self.seen.pop(scenario, None)
+            self.history.forget(scenario)
+
+    def rename(self, scenario: str, name: str) -> None:
+        """The history goes with its file, which has another name now."""
+        with self.lock:
+            for each in (scenario, name):
+                self.first.pop(each, None)
+                self.seen.pop(each, None)
+            self.history.rename(scenario, name)
 
     def why_sealed(self, path: Path) -> str:
         """Why a file cannot be changed; empty when it can."""
@@ -97,7 +121,10 @@ class Editing:
             now, _ = changed(before, patch, path)
             job.prepare(job.loaded(now, path))
             if now.text != before.text:
-                self.write(path, "edit", new.name, new.who, before=before.text, after=now.text)
+                self.documents.put(path, now.text, digest(before.text))
+                # What was no scenario is not gone back to: it could not be written.
+                good = self.before(path, changes) or before.text
+                self.history.add(path.stem, "edit", new.name, new.who, before=good, after=now.text)
             return self.state(path)
 
     def undo(self, path: Path, asked: NewTurn) -> Edited:
@@ -116,13 +143,9 @@ class Editing:
             pile = done if sort == "undo" else undone
             check_turn(pile, asked, sort, changes)
             before, after = map(self.history.text, way(pile[-1]))
-            self.write(path, sort, pile[-1].name, asked.who, before=before, after=after)
+            self.documents.put(path, after, digest(before))
+            self.history.add(path.stem, sort, pile[-1].name, asked.who, before=before, after=after)
             return self.state(path)
-
-    def write(self, path: Path, sort: Any, name: str, who: str, *, before: str, after: str) -> None:
-        """Puts a text in the place of a file, and writes down that this was done."""
-        self.documents.put(path, after, digest(before))
-        self.history.add(path.stem, sort, name, who, before=before, after=after)
 
     def text_at(self, changes: list[Change], revision: int, now: str) -> str:
         """The text at a revision; raises ConflictError for one that never was."""
@@ -142,6 +165,15 @@ class Editing:
         if wrong:
             names = ", ".join(f"“{each.name}”" for each in changes if each.revision > revision)
             raise ConflictError(f"Somebody else has changed the same meanwhile: {names}. Nothing of it was lost.", wrong)
+
+
+def is_scenario(text: str, path: Path) -> bool:
+    """Whether a text that stands in a file is a scenario, so that it can be put there again."""
+    try:
+        check_text(text, path, own=names_in(path))
+    except StudioError:
+        return False
+    return True
 
 
 def patch_of(base: sources.Source, new: NewEdit, path: Path) -> list[Operation]:

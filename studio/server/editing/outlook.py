@@ -1,8 +1,8 @@
 """What will happen when, as far as it is known before the run; and what can never happen, with the reason.
 
 A time that the file says is exact. That a vehicle passes a place is reckoned with the speeds that its route allows, on a free road: it
-comes later when it meets others or a red light. Everything else depends on what happens. What a kind itself says of never (`never` of a
-condition) is asked first, so that of a kind of one's own counts too.
+comes later when it meets others or a red light. Of one whose pedals or wheel the script takes nobody knows. Everything else depends on
+what happens. What a kind itself says of never (`never` of a condition) is asked first, so that of a kind of one's own counts too.
 """
 
 from collections.abc import Callable
@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 
 from studio.kind import registry
+from studio.kind.settings import references
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, PATH_X, PATH_Y
 from studio.scenario.schema import moment_of
 from studio.server.editing.answer import Turn
@@ -101,6 +102,8 @@ class Outlook:
         stations = np.flatnonzero(inside) * PATH_SPACING
         ahead = stations[stations >= first - PATH_SPACING]
         if not ahead.size:
+            if self.is_led(car.name):
+                return NOBODY_KNOWS
             return Guess(never=passed_already(car.name) if stations.size else never_in(car.name))
         return self.within_run(Guess(self.soonest(car.name, float(ahead[0]))), f"{car.name} at the earliest")
 
@@ -155,17 +158,27 @@ class Outlook:
         return condition.along - joined
 
     def soonest(self, vehicle: str, station: float) -> float | None:
-        """The time [s] at which a vehicle comes to a station when nothing keeps it; None when somebody may put it elsewhere."""
+        """The time [s] at which a vehicle comes to a station when nothing keeps it; None when the script puts it elsewhere or drives it."""
         if self.is_placed(vehicle):
             return None
         car = self.cars[vehicle]
         if station <= car.station:
             return 0.0
+        if self.is_led(vehicle):
+            return None
         return float(np.interp(station - car.station, *travelled(car)))
 
     def is_placed(self, vehicle: str) -> bool:
         """Whether an entry puts the vehicle elsewhere."""
         return any(isinstance(each, Placement) and each.vehicle == vehicle for site in self.setting.sites for each in site.effects)
+
+    def is_led(self, vehicle: str) -> bool:
+        """Whether an entry takes the pedals or the wheel of the vehicle: it may come sooner then, or elsewhere."""
+        return any(
+            hasattr(registry.find("action", site.entry.do.kind).module, "act")
+            and any(each.what == "vehicle" and each.name == vehicle for each in references(site.entry.do))
+            for site in self.setting.sites
+        )
 
     def walk(self, entry: str) -> shapely.LineString:
         """The line of somebody whom an entry brings."""

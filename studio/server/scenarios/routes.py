@@ -155,7 +155,7 @@ def restore(entry: str, how: answer.Return, desk: AtOwnDesk) -> answer.KeptScena
 
 def fresh(desk: Desk, path: Path) -> answer.KeptScenario:
     """A scenario file that was not there before: what was done to an older one of its name is not its history."""
-    desk.editing.history.forget(path.stem)
+    desk.editing.forget(path.stem)
     return kept(path)
 
 

@@ -9,6 +9,7 @@ A project and its files are found by name in listings and in no other way, and w
 
 import json
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from threading import Lock
@@ -32,8 +33,10 @@ from studio.validation import known, project
 
 CALLED, PROJECT, RESULTS = "validation", "project.yaml", "results"
 OTHERS: dict[str, answer.FileKind] = {".yaml": "mapping", ".dbc": "dbc", ".tir": "tyre"}
-PATHS = ("log", "mapping", "dbc", "vehicle")  # what names a file in a project, a mapping or a vehicle
+PATHS = ("log", "mapping", "dbc", "vehicle", "front", "rear")  # what names a file in a project, a mapping or a vehicle, also as tyres.front
+DOCUMENTS = ("mapping", "vehicle")  # of them those that name files themselves
 LARGEST = 500 * 2**20  # [B] of a log that is sent
+LONGEST_TITLE = 110  # characters of the 120 that a title may have: a number may come behind it
 
 
 @dataclass
@@ -119,9 +122,22 @@ class Projects:
                 "vehicle", "is not in the catalogue", short(new.vehicle), remedy=nearest(new.vehicle, catalogue.vehicle_names())
             )
             raise ScenarioError("There is no such vehicle.", [problem])
-        self.make(name)
-        file.write_new(self.folder / name / PROJECT, begun(new.title or name, new.vehicle))
+        with self.lock:
+            self.make(name)
+            file.write_new(self.folder / name / PROJECT, begun(self.free_title(new.title or name), new.vehicle))
         return name
+
+    def free_title(self, title: str) -> str:
+        """The title, or with a number behind it when another project has it."""
+        return names.free(title[:LONGEST_TITLE], self.titles())
+
+    def titles(self, but: str = "") -> list[str]:
+        """The titles of all projects that can be read, but for one."""
+        found = []
+        for name in self.names():
+            with suppress(StudioError):
+                found += [project.read(self.folder / name / PROJECT).title] if name != but else []
+        return found
 
     def make(self, name: str) -> Path:
         """An empty folder for a project; raises ConflictError when its name is taken, or ScenarioError."""
@@ -161,10 +177,16 @@ class Projects:
         return before
 
     def write(self, name: str, before: str, after: Source) -> None:
-        """Writes a project that is one, and whose files are its own or were named before."""
-        project.of_text(after)
+        """Writes a project that is one, whose title is its own, and whose files are its own or were named before."""
+        self.check_title(name, project.of_text(after).title, before)
         check_inside(after.value, named(before))
         file.write(self.folder / name / PROJECT, after.text)
+
+    def check_title(self, name: str, title: str, before: str) -> None:
+        """Raises ConflictError for a title that another project has, unless it stood there already: iterations are kept by title."""
+        if title in self.titles(but=name) and title != title_of(before):
+            remedy = f"iterations are kept by title: choose another, such as {self.free_title(title)}"
+            raise ConflictError("Another project has this title.", [Problem("title", "is taken", short(title), remedy=remedy)])
 
     def delete_file(self, name: str, wanted: str) -> None:
         """Removes a file; raises UnknownError, or ConflictError for the project itself and for what it names."""
@@ -193,6 +215,13 @@ def begun(title: str, vehicle: str) -> str:
     return f"title: {json.dumps(title, ensure_ascii=False)}\nvehicle: {vehicle}\n# confidence: one-sided\nmaneuvers: {{}}\n"
 
 
+def title_of(text: str) -> str | None:
+    """The title in a text of a project; None of one that cannot be read."""
+    with suppress(ScenarioError):
+        return project.of_text(source.read(text, PROJECT)).title
+    return None
+
+
 def checked(text: str, where: str) -> Source:
     """A text as a mapping; raises ScenarioError."""
     return file.checked(source.read(text, where), "project")
@@ -210,9 +239,14 @@ def kind_of(path: Path) -> answer.FileKind:
         return "project"
     if reading.suffix(path) in reading.known():
         return "log"
-    if path.suffix == ".yaml":
+    if is_document(path.name):
         return "mapping" if b"signals:" in path.read_bytes()[:100_000] else "vehicle"
     return OTHERS.get(path.suffix.lower(), "other")
+
+
+def is_document(name: str) -> bool:
+    """Whether a file is one that may name others, by its ending; on many systems capitals make no difference."""
+    return name.lower().endswith((".yaml", ".yml"))
 
 
 def endings() -> list[str]:
@@ -283,7 +317,7 @@ def paths(value: Any, where: str = "") -> Iterator[tuple[str, str]]:
     for key, each in items:
         place = f"{where}.{key}" if where else str(key)
         if isinstance(each, str):
-            if key in PATHS or each.lower().endswith(".tir"):
+            if str(key).rpartition(".")[2] in PATHS or each.lower().endswith(".tir"):
                 yield place, each
         else:
             yield from paths(each, place)
@@ -296,8 +330,20 @@ def check_inside(value: Any, before: Collection[str] = ()) -> None:
         for place, each in paths(value)
         if each not in before and leads_out(each)
     ]
+    found += [
+        Problem(place, "is no YAML file", short(each), "a name that ends with .yaml", "send the file with this ending")
+        for place, each in paths(value)
+        if each not in before and is_disguised(place, each)
+    ]
     if found:
         raise ScenarioError("A project uses files of its own folder.", found)
+
+
+def is_disguised(place: str, text: str) -> bool:
+    """Whether a mapping or a vehicle is taken from a file that was not looked at for what it names when it was sent."""
+    what = place.rpartition(".")[2]
+    is_file = what == "mapping" or "/" in text or "\\" in text
+    return what in DOCUMENTS and is_file and not is_document(text)
 
 
 def leads_out(text: str) -> bool:

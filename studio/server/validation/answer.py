@@ -165,6 +165,7 @@ class Looked(BaseModel):
 
     log: str
     recorded: list[SignalFacts]
+    mapping: dict[str, Any] | None = Field(description="that was used, as it stands in its file; null without one")
     ours: list[SignalFacts] = Field(description="by the mapping, in SI, on one clock; none without a mapping")
     drawn: list[Drawn]
     cuts: list[Cut]

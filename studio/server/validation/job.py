@@ -38,6 +38,7 @@ class ProjectJob:
     began: float = field(default_factory=time.monotonic)
     ended: float = inf
     process: Child | None = None
+    is_swept: bool = False
     lock: threading.RLock = field(default_factory=threading.RLock)
 
     @property
@@ -70,6 +71,8 @@ class ProjectJob:
             self.end("cancelled")
             if self.process is not None:
                 self.process.kill()
+            else:
+                self.sweep()
 
     def work(self, is_compiled: Callable[[], bool]) -> None:
         """Runs it in a process, once the models are compiled."""
@@ -81,8 +84,14 @@ class ProjectJob:
                 self.listen(child)
         except OSError as error:
             self.end("failed", ServerError(f"The process did not start ({error.strerror or error})."))
-        if self.status != "done" and self.order.job.task == "sample":
-            shutil.rmtree(self.order.folder, ignore_errors=True)
+        self.sweep()
+
+    def sweep(self) -> None:
+        """Removes the folder of a sample that came to nothing; once, for its name is free then."""
+        with self.lock:
+            if self.is_over and self.status != "done" and self.order.job.task == "sample" and not self.is_swept:
+                self.is_swept = True
+                shutil.rmtree(self.order.folder, ignore_errors=True)
 
     def note(self, stage: str, share: float | None) -> None:
         """What is being done, and how far it is."""

@@ -13,7 +13,7 @@ from fastapi import APIRouter, Body, Query, Request
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, Response
 
-from studio.errors import ConflictError, Problem, ScenarioError, SizeError, UnknownError, short
+from studio.errors import ConflictError, Problem, ScenarioError, ServerError, SizeError, UnknownError, short
 from studio.scenario import file
 from studio.scenario.text import source
 from studio.scenario.text.patch import Operation, operations
@@ -22,7 +22,19 @@ from studio.server.routes import PAGE, AtDesk, AtOwnDesk, IfMatch, KeptRuns, exp
 from studio.server.scenarios import name as names
 from studio.server.scenarios.routes import BODY as YAML_BODY
 from studio.server.scenarios.routes import YAML, received
-from studio.server.validation import LARGEST, answer, check_inside, checked, courses_of, endings, kind_of, kinds, report_of, vehicle_of
+from studio.server.validation import (
+    LARGEST,
+    answer,
+    check_inside,
+    checked,
+    courses_of,
+    endings,
+    is_document,
+    kind_of,
+    kinds,
+    report_of,
+    vehicle_of,
+)
 from studio.store import iteration
 
 BYTES = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
@@ -51,7 +63,12 @@ def new_validation(new: answer.NewProject, desk: AtOwnDesk, kept: KeptRuns) -> a
 def sample(new: answer.NewProject, desk: AtOwnDesk) -> answer.ProjectJob:
     """Makes a project to learn with: ten drives of a car whose truth is known."""
     name = names.checked(new.name)
-    return desk.project_jobs.begin(name, desk.projects.make(name), answer.NewJob(task="sample"))
+    folder = desk.projects.make(name)
+    try:
+        return desk.project_jobs.begin(name, folder, answer.NewJob(task="sample"))
+    except ServerError:
+        folder.rmdir()
+        raise
 
 
 @router.get("/validations/{project}")
@@ -117,6 +134,7 @@ def begin_job(project: str, new: answer.NewJob, desk: AtOwnDesk) -> answer.Proje
         )
     for wanted in [each for each in (new.log, new.mapping) if each is not None]:
         desk.projects.file(project, wanted)
+    check_inside({"mapping": new.mapping})
     if new.task == "look" and new.log is None:
         raise ScenarioError("Nobody says which log.", [Problem("log", "is missing", remedy="name a file of the project")])
     return desk.project_jobs.begin(project, folder, new)
@@ -214,7 +232,7 @@ async def stored(body: AsyncIterator[bytes], beside: Path) -> None:
 
 def taken(beside: Path, path: Path) -> answer.ProjectFile:
     """Gives a file its name, if it is what it says; raises ScenarioError."""
-    if path.suffix == ".yaml":
+    if is_document(path.name):
         check_inside(checked(source.decoded(file.content(beside, "file", file.SIZE_LIMIT), path.name), path.name).value)
     try:
         os.replace(beside, path)

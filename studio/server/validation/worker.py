@@ -13,7 +13,7 @@ from typing import Any
 
 from studio.errors import Problem, ScenarioError, StudioError
 from studio.server.errand import MOST_MEMORY, ServerGone, confine, tell
-from studio.server.validation import PROJECT, RESULTS, courses_of, report_of, vehicle_of
+from studio.server.validation import PROJECT, RESULTS, Projects, courses_of, report_of, vehicle_of
 from studio.server.validation.answer import NewJob
 
 POINTS = 1500  # of a signal that is drawn
@@ -73,7 +73,9 @@ def look(pipe: Connection, order: Order) -> dict[str, Any]:
     tell(pipe, "stage", "reading", None)
     wanted = mapping.read(order.folder / order.job.mapping) if order.job.mapping else mapping_of(order.folder)
     log = reading.read(order.folder / (order.job.log or ""), wanted.dbc if wanted else None)
-    found = {"log": log.name, "recorded": list(map(facts, log.signals.values())), "ours": [], "cuts": [], "problem": None}
+    used = wanted.mapping.model_dump(mode="json", by_alias=True) if wanted else None
+    recorded = list(map(facts, log.signals.values()))
+    found = {"log": log.name, "recorded": recorded, "mapping": used, "ours": [], "cuts": [], "problem": None}
     if wanted is None and not mapping.has_named(log):
         return found | {"drawn": [drawn(each) for each in log.signals.values()]}
     try:
@@ -184,7 +186,7 @@ def sample(pipe: Connection, order: Order) -> dict[str, Any]:
     from studio.validation import sample as samples
 
     tell(pipe, "stage", "driving", None)
-    samples.write(order.folder)
+    samples.write(order.folder, Projects(order.folder.parent.parent).free_title(samples.TITLE))
     return {"iterations": []}
 
 

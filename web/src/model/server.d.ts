@@ -2633,6 +2633,13 @@ export interface components {
             /** Recorded */
             recorded: components["schemas"]["SignalFacts"][];
             /**
+             * Mapping
+             * @description that was used, as it stands in its file; null without one
+             */
+            mapping: {
+                [key: string]: unknown;
+            } | null;
+            /**
              * Ours
              * @description by the mapping, in SI, on one clock; none without a mapping
              */

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, guesses, type Kinds, mappingText, removeRun, type Run, type Said } from "./validation";
+import { addParameter, addRun, guesses, type Kinds, mappingText, removeRun, type Run, type Said, sourcesOf } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -48,14 +48,27 @@ test("a parameter makes its step where there is none", () => {
 
 test("a mapping is guessed by name, with the unit of the log where it is one", () => {
   const found = guesses([{ name: "Gierrate", unit: "deg/s" }, { name: "VehicleSpeed", unit: "mph?" }], kinds);
-  expect(found.yaw_rate).toMatchObject({ from: "Gierrate", unit: "deg/s" });
-  expect(found.speed).toMatchObject({ from: "VehicleSpeed", unit: "m/s" });
+  expect(found.yaw_rate).toMatchObject({ from: ["Gierrate"], unit: "deg/s" });
+  expect(found.speed).toMatchObject({ from: ["VehicleSpeed"], unit: "m/s" });
 });
 
 test("a mapping is written without what goes without saying", () => {
   const text = mappingText({
-    yaw_rate: { from: "Gierrate: links", unit: "deg/s", sign: -1, offset: 0.4, delay: 0 },
-    speed: { from: "", unit: "m/s", sign: 1, offset: 0, delay: 0 },
+    yaw_rate: { from: ["Gierrate: links"], unit: "deg/s", combine: "mean", sign: -1, offset: 0.4, delay: 0 },
+    speed: { from: [], unit: "m/s", combine: "mean", sign: 1, offset: 0, delay: 0 },
   });
   expect(text).toBe('signals:\n  yaw_rate: {from: "Gierrate: links", unit: "deg/s", sign: -1, offset: 0.4}\n');
+});
+
+test("a mapping that was kept is written again as it was: its DBC, its lists, what they become", () => {
+  const rest = { sign: 1, offset: 0, delay: 0 } as const;
+  const kept = {
+    dbc: "car.dbc",
+    signals: { speed: { from: ["v[0]", "v[1]"], unit: "m/s", combine: "norm", ...rest }, yaw_rate: { from: "w", unit: "", combine: "mean", ...rest } },
+  } as const;
+  const sources = sourcesOf(structuredClone(kept) as never, kinds);
+  expect(mappingText(sources, kept.dbc)).toBe(
+    'dbc: "car.dbc"\nsignals:\n  yaw_rate: {from: "w"}\n  speed: {from: ["v[0]","v[1]"], unit: "m/s", combine: norm}\n',
+  );
+  expect(sourcesOf({ dbc: null, signals: {} }, kinds).speed?.from).toEqual([]);
 });

@@ -106,30 +106,49 @@ export function addParameter(said: Said, step: string, path: string, low: number
 
 // -- mapping ------------------------------------------------------------------------------------------
 
-/** Where one of our signals comes from; not taken without `from`. */
+/** Where one of our signals comes from, of several what `combine` makes of them; not taken when it comes from none. */
 export interface SourceEntry {
-  from: string;
+  from: readonly string[];
   unit: string;
+  combine: "mean" | "norm";
   sign: 1 | -1;
   offset: number;
   delay: number;
 }
 
+/** A mapping as its file says it. */
+export interface Mapping {
+  dbc: string | null;
+  signals: Record<string, Omit<SourceEntry, "from"> & { from: string | string[] }>;
+}
+
 /** The text of a mapping file. */
-export function mappingText(sources: Readonly<Record<string, SourceEntry>>): string {
+export function mappingText(sources: Readonly<Record<string, SourceEntry>>, dbc: string | null = null): string {
   const lines = Object.entries(sources)
-    .filter(([, { from }]) => from !== "")
-    .map(([name, { from, unit, sign, offset, delay }]) => {
+    .filter(([, { from }]) => from.length > 0)
+    .map(([name, { from, unit, combine, sign, offset, delay }]) => {
       const more = [
-        `from: ${JSON.stringify(from)}`,
+        `from: ${JSON.stringify(from.length === 1 ? from[0] : from)}`,
         unit ? `unit: ${JSON.stringify(unit)}` : "",
+        combine === "norm" ? "combine: norm" : "",
         sign === -1 ? "sign: -1" : "",
         offset ? `offset: ${offset}` : "",
         delay ? `delay: ${delay}` : "",
       ];
       return `  ${name}: {${more.filter(Boolean).join(", ")}}`;
     });
-  return `signals:\n${lines.join("\n")}\n`;
+  return `${dbc === null ? "" : `dbc: ${JSON.stringify(dbc)}\n`}signals:\n${lines.join("\n")}\n`;
+}
+
+/** What a mapping says of each of our signals; those that it does not take come from none. */
+export function sourcesOf({ signals }: Mapping, kinds: Kinds): Record<string, SourceEntry> {
+  const none = { from: [], combine: "mean", sign: 1, offset: 0, delay: 0 } as const;
+  return Object.fromEntries(
+    kinds.signals.map(({ name, units }) => {
+      const found = signals[name];
+      return [name, found ? { ...found, from: [found.from].flat() } : { ...none, unit: units[0] ?? "" }];
+    }),
+  );
 }
 
 /** A first guess: the recorded signal whose name says most of ours. */
@@ -153,7 +172,7 @@ const ALIKE: Readonly<Record<string, RegExp>> = {
 function guess(ours: string, units: readonly string[], recorded: readonly { name: string; unit: string }[]): SourceEntry {
   const found = recorded.find(({ name }) => name === ours) ?? recorded.find(({ name }) => ALIKE[ours]?.test(name));
   const unit = found && units.includes(found.unit) ? found.unit : (units[0] ?? "");
-  return { from: found?.name ?? "", unit, sign: 1, offset: 0, delay: 0 };
+  return { from: found ? [found.name] : [], unit, combine: "mean", sign: 1, offset: 0, delay: 0 };
 }
 
 // -- courses ------------------------------------------------------------------------------------------

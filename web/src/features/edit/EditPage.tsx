@@ -10,9 +10,11 @@ import { type Deed, type Editing, type Item, named, OPEN, owner, present, toggle
 import { type Lane, onLane } from "../../model/editing/snap";
 import type { Plan } from "../../model/map";
 import { strips } from "../../model/picking";
+import type { Problem } from "../../model/run";
 import type { Point } from "../../model/view";
 import { Icon } from "../../ui/Icon";
 import { notify, notifyError } from "../../ui/notify";
+import { ProblemList } from "../../ui/Problems";
 import { Failure, Loading } from "../../ui/State";
 import classes from "./Edit.module.css";
 import { Head } from "./Head";
@@ -37,7 +39,9 @@ export function EditPage({ id, at, onAt }: Props) {
   if (plan.error) return <Failure error={plan.error} onRetry={() => void plan.refetch()} />;
   if (!state.data) return <Loading what="the scenario" />;
   if (!plan.data) return <Loading what="the map" />;
-  return <Editor id={id} at={at} onAt={onAt} state={state.data} plan={plan.data} />;
+  return (
+    <Editor id={id} at={at} onAt={onAt} state={state.data} plan={plan.data} broken={state.error} />
+  );
 }
 
 /** A file that is no scenario now can be mended as text. */
@@ -55,7 +59,7 @@ const NOTHING: string[] = [];
 /** What was copied last, also from another scenario. */
 let clipboard: deeds.Copied[] = [];
 
-function Editor({ id, at, onAt, state, plan }: Props & { state: Editing; plan: Plan }) {
+function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing; plan: Plan; broken: Error | null }) {
   const choosing = useMemo(() => ({ wanted: at ? at.split(",") : NOTHING, choose: (paths: string[]) => onAt(paths.length ? paths.join(",") : undefined) }), [at, onAt]);
   const editor = useEditor(id, state, plan, choosing);
   const { tool, setTool, chosen, choose, items, veil, looker } = editor;
@@ -82,6 +86,7 @@ function Editor({ id, at, onAt, state, plan }: Props & { state: Editing; plan: P
   return (
     <div className={classes.page}>
       <Head state={state} news={news} onUndo={editor.undo} onRedo={editor.redo} />
+      {broken ? <Stale id={id} error={broken} /> : null}
       {state.sealed ? <Sealed id={id} why={state.sealed} /> : null}
       <Toolbar tool={tool} onTool={setTool} route={editor.routeOf} names={names} onNames={setNames} onEvent={editor.event} onEnough={editor.enough} state={state} onAnew={editor.anew} chosen={mine} />
       <div className={classes.main}>
@@ -131,6 +136,17 @@ function Editor({ id, at, onAt, state, plan }: Props & { state: Editing; plan: P
     </div>
   );
 }
+
+/** What is shown is not what stands in the file, or the server is not there. */
+const Stale = ({ id, error }: { id: string; error: Error & { problems?: Problem[] } }) => (
+  <Alert color="red" variant="light" py={6} radius={0} icon={<Icon name="warning" />} title={error.message}>
+    <ProblemList problems={error.problems ?? []} />
+    Shown is how it was before.{" "}
+    <Link to="/scenarios/$scenario/text" params={{ scenario: id } as never}>
+      Mend it as text
+    </Link>
+  </Alert>
+);
 
 const Sealed = ({ id, why }: { id: string; why: string }) => (
   <Alert color="yellow" variant="light" py={6} radius={0} icon={<Icon name="warning" />}>

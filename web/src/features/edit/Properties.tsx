@@ -13,6 +13,7 @@ import { type Exchange, exchangesOf, type Field, fieldsOf, type KnownKind, place
 import type { Changes, Json, Problem, Tree } from "../../model/run";
 import { isTree, type Schema } from "../../model/schema";
 import type { Point } from "../../model/view";
+import { notifyError } from "../../ui/notify";
 import { ProblemList } from "../../ui/Problems";
 import { SchemaForm } from "../../ui/SchemaForm";
 import classes from "./Edit.module.css";
@@ -94,13 +95,14 @@ function Form({ state, path, name, schema, kinds, onDeed, middle }: FormProps) {
     const paths = [...fieldsOf(shown).map((each) => each.path), ...exchangesOf(shown).map((each) => each.path)];
     return new Map([...placed(refused, paths), ...wrong]);
   }, [shown, wrong, refused]);
+  const tell = useTold(setRefused);
   const save = (set: Changes, label: string) =>
     onDeed({ name: label, set })
       .then(() => {
         setRefused([]);
         setChanges((now) => Object.fromEntries(Object.entries(now).filter(([key, value]) => !(key in set && set[key] === value))));
       })
-      .catch((error: unknown) => setRefused(error instanceof Refusal ? error.problems : []));
+      .catch(tell);
   useCalm(changes, wrong.size === 0, () => void save(changes, stepName(shown, name)));
 
   const change = (field: Field, value: Json) => {
@@ -114,7 +116,7 @@ function Form({ state, path, name, schema, kinds, onDeed, middle }: FormProps) {
     const value = settingsFor(found, (at(given, base) as Tree | undefined) ?? {}, state, middle());
     const op = at(given, base) === undefined ? "add" : "replace";
     const patch = [{ op, path: `/${base.split(".").join("/")}`, value }] as Deed["patch"] & object;
-    return void onDeed({ name: `Exchange ${sort} of ${name}`, patch }).catch((error: unknown) => setRefused(error instanceof Refusal ? error.problems : []));
+    return void onDeed({ name: `Exchange ${sort} of ${name}`, patch }).catch(tell);
   };
   const [open, setOpen] = useState<string[]>(path ? [path] : []);
   const general = problems.get("") ?? [];
@@ -133,6 +135,20 @@ function Form({ state, path, name, schema, kinds, onDeed, middle }: FormProps) {
 }
 
 const titled = (shown: readonly Section[], path: string): Section[] => shown.map((each) => (path ? { ...each, title: "What is set" } : each));
+
+/** Tells a refusal: in the form while it is there and has a place for it; else, and when somebody else was quicker, by a notice. */
+export function useTold(setRefused: (problems: readonly Problem[]) => void): (error: unknown) => void {
+  const there = useRef(true);
+  useEffect(() => {
+    there.current = true;
+    return () => void (there.current = false);
+  }, []);
+  return (error) => {
+    const refusal = error instanceof Refusal ? error : undefined;
+    if (there.current) setRefused(refusal?.problems ?? []);
+    if (!there.current || !refusal?.problems.length || refusal.status === 409) notifyError(error as Error);
+  };
+}
 
 /** Calls when what is set has not changed for a while, or when one turns to something else. */
 function useCalm(changes: Changes, is: boolean, act: () => void): void {
@@ -157,7 +173,7 @@ function useCalm(changes: Changes, is: boolean, act: () => void): void {
 function Lists({ state, path, onDeed }: Pick<FormProps, "state" | "path" | "onDeed">) {
   const name = path.split(".")[1] ?? "";
   const found = listsIn(at(state.document, path), path);
-  const run = (label: string, op: object) => void onDeed({ name: label, patch: [op] as Deed["patch"] & object }).catch(() => undefined);
+  const run = (label: string, op: object) => void onDeed({ name: label, patch: [op] as Deed["patch"] & object }).catch(notifyError);
   return found.map(({ path: place, count }) => (
     <Group key={place} px="xs" py={4} gap={6} role="group" aria-label={`Conditions of ${place.split(".").slice(2).join(" ")}`}>
       <Text size="xs">{count} conditions together:</Text>
@@ -186,14 +202,14 @@ function listsIn(value: Json | undefined, path: string): { path: string; count: 
 }
 
 /** An entry of the script may end by a condition of its own, or with its action. */
-function Ends({ state, path, name, onDeed }: Pick<FormProps, "state" | "path" | "name" | "onDeed">) {
+export function Ends({ state, path, name, onDeed }: Pick<FormProps, "state" | "path" | "name" | "onDeed">) {
   const has = isTree(at(state.document, `${path}.until`));
   const place = `/${path.split(".").join("/")}/until`;
   const end = { kind: "time", at: Math.max(1, Math.round(state.duration / 2)) };
   const patch = (has ? [{ op: "remove", path: place }] : [{ op: "add", path: place, value: end }]) as Deed["patch"] & object;
   return (
     <Group px="xs" py={4}>
-      <Button size="compact-xs" variant="default" onClick={() => void onDeed({ name: `${has ? "Let" : "End"} ${name}${has ? " go on" : ""}`, patch }).catch(() => undefined)}>
+      <Button size="compact-xs" variant="default" onClick={() => void onDeed({ name: `${has ? "Let" : "End"} ${name}${has ? " go on" : ""}`, patch }).catch(notifyError)}>
         {has ? "Take the end condition away" : "Add an end condition"}
       </Button>
     </Group>
@@ -201,7 +217,7 @@ function Ends({ state, path, name, onDeed }: Pick<FormProps, "state" | "path" | 
 }
 
 /** What names a thing is renamed with it. */
-function Renaming({ state, path, onDeed, onRenamed }: Pick<FormProps, "state" | "path" | "onDeed"> & Pick<Props, "onRenamed">) {
+export function Renaming({ state, path, onDeed, onRenamed }: Pick<FormProps, "state" | "path" | "onDeed"> & Pick<Props, "onRenamed">) {
   const [part = "", name = ""] = path.split(".");
   const [text, setText] = useState(name);
   const taken = Object.keys((at(state.given, part) as Tree | undefined) ?? {}).filter((each) => each !== name);
@@ -209,7 +225,13 @@ function Renaming({ state, path, onDeed, onRenamed }: Pick<FormProps, "state" | 
   const rename = () => {
     if (wrong || text === name) return setText(name);
     const next = `${part}.${text}`;
-    void onDeed({ name: `Rename ${name} to ${text}`, rename: { [path]: text } }).then(() => onRenamed(next), () => setText(name));
+    void onDeed({ name: `Rename ${name} to ${text}`, rename: { [path]: text } }).then(
+      () => onRenamed(next),
+      (error: Error) => {
+        setText(name);
+        notifyError(error);
+      },
+    );
   };
   return (
     <TextInput

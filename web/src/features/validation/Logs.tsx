@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
 import { projectJob, useDeleteFile, useJob, usePatch, usePutFile, validationKinds } from "../../api/validations";
 import { formatBytes, formatFixed, formatNumber, unitText, words } from "../../model/units";
-import { addRun, type Cut, type Looked, type Project, type RunSet, type Said } from "../../model/validation";
+import { addRun, type Cut, type Looked, type Mapping, type Project, type RunSet, type Said } from "../../model/validation";
 import { TimeChart } from "../../charts/TimeChart";
 import { useZoom } from "../../charts/zoom";
 import { DropAnywhere } from "../../ui/Drop";
@@ -24,6 +24,7 @@ interface Props {
 }
 
 export function Logs({ project, said, log, onLog }: Props) {
+  const [round, setRound] = useState(0);
   const put = usePutFile(project.name);
   const endings = useQuery(validationKinds).data?.endings ?? [];
   const send = async (files: File[]) => {
@@ -56,7 +57,7 @@ export function Logs({ project, said, log, onLog }: Props) {
         </ul>
       </section>
       {log !== undefined && logs.some(({ name }) => name === log) ? (
-        <Look key={`${log} ${project.digest}`} project={project} said={said} log={log} />
+        <Look key={`${log} ${project.digest} ${round}`} project={project} said={said} log={log} onAgain={() => setRound((before) => before + 1)} />
       ) : (
         <Empty icon="chart" title={logs.length === 0 ? "No logs yet" : "No log is looked at"}>
           {logs.length === 0
@@ -109,25 +110,26 @@ function FileRow({ project, file: { name, kind, bytes }, chosen, onLog }: FilePr
   );
 }
 
+interface LookProps {
+  project: Project;
+  said: Said | null;
+  log: string;
+  /** Look at it anew. */
+  onAgain: () => void;
+}
+
 /** What is in a log: asked for when it is chosen, and again when the project has changed. */
-function Look({ project, said, log }: { project: Project; said: Said | null; log: string }) {
+function Look({ project, said, log, onAgain }: LookProps) {
   const { mutate, data: begun, error } = useJob(project.name);
   useEffect(() => mutate({ task: "look", log }), [mutate, log]);
   const { data: job } = useQuery(projectJob(begun?.id));
   if (error) return <Failure error={error} />;
   if (!job) return <Loading what={log} />;
   if (job.status !== "done") return <Progressing job={job} />;
-  return job.looked ? <Seen project={project} said={said} log={log} found={job.looked} /> : <Loading what={log} />;
+  return job.looked ? <Seen project={project} said={said} log={log} found={job.looked} onAgain={onAgain} /> : <Loading what={log} />;
 }
 
-interface SeenProps {
-  project: Project;
-  said: Said | null;
-  log: string;
-  found: Looked;
-}
-
-function Seen({ project, said, log, found }: SeenProps) {
+function Seen({ project, said, log, found, onAgain }: LookProps & { found: Looked }) {
   const [mapping, setMapping] = useState(found.ours.length === 0);
   const refused = found.problem && Object.assign(new Error(found.problem.message), { problems: found.problem.problems });
   return (
@@ -142,7 +144,7 @@ function Seen({ project, said, log, found }: SeenProps) {
         <Button size="compact-xs" variant="default" onClick={() => setMapping(!mapping)} aria-expanded={mapping}>
           {mapping ? "Hide the mapping" : "Which signal is which …"}
         </Button>
-        {mapping ? <MappingForm project={project} said={said} recorded={found.recorded} /> : null}
+        {mapping ? <MappingForm project={project} said={said} recorded={found.recorded} mapping={found.mapping as unknown as Mapping | null} onSaved={onAgain} /> : null}
       </section>
       <Drawings found={found} />
     </div>

@@ -2,6 +2,7 @@
 
 import { ActionIcon, Button, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
+import { useRef, useState } from "react";
 import { usePatch, validationKinds } from "../../api/validations";
 import { words } from "../../model/units";
 import { cutRun, type Project, type Run, type RunSet, removeRun, type Said, SETS } from "../../model/validation";
@@ -60,11 +61,11 @@ export function Maneuvers({ project, said, onLog }: Props) {
                 {SETS.flatMap((set) =>
                   trial[set].map((run, place) => (
                     <RunRow
-                      key={`${set} ${place} ${run.log} ${run.begin} ${run.end}`}
+                      key={`${set} ${place} ${run.log}`}
                       set={set}
                       run={run}
                       onLog={() => onLog(run.log)}
-                      onRun={(next) => change(cutRun(name, set, place, next))}
+                      onRun={(next) => patch.mutateAsync(cutRun(name, set, place, next)).catch(notifyError)}
                       onRemove={() => change(removeRun(said, name, set, place))}
                     />
                   )),
@@ -82,15 +83,35 @@ interface RowProps {
   set: RunSet;
   run: Run;
   onLog: () => void;
-  onRun: (run: Run) => void;
+  /** Is over when the project has changed, or has refused to. */
+  onRun: (run: Run) => Promise<unknown>;
   onRemove: () => void;
 }
 
-function RunRow({ set, run, onLog, onRun, onRemove }: RowProps) {
-  const what = `of ${run.log} for ${set}`;
+type Times = Partial<Pick<Run, "begin" | "end">>;
+
+/** Times are kept here while one types, and sent when one leaves the row, or by Enter. */
+export function RunRow({ set: taken, run, onLog, onRun, onRemove }: RowProps) {
+  const what = `of ${run.log} for ${taken}`;
+  const [times, setTimes] = useState<Times>({});
+  // Leaving a field may still change it: what counts is what was typed last, not what was drawn last.
+  const typed = useRef(times);
+  const sent = useRef<Times>(undefined);
+  const set = (next: Times) => setTimes((typed.current = next));
+  const { begin, end } = { ...run, ...times };
+  const send = () => {
+    const now = typed.current;
+    const next = { ...run, ...now };
+    if (now === sent.current || (next.begin === run.begin && next.end === run.end)) return;
+    sent.current = now;
+    void onRun(next).finally(() => typed.current === now && set({}));
+  };
   return (
-    <tr>
-      <td>{set}</td>
+    <tr
+      onBlur={(event) => event.currentTarget.contains(event.relatedTarget) || send()}
+      onKeyDown={(event) => event.key === "Enter" && event.target instanceof HTMLInputElement && send()}
+    >
+      <td>{taken}</td>
       <td>
         <Button size="compact-xs" variant="subtle" onClick={onLog}>
           {run.log}
@@ -102,9 +123,9 @@ function RunRow({ set, run, onLog, onRun, onRemove }: RowProps) {
           w={110}
           unit="s"
           aria-label={`Begin ${what}`}
-          value={run.begin}
-          onNumber={(begin) => begin !== run.begin && onRun({ ...run, begin })}
-          onEmpty={() => onRun({ ...run, begin: 0 })}
+          value={begin}
+          onNumber={(next) => set({ ...typed.current, begin: next })}
+          onEmpty={() => set({ ...typed.current, begin: 0 })}
         />
       </td>
       <td>
@@ -114,9 +135,9 @@ function RunRow({ set, run, onLog, onRun, onRemove }: RowProps) {
           unit="s"
           placeholder="end of log"
           aria-label={`End ${what}`}
-          value={run.end ?? ""}
-          onNumber={(end) => end !== run.end && onRun({ ...run, end })}
-          onEmpty={() => onRun({ ...run, end: null })}
+          value={end ?? ""}
+          onNumber={(next) => set({ ...typed.current, end: next })}
+          onEmpty={() => set({ ...typed.current, end: null })}
         />
       </td>
       <td>

@@ -5,9 +5,9 @@ import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { usePatch, usePutFile, validationKinds } from "../../api/validations";
 import { words } from "../../model/units";
-import { guesses, type Kinds, mappingText, type Project, type Said, type SourceEntry } from "../../model/validation";
+import { guesses, type Kinds, type Mapping, mappingText, type Project, type Said, type SourceEntry, sourcesOf } from "../../model/validation";
 import { NumberEntry } from "../../ui/NumberEntry";
-import { notifyError } from "../../ui/notify";
+import { notify, notifyError } from "../../ui/notify";
 import { Loading } from "../../ui/State";
 import classes from "./Validation.module.css";
 
@@ -17,6 +17,9 @@ interface Props {
   project: Project;
   said: Said | null;
   recorded: readonly { name: string; unit: string }[];
+  /** That the log was looked at with; the form begins with it, else with guesses. */
+  mapping: Mapping | null;
+  onSaved: () => void;
 }
 
 export function MappingForm(props: Props) {
@@ -24,25 +27,26 @@ export function MappingForm(props: Props) {
   return kinds ? <Form {...props} kinds={kinds} /> : <Loading what="our signals" />;
 }
 
-function Form({ project, said, recorded, kinds }: Props & { kinds: Kinds }) {
-  const [sources, setSources] = useState(() => guesses(recorded, kinds));
+function Form({ project, said, recorded, mapping, kinds, onSaved }: Props & { kinds: Kinds }) {
+  const [sources, setSources] = useState(() => (mapping ? sourcesOf(mapping, kinds) : guesses(recorded, kinds)));
   const put = usePutFile(project.name);
   const patch = usePatch(project.name, project.digest);
   const target = said?.mapping ?? FILE;
   const exists = project.files.some(({ name }) => name === target);
-  const save = () =>
-    put.mutate(
-      { name: target, content: mappingText(sources), replace: true },
-      {
-        onError: notifyError,
-        onSuccess: () => {
-          if (said && said.mapping === null) patch.mutate([{ op: "add", path: "/mapping", value: target }], { onError: notifyError });
-        },
-      },
-    );
+  const save = async () => {
+    try {
+      await put.mutateAsync({ name: target, content: mappingText(sources, mapping?.dbc), replace: true });
+      // A project that has changed has its log looked at anew anyway.
+      if (said && said.mapping === null) await patch.mutateAsync([{ op: "add", path: "/mapping", value: target }]);
+      else onSaved();
+      notify("Saved", `The logs are read by ${target} now.`);
+    } catch (error) {
+      notifyError(error as Error);
+    }
+  };
   const set = (name: string, change: Partial<SourceEntry>) =>
     setSources({ ...sources, [name]: { ...(sources[name] as SourceEntry), ...change } });
-  const taken = Object.values(sources).filter(({ from }) => from !== "").length;
+  const taken = Object.values(sources).filter(({ from }) => from.length > 0).length;
   return (
     <div className={classes.stack}>
       <div className={classes.scroll}>
@@ -61,7 +65,7 @@ function Form({ project, said, recorded, kinds }: Props & { kinds: Kinds }) {
             {kinds.signals.map(({ name, unit, units, meaning }) => {
               const source = sources[name];
               if (!source) return null;
-              const off = source.from === "";
+              const off = source.from.length === 0;
               return (
                 <tr key={name}>
                   <th scope="row" title={`${meaning} [${unit}]`}>
@@ -71,9 +75,9 @@ function Form({ project, said, recorded, kinds }: Props & { kinds: Kinds }) {
                     <NativeSelect
                       size="xs"
                       aria-label={`${words(name)} comes from`}
-                      value={source.from}
-                      data={[{ value: "", label: "–" }, ...recorded.map((each) => ({ value: each.name, label: each.name }))]}
-                      onChange={({ currentTarget: { value } }) => set(name, { from: value })}
+                      value={keyOf(source)}
+                      data={[{ value: "", label: "–" }, ...severalOf(source, recorded), ...recorded.map((each) => ({ value: each.name, label: each.name }))]}
+                      onChange={({ currentTarget: { value } }) => value !== keyOf(source) && set(name, { from: value === "" ? [] : [value], combine: "mean" })}
                     />
                   </td>
                   <td>
@@ -82,7 +86,7 @@ function Form({ project, said, recorded, kinds }: Props & { kinds: Kinds }) {
                       aria-label={`${words(name)} is recorded in`}
                       disabled={off}
                       value={source.unit}
-                      data={units}
+                      data={units.includes(source.unit) ? units : [{ value: source.unit, label: source.unit || "as the log says" }, ...units]}
                       onChange={({ currentTarget: { value } }) => set(name, { unit: value })}
                     />
                   </td>
@@ -130,15 +134,26 @@ function Form({ project, said, recorded, kinds }: Props & { kinds: Kinds }) {
         </table>
       </div>
       <div className={classes.row}>
-        <Button size="xs" disabled={taken === 0} loading={put.isPending || patch.isPending} onClick={save}>
+        <Button size="xs" disabled={taken === 0} loading={put.isPending || patch.isPending} onClick={() => void save()}>
           Save as {target}
         </Button>
         <Text size="xs" c="dimmed">
           {taken === 0
             ? "Choose at least one signal."
-            : `${taken} signals are taken; names were guessed, so look at each.${exists ? ` ${target} is replaced.` : ""}`}
+            : `${taken} signals are taken${mapping ? `, as ${target} says` : "; names were guessed, so look at each"}.${exists ? ` ${target} is replaced.` : ""}`}
         </Text>
       </div>
     </div>
   );
+}
+
+const SEPARATOR = ", ";
+const keyOf = ({ from }: SourceEntry): string => from.join(SEPARATOR);
+
+/** What a mapping takes that is no recorded signal of this log: several together, or one of other logs. */
+function severalOf(source: SourceEntry, recorded: Props["recorded"]): { value: string; label: string }[] {
+  const { from, combine } = source;
+  if (from.length === 0 || (from.length === 1 && recorded.some(({ name }) => name === from[0]))) return [];
+  const label = from.length === 1 ? `${from[0]} (not in this log)` : `${combine === "norm" ? "length" : "mean"} of ${keyOf(source)}`;
+  return [{ value: keyOf(source), label }];
 }
