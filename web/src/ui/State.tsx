@@ -21,7 +21,7 @@ export function Empty({ icon, title, children, action }: EmptyProps) {
         <Text c="dimmed" component="span">
           <Icon name={icon} size={30} />
         </Text>
-        <Title order={3} fz="md">
+        <Title order={2} fz="md">
           {title}
         </Title>
         <Text size="sm" c="dimmed" ta="center">
