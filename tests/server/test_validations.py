@@ -195,12 +195,21 @@ def test_what_is_wrong_is_told_at_its_line(client, project):
     assert told["where"].startswith("project.yaml, line 6, column") and "j_turn" in told["remedy"]
 
 
-def test_what_is_cancelled_keeps_nothing(client, project):
-    before = detail(client, project)["iterations"]
+def test_what_is_cancelled_keeps_the_steps_that_were_over_and_nothing_else(client, project):
+    text, before = (detail(client, project)[each] for each in ("text", "iterations"))
+    step = {"parameters": {"tyres.front_cornering": {"low": 0.5, "high": 1.5}}}
+    patch = [{"op": "add", "path": "/calibration/again", "value": step}]
+    assert client.patch(f"/api/validations/{project}", json=patch, headers=PATCH).status_code == 200
     job = client.post(f"/api/validations/{project}/jobs", json={"task": "calibrate", "afresh": True}).json()
+    until = time.monotonic() + PATIENCE
+    while (now := client.get(f"/api/validation-jobs/{job['id']}").json())["stage"] != "calibrating: again":
+        assert now["status"] == "running" and time.monotonic() < until, now
+        time.sleep(0.02)
     assert client.delete(f"/api/validation-jobs/{job['id']}").json()["status"] == "cancelled"
-    assert ended(client, job)["status"] == "cancelled" and detail(client, project)["iterations"] == before
-    assert begun(client, project, task="look", log="turn_1.csv")["status"] == "done"
+    assert begun(client, project, task="look", log="turn_1.csv")["status"] == "done"  # after the process of the other has ended
+    first, *others = detail(client, project)["iterations"]
+    assert first["step"] == "lateral" and others == before and ended(client, job)["status"] == "cancelled"
+    assert client.put(f"/api/validations/{project}/text", content=text.encode()).status_code == 200
 
 
 def test_a_damaged_log_ends_its_own_errand_only(client, project):

@@ -1,4 +1,7 @@
-"""Errands about projects as the server sees them: a process each, one at a time, the others wait. Cancelled, nothing of one is kept."""
+"""Errands about projects as the server sees them: a process each, one at a time, the others wait.
+
+Of one that is cancelled nothing is kept but the steps of a calibration that were over before.
+"""
 
 import shutil
 import threading

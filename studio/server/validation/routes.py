@@ -154,7 +154,7 @@ def job(job: int, desk: AtDesk) -> answer.ProjectJob:
 
 @router.delete("/validation-jobs/{job}")
 def cancel(job: int, desk: AtDesk) -> answer.ProjectJob:
-    """Cancels a job: its process ends, and nothing of it is kept. One that is over stays as it is."""
+    """Cancels a job: its process ends, and of the step that went on nothing is kept; those before stay. One that is over stays as it is."""
     return desk.project_jobs.cancel(job)
 
 

@@ -2,6 +2,7 @@
 
 import { queryOptions, useMutation, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useEffect, useRef, useState } from "react";
+import { isAbsolute } from "../model/editing/deed";
 import type { Deed, Editing, Way } from "../model/editing/item";
 import type { Plan } from "../model/map";
 import type { Server } from "../model/run";
@@ -43,9 +44,22 @@ export function whoAmI(): string {
 
 const NOTHING = { set: {}, patch: [], rename: {}, remove: [] };
 
-/** Edits of a scenario, one after the other; each is made to the revision that was seen when it began. */
+/** A deed, and what is chosen when it is done. */
+export interface Made {
+  deed: Deed;
+  paths?: readonly string[];
+}
+
+/** A deed as it was made from what was seen, or how it is made from what stands there when its turn comes. */
+export type Make = Deed | ((now: Editing) => Made | undefined | Promise<Made | undefined>);
+
+/**
+ * Edits of a scenario, one after the other. What depends on what stands there is made when its turn comes; anything else is made to the
+ * revision that was seen, or to one's own next ones: one's own quick second step is nobody else's.
+ */
 export function useEditing(id: string) {
   const kept = useQueryClient();
+  const own = useRef(new Set<number>());
   const params = { path: { scenario: id } };
   const onSuccess = (state: Editing) => {
     const known = kept.getQueryData(editing(id).queryKey);
@@ -54,11 +68,22 @@ export function useEditing(id: string) {
   };
   const scope = { id: `editing ${id}` };
   const onError = () => kept.invalidateQueries({ queryKey: ["editing", id] });
+  const done = (state: Editing) => {
+    own.current.add(state.revision);
+    return onSuccess(state);
+  };
   const edit = useMutation({
     scope,
-    mutationFn: ({ base, ...deed }: Deed & { base: number }) =>
-      answer(client.POST("/api/scenarios/{scenario}/editing", { params, body: { base, who: whoAmI(), ...NOTHING, ...deed } })) as Promise<Editing>,
-    onSuccess,
+    mutationFn: async ({ make, seen }: { make: Make; seen: Editing }) => {
+      const now = kept.getQueryData(editing(id).queryKey) ?? seen;
+      const made = typeof make === "function" ? await make(now) : { deed: make };
+      if (!made) return undefined;
+      const base = typeof make === "function" ? now.revision : isAbsolute(make) ? afterOwn(seen.revision, own.current) : seen.revision;
+      const body = { base, who: whoAmI(), ...NOTHING, ...made.deed };
+      const state = (await answer(client.POST("/api/scenarios/{scenario}/editing", { params, body }))) as Editing;
+      return { state, ...made };
+    },
+    onSuccess: (found) => found && done(found.state),
     onError,
   });
   const latest = () => kept.getQueryData(editing(id).queryKey)?.revision ?? 0;
@@ -68,7 +93,7 @@ export function useEditing(id: string) {
       answer(
         client.POST("/api/scenarios/{scenario}/editing/undo", { params, body: { base: latest(), who: whoAmI() } }),
       ) as Promise<Editing>,
-    onSuccess,
+    onSuccess: done,
     onError,
   });
   const redo = useMutation({
@@ -77,11 +102,14 @@ export function useEditing(id: string) {
       answer(
         client.POST("/api/scenarios/{scenario}/editing/redo", { params, body: { base: latest(), who: whoAmI() } }),
       ) as Promise<Editing>,
-    onSuccess,
+    onSuccess: done,
     onError,
   });
   return { edit, undo, redo };
 }
+
+/** The last of one's own revisions that follow one without a gap. */
+const afterOwn = (revision: number, own: ReadonlySet<number>): number => (own.has(revision + 1) ? afterOwn(revision + 1, own) : revision);
 
 /** What other places of the page show of the scenario is asked for again. */
 function others(kept: ReturnType<typeof useQueryClient>, id: string): Promise<unknown> {

@@ -74,9 +74,12 @@ export const olderRuns = (filter: { scenario?: string }, newest: readonly { run:
     },
     enabled: (newest?.length ?? 0) >= PAGE,
     staleTime: Number.POSITIVE_INFINITY,
-    placeholderData: keepPreviousData,
+    // Of another scenario they would stand among the runs of this one.
+    placeholderData: (found, previous) => (isSame(previous?.queryKey[2], filter) ? found : undefined),
   });
 };
+
+const isSame = (one: unknown, other: unknown): boolean => JSON.stringify(one) === JSON.stringify(other);
 
 /** Runs that go on or wait for their turn. */
 export const queue = queryOptions({

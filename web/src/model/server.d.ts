@@ -1208,7 +1208,7 @@ export interface paths {
         post?: never;
         /**
          * Cancel
-         * @description Cancels a job: its process ends, and nothing of it is kept. One that is over stays as it is.
+         * @description Cancels a job: its process ends, and of the step that went on nothing is kept; those before stay. One that is over stays as it is.
          */
         delete: operations["cancel_api_validation_jobs__job__delete"];
         options?: never;

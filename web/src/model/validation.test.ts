@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, guesses, type Kinds, mappingText, removeRun, type Run, type Said, sourcesOf } from "./validation";
+import { addParameter, addRun, guesses, type Kinds, mappingText, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -71,4 +71,9 @@ test("a mapping that was kept is written again as it was: its DBC, its lists, wh
     'dbc: "car.dbc"\nsignals:\n  yaw_rate: {from: "w"}\n  speed: {from: ["v[0]","v[1]"], unit: "m/s", combine: norm}\n',
   );
   expect(sourcesOf({ dbc: null, signals: {} }, kinds).speed?.from).toEqual([]);
+});
+
+test("one-sided bounds of 95 % are drawn as the interval of 90 % that they are", () => {
+  expect(shareOf("95 % confidence interval of the mean, two-sided, t(0.975, n - 1)")).toBe("95 % confidence interval");
+  expect(shareOf("one-sided 95 % bounds of the mean, t(0.95, n - 1): a two-sided interval of 90 %")).toBe("90 % confidence interval");
 });

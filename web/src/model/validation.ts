@@ -181,5 +181,8 @@ function guess(ours: string, units: readonly string[], recorded: readonly { name
 export const columnsOf = ({ at, low, high, theirs, ours, averaged }: Course): Columns =>
   [at as number[], high, low, theirs, ours, ...(averaged ? [averaged] : [])] as Columns;
 
+/** What the band is, in short: the words of the interval end with its two-sided share where that is not their first. */
+export const shareOf = (interval: string): string => `${interval.match(/\d+ %/g)?.at(-1) ?? ""} confidence interval`.trim();
+
 /** Whether a job goes on. */
 export const goesOn = (job: Pick<ProjectJob, "status"> | undefined): boolean => job?.status === "running";

@@ -4,7 +4,7 @@ import { Alert, Button } from "@mantine/core";
 import { useLocalStorage } from "@mantine/hooks";
 import { Link } from "@tanstack/react-router";
 import { useCallback, useMemo, useRef, useState } from "react";
-import { findWay, useEdited, useEditing, useNews } from "../../api/editing";
+import { findWay, type Made, type Make, useEdited, useEditing, useNews } from "../../api/editing";
 import * as deeds from "../../model/editing/deed";
 import { type Deed, type Editing, type Item, named, OPEN, owner, present, toggled, type Veil } from "../../model/editing/item";
 import { type Lane, onLane } from "../../model/editing/snap";
@@ -54,6 +54,7 @@ const Broken = ({ id, error, onRetry }: { id: string; error: Error; onRetry: () 
   </>
 );
 
+const LYING = "Routes are drawn with their own tool, and vehicles stand on lanes of their way.";
 const SELECT: Tool = { is: "select" };
 const NOTHING: string[] = [];
 /** What was copied last, also from another scenario. */
@@ -192,13 +193,12 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
   const routeOf = mine.length !== 1 ? undefined : single?.group === "route" ? single.name : (single?.route ?? undefined);
 
   const { mutateAsync } = edit;
-  const base = state.revision;
-  const attempt = useCallback((deed: Deed) => mutateAsync({ ...deed, base }), [mutateAsync, base]);
+  const attempt = useCallback((make: Make) => mutateAsync({ make, seen: state }), [mutateAsync, state]);
   /** Does it, and tells when it is refused. */
   const perform = useCallback(
-    (deed: Deed | undefined, then: readonly string[] = []) => {
-      if (!deed) return;
-      attempt(deed).then(() => then.length && choose([...then]), notifyError);
+    (make: Make | undefined) => {
+      if (!make) return;
+      attempt(make).then((done) => done?.paths?.length && choose([...done.paths]), notifyError);
     },
     [attempt, choose],
   );
@@ -211,15 +211,17 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
       if (deeds.whereabouts(state, only, to, lanes).is === "off") return elsewhere(only, to);
     }
     const deed = deeds.moved(state, held, drag, lanes);
-    if (deed) perform(deed);
-    else notify("It stays where it is.", "Routes are drawn with their own tool, and vehicles stand on lanes.", "yellow");
+    const stay = deeds.staying(state, held, drag, lanes).map(({ name }) => name);
+    if (deed && stay.length > 0) notify(`${stay.join(", ")} ${stay.length > 1 ? "stay" : "stays"} behind.`, LYING, "yellow");
+    if (deed) perform((now) => made(deeds.moved(now, same(now, held), drag, lanes)));
+    else notify("It stays where it is.", LYING, "yellow");
   };
 
   /** A vehicle that was put onto another road gets a way from there on. */
   const elsewhere = (item: Item, to: Point) => {
     const place = onLane(lanes, to);
     if (!place) return notify(`${item.name} stays where it is.`, "Vehicles stand on lanes: let it go on a road.", "yellow");
-    wayFrom(place, to).then((roads) => perform(deeds.rerouted(state, item, roads, spot(place))), notifyError);
+    wayFrom(place, to).then((roads) => perform((now) => ofItem(now, item, (it) => deeds.rerouted(now, it, roads, spot(place)))), notifyError);
   };
 
   const wayFrom = (place: NonNullable<ReturnType<typeof onLane>>, to: Point) =>
@@ -229,10 +231,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     const place = onLane(lanes, to);
     if (!place) return notify("No road is there.", "Vehicles stand on lanes: click on a road.", "yellow");
     const speed = Math.min(13.9, lanes.find(({ road }) => road === place.road)?.speed ?? 13.9);
-    wayFrom(place, to).then((roads) => {
-      const { deed, path } = deeds.vehicleOn(state, roads, spot(place), speed);
-      perform(deed, [path]);
-    }, notifyError);
+    wayFrom(place, to).then((roads) => perform((now) => one(deeds.vehicleOn(now, roads, spot(place), speed))), notifyError);
   };
 
   const point = (to: Point) => {
@@ -241,42 +240,65 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     if (tool.is === "route") return extend(tool.route, to);
     if (tool.is !== "add") return;
     if (tool.what === "vehicle") return addVehicle(to);
-    const made = deeds.placed(state, tool.what, to, lanes);
-    if (!made) return notify("No road is there.", "A friction patch lies on a lane: click on a road.", "yellow");
-    const shown = tool.what === "radio" ? `${made.path}.do.area` : made.path;
-    perform(made.deed, [shown]);
+    const { what } = tool;
+    if (!deeds.placed(state, what, to, lanes)) return notify("No road is there.", "A friction patch lies on a lane: click on a road.", "yellow");
+    perform((now) => {
+      const made = deeds.placed(now, what, to, lanes);
+      return made && { deed: made.deed, paths: [what === "radio" ? `${made.path}.do.area` : made.path] };
+    });
   };
 
-  const roadsOf = (route: string): string[] => {
-    const roads = deeds.at(state.document, `routes.${route}.roads`);
+  const roadsOf = (now: Editing, route: string): string[] => {
+    const roads = deeds.at(now.document, `routes.${route}.roads`);
     return Array.isArray(roads) ? roads.map(String) : [];
   };
-  const reroute = (route: string, roads: string[]) =>
-    perform({ name: `Change route ${route}`, patch: [{ op: "replace", path: `/routes/${route}/roads`, value: roads }] as Deed["patch"] & object });
-  const extend = (route: string, to: Point) =>
-    void findWay(id, { points: [[to.x, to.y]], roads: roadsOf(route), onwards: false }).then(({ roads }) => {
-      if (roads.length === roadsOf(route).length) notify("The route leads there already.", "Its last road is this one.", "yellow");
-      else reroute(route, roads);
-    }, notifyError);
+  const isLocked = (route: string) => {
+    const found = veil.locked.includes(`routes.${route}`);
+    if (found) notify(`${route} is locked.`, "Unlock it in the list first.", "yellow");
+    return found;
+  };
+  const rerouted = (route: string, roads: string[]): Made => ({
+    deed: { name: `Change route ${route}`, patch: [{ op: "replace", path: `/routes/${route}/roads`, value: roads }] as Deed["patch"] & object },
+  });
+  const extend = (route: string, to: Point) => {
+    if (isLocked(route)) return;
+    perform(async (now) => {
+      const before = roadsOf(now, route);
+      const { roads } = await findWay(id, { points: [[to.x, to.y]], roads: before, onwards: false });
+      if (roads.length !== before.length) return rerouted(route, roads);
+      notify("The route leads there already.", "Its last road is this one.", "yellow");
+      return undefined;
+    });
+  };
 
   /** A point of a route that was dragged onto another road, or clicked, which takes it out. */
   const handle = (number: number, to: Point | undefined) => {
-    if (tool.is !== "route") return;
-    const roads = roadsOf(tool.route);
-    if (!to) {
-      if (roads.length > 1) return reroute(tool.route, roads.filter((_, at) => at !== number));
-      return notify("A route needs at least one road.", "Drag its point onto another road instead.", "yellow");
-    }
-    const place = onLane(lanes, to, 6);
-    if (!place) return notify("No road is there.", "Let the point go on a road.", "yellow");
-    reroute(tool.route, roads.map((road, at) => (at === number ? place.road : road)).filter((road, at, all) => road !== all[at - 1]));
+    if (tool.is !== "route" || isLocked(tool.route)) return;
+    const { route } = tool;
+    const roads = roadsOf(state, route);
+    if (!to && roads.length < 2) return notify("A route needs at least one road.", "Drag its point onto another road instead.", "yellow");
+    const place = to && onLane(lanes, to, 6);
+    if (to && !place) return notify("No road is there.", "Let the point go on a road.", "yellow");
+    perform((now) => {
+      const before = roadsOf(now, route);
+      // The point that was seen, wherever it is among the roads by now.
+      const found = before[number] === roads[number] ? number : before.indexOf(roads[number] ?? "");
+      if (found < 0) return undefined;
+      const next = before.flatMap((road, at) => (at !== found ? [road] : place ? [place.road] : []));
+      return rerouted(route, place ? next.filter((road, at) => road !== next[at - 1]) : next);
+    });
   };
 
   /** The vehicle that is chosen gets a way of its own, which begins where it stands. */
   const anew = () => {
     if (single?.group !== "vehicle" || !single.road) return;
-    const deed = deeds.ownWay(state, single);
-    attempt(deed.deed).then(() => setTool({ is: "route", route: deed.route }), notifyError);
+    const { path } = single;
+    let way: ReturnType<typeof deeds.ownWay> | undefined;
+    attempt((now) => {
+      const item = now.items.find((each) => each.path === path);
+      way = item && deeds.ownWay(now, item);
+      return way;
+    }).then(() => way && setTool({ is: "route", route: way.route }), notifyError);
   };
 
   const corner = (item: Item, number: number, to: Point) => {
@@ -287,8 +309,8 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
 
   const enough = () => {
     if (tool.is === "area" && tool.corners.length > 2) {
-      const { deed, path } = deeds.area(state, tool.corners.filter((each, at, all) => at === 0 || Math.hypot(each.x - (all[at - 1]?.x ?? 0), each.y - (all[at - 1]?.y ?? 0)) > 0.2));
-      perform(deed, [path]);
+      const corners = tool.corners.filter((each, at, all) => at === 0 || Math.hypot(each.x - (all[at - 1]?.x ?? 0), each.y - (all[at - 1]?.y ?? 0)) > 0.2);
+      perform((now) => one(deeds.area(now, corners)));
     }
     if (tool.is !== "select") setTool(SELECT);
   };
@@ -300,18 +322,12 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     setTool(SELECT);
   };
 
-  const paste = () => {
-    const made = deeds.pasted(state, clipboard);
-    if (made) perform(made.deed, made.paths);
-  };
+  const paste = () => perform((now) => deeds.pasted(now, clipboard));
   const copy = () => {
     clipboard = deeds.copied(state, chosen);
     if (clipboard.length) notify(`Copied ${named(clipboard.map(({ part, name }) => `${part}.${name}`))}`, "Ctrl+V puts it beside it, here or in another scenario.", "teal", { autoClose: 2500 });
   };
-  const duplicate = () => {
-    const made = deeds.pasted(state, deeds.copied(state, chosen));
-    if (made) perform(made.deed, made.paths);
-  };
+  const duplicate = () => perform((now) => deeds.pasted(now, deeds.copied(now, chosen)));
   const remove = () => {
     const paths = [...new Set(free.map(({ path }) => owner(path)))];
     if (paths.length === 0) return mine.length ? notify("It is locked.", "Unlock it in the list first.", "yellow") : undefined;
@@ -322,19 +338,31 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     if ((way === "undo" ? state.done : state.undone).length === 0) return;
     (way === "undo" ? undo : redo).mutate(undefined, { onError: notifyError });
   };
-  const nudge = useNudge((dx, dy) => perform(deeds.nudged(state, free, dx, dy, lanes)));
-  const event = () => {
-    const name = deeds.eventName(state);
-    perform(deeds.newEvent(state, name), [`script.${name}`]);
-  };
+  const nudge = useNudge((dx, dy) =>
+    perform((now) => made(deeds.nudged(now, same(now, free), dx, dy, lanes))),
+  );
+  const event = () =>
+    perform((now) => {
+      const name = deeds.eventName(now);
+      return { deed: deeds.newEvent(now, name), paths: [`script.${name}`] };
+    });
 
   return {
     looker, lanes, veil, setVeil, chosen, choose, tool, setTool, items, routeOf, attempt, event,
-    move, turn: (item: Item, heading: number) => perform(deeds.turnedTo(state, item, heading)),
+    move, turn: (item: Item, heading: number) => perform((now) => ofItem(now, item, (it) => deeds.turnedTo(now, it, heading))),
     point, handle, anew, corner, enough, back, copy, paste, duplicate, remove, nudge,
     undo: turning("undo"), redo: turning("redo"), isEmpty: chosen.length === 0, canPaste: () => clipboard.length > 0,
   };
 }
+
+const made = (deed: Deed | undefined): Made | undefined => deed && { deed };
+/** Items as they are now. */
+const same = (now: Editing, items: readonly Item[]): Item[] => now.items.filter(({ path }) => items.some((item) => item.path === path));
+const ofItem = (now: Editing, item: Item, make: (item: Item) => Deed | undefined): Made | undefined => {
+  const [found] = same(now, [item]);
+  return found && made(make(found));
+};
+const one = ({ deed, path }: { deed: Deed; path: string }): Made => ({ deed, paths: [path] });
 
 const spot = ({ road, lane, foot }: NonNullable<ReturnType<typeof onLane>>) => ({ road, lane, offset: foot.along });
 

@@ -4,7 +4,7 @@ import { Badge, Button, Group, Modal, SegmentedControl, Switch, Text, Title } fr
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useState } from "react";
-import { olderRuns, runs } from "../../api/queries";
+import { olderRuns, PAGE, runs } from "../../api/queries";
 import { arranged } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
@@ -48,7 +48,7 @@ export function RunsPage({ view, onView }: Props) {
   const filter = view.scenario ? { scenario: view.scenario } : {};
   const { data, error, refetch } = useQuery(runs(filter));
   const older = useQuery(olderRuns(filter, data));
-  const all = useMemo(() => joined(data ?? [], older.data ?? []), [data, older.data]);
+  const all = useMemo(() => joined(data ?? [], (data?.length ?? 0) >= PAGE ? (older.data ?? []) : []), [data, older.data]);
   if (error && !data) return <Failure error={error} onRetry={() => void refetch()} />;
   if (!data) return <Loading what="runs" />;
   if (data.length === 0) return <NoRuns />;

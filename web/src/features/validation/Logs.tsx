@@ -3,9 +3,9 @@
 import { ActionIcon, Button, FileButton, SegmentedControl, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
-import { projectJob, useDeleteFile, useJob, usePatch, usePutFile, validationKinds } from "../../api/validations";
+import { projectJob, useCancelJob, useDeleteFile, useJob, usePatch, usePutFile, validationKinds } from "../../api/validations";
 import { formatBytes, formatFixed, formatNumber, unitText, words } from "../../model/units";
-import { addRun, type Cut, type Looked, type Mapping, type Project, type RunSet, type Said } from "../../model/validation";
+import { addRun, type Cut, type Looked, type Mapping, type Project, type ProjectJob, type RunSet, type Said } from "../../model/validation";
 import { TimeChart } from "../../charts/TimeChart";
 import { useZoom } from "../../charts/zoom";
 import { DropAnywhere } from "../../ui/Drop";
@@ -118,20 +118,34 @@ interface LookProps {
   onAgain: () => void;
 }
 
-/** What is in a log: asked for when it is chosen, and again when the project has changed. */
-function Look({ project, said, log, onAgain }: LookProps) {
-  const { mutate, data: begun, error } = useJob(project.name);
-  useEffect(() => mutate({ task: "look", log }), [mutate, log]);
-  const { data: job } = useQuery(projectJob(begun?.id));
-  if (error) return <Failure error={error} />;
-  if (!job) return <Loading what={log} />;
-  if (job.status !== "done") return <Progressing job={job} />;
-  return job.looked ? <Seen project={project} said={said} log={log} found={job.looked} onAgain={onAgain} /> : <Loading what={log} />;
+/** What is in a log: asked for when it is chosen, and again when the project has changed; nobody looks on when one has left. */
+export function Look({ project, said, log, onAgain }: LookProps) {
+  const { mutateAsync, data: begun, error } = useJob(project.name);
+  const { mutate: cancel } = useCancelJob();
+  useEffect(() => {
+    const asked = mutateAsync({ task: "look", log });
+    asked.catch(() => undefined); // it is shown below
+    return () => void asked.then(({ id }) => cancel(id)).catch(() => undefined);
+  }, [mutateAsync, cancel, log]);
+  const { data: job, error: lost } = useQuery(projectJob(begun?.id));
+  const refused = error ?? lost ?? (job?.problem ? refusalOf(job.problem) : null);
+  if (refused) return <Failure error={refused} onRetry={onAgain} />;
+  if (job?.status === "cancelled") {
+    return (
+      <Empty icon="chart" title="It was not looked at to the end" action={<Button size="xs" variant="default" onClick={onAgain}>Look again</Button>}>
+        Reading {log} was cancelled.
+      </Empty>
+    );
+  }
+  if (job?.status === "running") return <Progressing job={job} />;
+  return job?.looked ? <Seen project={project} said={said} log={log} found={job.looked} onAgain={onAgain} /> : <Loading what={log} />;
 }
+
+const refusalOf = ({ message, problems }: NonNullable<ProjectJob["problem"]>) => Object.assign(new Error(message), { problems });
 
 function Seen({ project, said, log, found, onAgain }: LookProps & { found: Looked }) {
   const [mapping, setMapping] = useState(found.ours.length === 0);
-  const refused = found.problem && Object.assign(new Error(found.problem.message), { problems: found.problem.problems });
+  const refused = found.problem && refusalOf(found.problem);
   return (
     <div className={classes.stack}>
       {refused ? <Failure error={refused} /> : null}

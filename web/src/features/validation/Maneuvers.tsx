@@ -1,6 +1,6 @@
 /** The maneuvers of a project with their runs, apart for calibration and validation; times can be corrected here. */
 
-import { ActionIcon, Button, Text, Tooltip } from "@mantine/core";
+import { ActionIcon, Button, Text, Tooltip, VisuallyHidden } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useRef, useState } from "react";
 import { usePatch, validationKinds } from "../../api/validations";
@@ -54,7 +54,9 @@ export function Maneuvers({ project, said, onLog }: Props) {
                   <th scope="col">Log</th>
                   <th scope="col">Begin</th>
                   <th scope="col">End</th>
-                  <th scope="col" aria-label="Actions" />
+                  <th scope="col">
+                    <VisuallyHidden>Actions</VisuallyHidden>
+                  </th>
                 </tr>
               </thead>
               <tbody>

@@ -5,7 +5,7 @@ import { useEffect, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { formatNumber, withUnit, words } from "../../model/units";
-import { columnsOf, type Course } from "../../model/validation";
+import { columnsOf, type Course, shareOf } from "../../model/validation";
 import classes from "./Validation.module.css";
 
 const HEIGHT = 240;
@@ -73,7 +73,7 @@ export function ZoneChart({ course, interval }: { course: Course; interval: stri
         <span>{alone ? course.runs[0] : `${course.runs.length} recorded runs`}</span>
         {alone ? null : (
           <span title={interval}>
-            <i style={{ background: ink.band }} /> 95 % of their mean
+            <i style={{ background: ink.band }} /> {shareOf(interval)} of their mean
           </span>
         )}
         <span>

@@ -37,6 +37,13 @@ export function moved(state: Editing, chosen: readonly Item[], drag: Drag, lanes
   return patch.length ? { name: `Move ${named(chosen.map(({ path }) => path))}`, patch } : undefined;
 }
 
+/** Those that a drag leaves where they are: vehicles that would come off their way, and what does not lie anywhere by itself. */
+export const staying = (state: Editing, chosen: readonly Item[], drag: Drag, lanes: readonly Lane[]): Item[] =>
+  chosen.filter((item) => shifted(state, item, drag, lanes).length === 0);
+
+/** Whether a deed says what shall stand at a place whatever stands there now, so that it may follow one's own steps unseen. */
+export const isAbsolute = ({ patch = [] }: Deed): boolean => patch.every(({ op, path }) => op === "replace" && !path.includes("/of/"));
+
 /** Where a vehicle is when it is dragged: on its way, beside it on another lane of its roads, or off its way. */
 export type Whereabouts = { is: "along"; station: number } | { is: "lane"; road: string; lane: number; offset: number } | { is: "off" };
 

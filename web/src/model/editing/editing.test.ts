@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Section } from "../form";
 import { strips } from "../picking";
-import { area, copied, ghostOf, isTurnable, moved, nudged, pasted, placed, turnedTo, whereabouts } from "./deed";
+import { area, copied, ghostOf, isAbsolute, isTurnable, moved, nudged, pasted, placed, staying, turnedTo, whereabouts } from "./deed";
 import { fitted, outside, sectionAt, stepName } from "./form";
 import { settingsFor } from "./fresh";
 import { boundsOfItems, hit, within } from "./hit";
@@ -203,4 +203,21 @@ describe("a kind that is chosen", () => {
 
   it("gets an area around what is looked at", () =>
     expect(settingsFor(kind({ area: { type: "object" } }, []), {}, state, { x: 3.4, y: 8 })).toEqual({ kind: "new", area: { x: 3, y: 8, radius: 20 } }));
+});
+
+describe("what a drag or a quick second step does", () => {
+  it("tells which of several things stay behind", () => {
+    const drag = { from: { x: 0, y: 0 }, to: { x: 0, y: 20 } };
+    expect(staying(state, [car, tree, route], drag, lanes).map(({ name }) => name)).toEqual(["ego", "way"]);
+    expect(staying(state, [car, tree], { from: { x: 0, y: 0 }, to: { x: 10, y: 0 } }, lanes)).toEqual([]);
+  });
+
+  it("follows one's own steps unseen when it says what shall stand there, not when it counts places of a list", () => {
+    const patch = (op: string, path: string) => ({ name: "", patch: [{ op, path, value: 1 }] as never });
+    expect(isAbsolute({ name: "", set: { "clock.duration": 3 } })).toBe(true);
+    expect(isAbsolute(patch("replace", "/script/mark/when/area/corners/2"))).toBe(true);
+    expect(isAbsolute(patch("remove", "/script/mark/when/of/1"))).toBe(false);
+    expect(isAbsolute(patch("replace", "/script/mark/when/of/1"))).toBe(false);
+    expect(isAbsolute(patch("add", "/script/event"))).toBe(false);
+  });
 });
