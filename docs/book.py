@@ -88,7 +88,9 @@ def lay_out(folder: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
     for source in (ROOT / "docs" / "pages").rglob("*.svg"):
-        shutil.copy(source, folder / "pages" / source.relative_to(ROOT / "docs" / "pages"))
+        target = folder / "pages" / source.relative_to(ROOT / "docs" / "pages")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, target)
     for source in (ROOT / "docs" / "style.css", ROOT / "web" / "public" / "favicon.svg"):
         shutil.copy(source, folder / "pages")
     rooms = ", ".join(f'"{name}"' for name in pages if name.startswith("reference/modules/") and not name.endswith("index.md"))

@@ -1,6 +1,5 @@
 /** Validation projects as the page shows them: what stands in them, the patches that change them, and courses as columns. */
 
-import type { Columns } from "../charts/TimeChart";
 import type { Server } from "./run";
 
 export type ProjectRow = Server["ProjectRow"];
@@ -178,8 +177,14 @@ function guess(ours: string, units: readonly string[], recorded: readonly { name
 // -- courses ------------------------------------------------------------------------------------------
 
 /** The columns of a course in the order in which they are drawn: abscissa, bounds, and lines. */
-export const columnsOf = ({ at, low, high, theirs, ours, averaged }: Course): Columns =>
-  [at as number[], high, low, theirs, ours, ...(averaged ? [averaged] : [])] as Columns;
+export const columnsOf = ({ at, low, high, theirs, ours, averaged }: Course): (number | null)[][] => [
+  at,
+  high,
+  low,
+  theirs,
+  ours,
+  ...(averaged ? [averaged] : []),
+];
 
 /** What the band is, in short: the words of the interval end with its two-sided share where that is not their first. */
 export const shareOf = (interval: string): string => `${interval.match(/\d+ %/g)?.at(-1) ?? ""} confidence interval`.trim();

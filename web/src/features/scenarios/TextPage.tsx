@@ -26,7 +26,7 @@ import { ProblemList, ProblemText } from "../../ui/Problems";
 import { LeaveQuestion } from "../../ui/LeaveQuestion";
 import { Failure, Loading } from "../../ui/State";
 import { useSaveKey } from "../../ui/shortcut";
-import { goTo, mark, openEditor, replaceAll } from "./editor";
+import { goTo, mark, openEditor, replaceAll } from "../../ui/editor";
 import classes from "./Scenarios.module.css";
 
 export function TextPage({ id }: { id: string }) {

@@ -10,7 +10,7 @@ import type { Project } from "../../model/validation";
 import { LeaveQuestion } from "../../ui/LeaveQuestion";
 import { ProblemList } from "../../ui/Problems";
 import { useSaveKey } from "../../ui/shortcut";
-import { mark, openEditor, replaceAll } from "../scenarios/editor";
+import { mark, openEditor, replaceAll } from "../../ui/editor";
 import classes from "./Validation.module.css";
 
 const PLACE = /, line (\d+), column (\d+)/;

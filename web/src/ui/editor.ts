@@ -15,7 +15,7 @@ import {
   lineNumbers,
 } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
-import { hasWindowsLines, pathOf, type TextProblem } from "../../model/scenario";
+import { hasWindowsLines, pathOf, type TextProblem } from "../model/scenario";
 
 const colour = (light: string, dark: string) =>
   `light-dark(var(--mantine-color-${light}), var(--mantine-color-${dark}))`;
