@@ -19,7 +19,7 @@ from studio.world.channel import CHANNELS
 
 WIDE = 10.0  # times its first value, how far a number without an upper bound is drawn
 UNBOUND = 300.0  # how far one is drawn that has no first value either
-TRIES = 50
+TRIES = 500
 NAMES = tuple("abcdefghijklmnopqrstuvwxyz")  # of drawn cars
 STAGE: dict[str, Any] = {
     "vehicle": "own", "unit": "own", "route": "along", "entry": "first", "road": "motorway", "body": "ahead", "value": "own.speed",
