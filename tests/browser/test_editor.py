@@ -91,9 +91,9 @@ def drag(page, start, end):
     page.mouse.up()
 
 
-def row(page, name):
+def row(page, name, **state):
     """A thing in the list."""
-    return page.get_by_role("navigation", name="Everything in the scenario").get_by_role("button", name=name, exact=True)
+    return page.get_by_role("navigation", name="Everything in the scenario").get_by_role("button", name=name, exact=True, **state)
 
 
 def add(page, what):
@@ -102,9 +102,11 @@ def add(page, what):
     page.get_by_role("menuitem", name=what, exact=True).click()
 
 
-def done(page, name):
-    """Until a step is the last."""
+def done(page, name, chosen=None):
+    """Until a step is the last, and what it made is chosen: only then are its handles there."""
     expect(page.get_by_role("button", name=f"Undo: {name}")).to_be_enabled()
+    if chosen:
+        expect(row(page, chosen, pressed=True)).to_be_visible()
 
 
 def document(path):
@@ -115,8 +117,7 @@ def test_a_tree_is_placed_undone_and_done_again(page, path):
     before = path.read_bytes()
     add(page, "Tree")
     page.mouse.click(*beside(page, "vehicles.first", 60, 0))
-    done(page, "Add tree")
-    expect(row(page, "tree")).to_have_attribute("aria-pressed", "true")
+    done(page, "Add tree", "tree")
     assert document(path)["script"]["tree"]["do"]["shape"] == "tree"
     page.get_by_role("button", name="Select").click()
     page.keyboard.press("Control+z")
@@ -141,7 +142,7 @@ def test_a_car_is_dragged_along_its_way(page, path):
 def test_a_car_is_dragged_onto_another_road(page, path):
     """It gets a route of its own there, because its own does not come by."""
     drag(page, spot(page, "vehicles.second"), beside(page, "vehicles.second", NEXT_ROAD * metre(page), -25 * metre(page)))
-    done(page, "Move second to another road")
+    done(page, "Move second to another road", "second")
     vehicle = document(path)["vehicles"]["second"]
     assert vehicle["route"] != "straight_on" and vehicle["position"]["road"] in document(path)["routes"][vehicle["route"]]["roads"]
     expect(row(page, "second")).to_have_attribute("aria-pressed", "true")
@@ -170,8 +171,7 @@ def test_a_rectangle_chooses_several_which_are_copied(page, path):
     page.get_by_role("application").focus()
     page.keyboard.press("Control+c")
     page.keyboard.press("Control+v")
-    done(page, "Copy van")
-    expect(row(page, "van_2")).to_have_attribute("aria-pressed", "true")
+    done(page, "Copy van", "van_2")
     page.keyboard.press("Control+d")
     expect(row(page, "van_3")).to_be_visible()
     assert document(path)["script"]["van_3"]["do"]["length"] == document(path)["script"]["van"]["do"]["length"]
@@ -252,7 +252,7 @@ def test_an_area_that_nobody_drives_through_is_told(page, path):
     for east, south in ((90, -40), (190, -40), (190, 40)):
         page.mouse.click(x + east, y + south)
     page.keyboard.press("Enter")
-    done(page, "Add area")
+    done(page, "Add area", "area")
     when = page.get_by_role("list", name="What happens when")
     expect(when.get_by_role("note").filter(has_text="the way of first does not cross the area")).to_be_visible()
     assert len(document(path)["script"]["area"]["when"]["area"]["corners"]) == 3
@@ -288,7 +288,7 @@ def test_the_menu_behind_the_right_button_and_the_way_to_the_studio(page, path):
 def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
     add(page, "Wall")
     page.mouse.click(*beside(page, "vehicles.first", 80, 0))
-    done(page, "Add wall")
+    done(page, "Add wall", "wall")
     page.get_by_role("button", name="Select").click()
     x, y = spot(page, "script.wall")
     assert document(path)["script"]["wall"]["do"]["heading"] == 0  # to the east, where its handle lies
@@ -300,7 +300,7 @@ def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
     for corner in corners:
         page.mouse.click(*corner)
     page.keyboard.press("Enter")
-    done(page, "Add area")
+    done(page, "Add area", "area")
     reshaped = document(path)["script"]["area"]["when"]["area"]["corners"]
     drag(page, corners[1], (x + 120, y + 30))
     done(page, "Reshape area")
@@ -311,7 +311,7 @@ def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
 def test_a_trigger_is_made_of_what_the_kinds_offer(page, path):
     """Another condition is chosen; what it needs is filled in from what there is, and its time is told."""
     add(page, "Event")
-    done(page, "Add event")
+    done(page, "Add event", "event")
     form = page.get_by_role("region", name="Properties")
     form.get_by_role("combobox", name="Condition").select_option(label="A vehicle has passed a place")
     done(page, "Exchange condition of event")

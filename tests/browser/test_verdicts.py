@@ -65,8 +65,11 @@ def test_3_a_run_is_decided_and_named_on_its_page(page, studio):
     page.get_by_role("textbox", name="Name").fill("hard brake")
     page.get_by_role("textbox", name="Tags").fill("wet, night")
     page.get_by_role("textbox", name="Note").fill("At 0.1 s.")
-    page.get_by_role("button", name="Save").click()
-    expect(page.get_by_role("button", name="Save")).to_be_disabled()
+    save = page.get_by_role("button", name="Save")
+    with page.expect_response(lambda answer: answer.request.method == "PUT"):
+        save.click()
+    expect(save).not_to_have_attribute("data-loading", "true")
+    expect(save).to_be_disabled()  # nothing is left to be saved
     told = studio[2].get("/api/runs/2").json()
     assert (told["name"], told["tags"], told["note"]) == ("hard brake", ["wet", "night"], "At 0.1 s.")
 

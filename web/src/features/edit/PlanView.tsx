@@ -144,8 +144,7 @@ export function PlanView(props: Props) {
       setView(dragged(view, screen.x - press.last.x, screen.y - press.last.y));
       return setPress({ ...press, last: screen, moved: true });
     }
-    const from = press.is === "rectangle" ? press.from : press.start;
-    if (press.is !== "point" && !press.moved && distance(from, screen) >= STILL) setPress({ ...press, moved: true });
+    if (press.is !== "point" && !press.moved && distance(startOf(press), screen) >= STILL) setPress({ ...press, moved: true });
   };
 
   const up = (event: PointerEvent) => {
@@ -153,26 +152,29 @@ export function PlanView(props: Props) {
     setPress(undefined);
     const screen = local(event);
     const on = toGround(view, size, screen);
+    // A quick drag is over before its moves were drawn.
+    const isMoved = "moved" in press && (press.moved || distance(press.is === "pan" ? press.last : startOf(press), screen) >= STILL);
     switch (press.is) {
       case "pan":
-        if (!press.moved && event.button === 2) props.onMenu({ x: event.clientX, y: event.clientY }, on, hit(items, on, reach));
+        if (isMoved && !press.moved) setView(dragged(view, screen.x - press.last.x, screen.y - press.last.y));
+        if (!isMoved && event.button === 2) props.onMenu({ x: event.clientX, y: event.clientY }, on, hit(items, on, reach));
         return;
       case "rectangle": {
-        const found = press.moved ? within(pickable, spanned(toGround(view, size, press.from), on)).map(({ path }) => path) : [];
+        const found = isMoved ? within(pickable, spanned(toGround(view, size, press.from), on)).map(({ path }) => path) : [];
         return props.onChoose(press.add ? [...new Set([...chosen, ...found])] : found);
       }
       case "things":
-        if (press.moved) props.onMove(press.items, { from: press.from, to: on });
+        if (isMoved) props.onMove(press.items, { from: press.from, to: on });
         else props.onChoose(press.click);
         return;
       case "grip":
-        return letGo(press, on);
+        return letGo(press.grip, isMoved, on);
       case "point":
         if (distance(press.start, screen) < 3 * STILL) props.onPoint(on);
     }
   };
 
-  const letGo = ({ grip, moved }: Press & { is: "grip" }, on: Point) => {
+  const letGo = (grip: Grip, moved: boolean, on: Point) => {
     if (grip.is === "handle") return props.onHandle(grip.handle, moved ? on : undefined);
     if (!moved) return;
     if (grip.is === "corner") return props.onCorner(grip.item, grip.corner, on);
@@ -219,6 +221,9 @@ export function PlanView(props: Props) {
     </div>
   );
 }
+
+/** Where on the screen a press began. */
+const startOf = (press: Exclude<Press, { is: "pan" }>): Point => (press.is === "rectangle" ? press.from : press.start);
 
 const distance = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
 
