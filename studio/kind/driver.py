@@ -13,7 +13,9 @@ batched. Who the driver minds on the road is found before, and how he perceives 
 foot does what `decide` wants one reaction time later; what concerns the pedals is told as he expects it to be then.
 
 Reaction times: M. Green, "How long does it take to stop?", Transportation Human Factors 2 (2000) 195. Errors: M. Treiber, A. Kesting,
-D. Helbing, Delays, inaccuracies and anticipation in microscopic traffic models, Physica A 360 (2006) 71.
+D. Helbing, Delays, inaccuracies and anticipation in microscopic traffic models, Physica A 360 (2006) 71. Changes of lanes: A. Kesting,
+M. Treiber, D. Helbing, General lane-changing model MOBIL, Transportation Research Record 1999 (2007) 86: politeness 0 to 0.5, threshold
+0.1, safe braking 4, a bias of 0.3 m/s² to the right.
 """
 
 from math import inf
@@ -54,6 +56,20 @@ class Driver(Part):
     distraction_length: float = number(2.0, unit="s", title="Looks away for", ge=0.2, le=20, description="median")
     sway: float = number(0.0, unit="m", title="Sway in the lane", ge=0, le=0.5, description="standard deviation of the place that he wants")
     sway_time: float = number(5.0, unit="s", title="Time of the sway", ge=1, le=60, description="in which he forgets it")
+    politeness: float = number(
+        0.2, unit="1", title="Politeness", ge=0, le=1,
+        description="in changing lanes where nothing asks for it: how much what others gain or lose counts of one's own gain",
+    )  # fmt: skip
+    changing_threshold: float = number(
+        0.1, unit="m/s²", title="Threshold of changing", ge=0, le=3, description="acceleration that a change of lanes has to gain"
+    )
+    imposed_braking: float = number(
+        4.0, unit="m/s²", title="Imposed braking", gt=0, le=8, description="harder a change of lanes makes nobody brake behind"
+    )
+    keep_side: float = number(
+        0.3, unit="m/s²", title="Keeping to the kerb", ge=0, le=3,
+        description="what the lane nearer to the kerb is worth outside towns; 0 where the law does not ask for it",
+    )  # fmt: skip
 
     def tempered(self) -> "Driver":
         """The same driver with what his aggressiveness makes of it."""

@@ -168,6 +168,9 @@ class Vehicle(Part, defer_build=True):
     position: Place = Field(..., title="Start")
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Driver")
+    lane_changes: bool = Field(
+        False, title="Lane changes", description="whether the driver changes to a better lane where the route asks for none"
+    )
     intervention: Intervention = Field(default_factory=Intervention, title="Driver's intervention")
     sensors: Sensors = Field(
         default_factory=front_radar_only, validate_default=True, title="Sensors", description="by name, as applications ask for them"

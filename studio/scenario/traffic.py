@@ -206,6 +206,9 @@ class Traffic(Part, defer_build=True):
     spacing: float = number(20.0, unit="m", title="Least distance at the start", ge=8, le=200)
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Drivers")
     spread: Spread = spread_field()
+    lane_changes: bool = Field(
+        False, title="Lane changes", description="whether drivers change to better lanes where their way asks for none, and pass who stands"
+    )
 
     @model_validator(mode="after")
     def one_number(self):

@@ -26,7 +26,7 @@ from studio.store import trace
 from studio.store.runs import Runs
 
 Format = Literal["fcd", "csv"]
-NEEDED = ("x", "y", "heading", "speed", "station", "acceleration")
+NEEDED = ("x", "y", "heading", "speed", "station", "acceleration", "lanes_beside")
 BATCH = 512  # samples that are read at a time
 MEDIA = {"fcd": "application/xml", "csv": "text/csv"}
 HEAD = ("time", "vehicle", "type", "x", "y", "angle", "speed", "acceleration", "lane", "pos", "slope")
@@ -81,13 +81,20 @@ def seen(parquet: bytes, as_degrees: bool) -> Iterator[tuple[float, list[Seen]]]
 
 def vehicle(name: str, row: list[float], body: Body, cast: Cast, box: Box | None) -> Seen:
     """One vehicle at one sample."""
-    x, y, heading, speed, station, acceleration = row
+    x, y, heading, speed, station, acceleration, beside = row
     x, y = x + body.front * cos(heading), y + body.front * sin(heading)
     manned = cast.manned[name]
     lane, pos, slope = cast.ways[manned.way].place(station + body.front)
+    lane = lane_beside(lane, int(beside))
     if box is not None:
         ((x, y),) = box.degrees(np.array([[x], [y]]))
     return Seen(name, manned.model, x, y, round(90.0 - degrees(heading), 2) % 360.0, speed, acceleration, lane, pos, degrees(atan(slope)))
+
+
+def lane_beside(lane: str, step: int) -> str:
+    """The id of the lane so many lanes beside another; within a junction there is but one."""
+    road, _, index = lane.rpartition("_")
+    return f"{road}_{int(index) + step}" if step and index.isdecimal() and not lane.startswith(":") else lane
 
 
 def fcd(samples: Iterator[tuple[float, list[Seen]]], digits: int) -> Iterator[str]:

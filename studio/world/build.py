@@ -20,6 +20,7 @@ from studio.vehicle.command import U_DRIVE
 from studio.vehicle.fleet import Start, fleet, level_ground
 from studio.vehicle.parameter import LOSS_SHARE, LOSS_TORQUE
 from studio.vehicle.state import ACTIVE, CLUTCH, RATIO, T_ENGINE, TORQUE_DRIVE
+from studio.world.beside import beside_of
 from studio.world.board.crew import hosts
 from studio.world.board.equipment import units_of
 from studio.world.car import Car, pose
@@ -41,6 +42,7 @@ from studio.world.seat import seats
 from studio.world.setting import Setting
 from studio.world.snapshot import gather, origin_of
 from studio.world.table.mind import (
+    CHANGING,
     DRIVER,
     EXPECTED,
     GAP,
@@ -61,7 +63,7 @@ from studio.world.table.mind import (
 from studio.world.table.street import COLLISION, LINE_COUNT, LINE_DRIVE, LINE_DRIVES, LINE_FIRST, LINE_STOP, LINE_STOPS, PIECE
 from studio.world.table.web import Web
 from studio.world.web import web_of
-from studio.world.world import Clock, Demand, Events, Roads, Vehicles, World, Worlds
+from studio.world.world import Clock, Demand, Detours, Events, Lanes, Roads, Vehicles, World, Worlds
 
 FIRST_HITS = 64  # collisions of a world that there is room for at first
 
@@ -80,6 +82,7 @@ def build(settings: Sequence[Setting]) -> World:
     table = table_of(lines, stops[0], obstacles.counts, drives)
     roads = roads_of(settings, lines, table, stops, web)
     units = units_of(settings, worlds, cars, obstacles.standing.size, clock.tick)
+    detours = detours_of(settings, worlds, lines, table)
     hosted, open_inboxes = hosts(settings, units, clock.tick)
     world = World(
         clock=Clock(clock.tick, clock.step),
@@ -89,7 +92,8 @@ def build(settings: Sequence[Setting]) -> World:
         units=units,
         events=events_of(settings),
         script=script_of(settings, worlds, lines, movers(settings, obstacles.first)),
-        detours=detours_of(settings, worlds, lines, table),
+        detours=detours,
+        lanes=lanes_of(settings, lines, detours),
         demand=demand_of(settings, worlds),
         obstacles=obstacles,
         neighbours=neighbours(vehicles.parameter),
@@ -149,7 +153,7 @@ def vehicles_of(cars: Sequence[Car], weathers: Sequence[Weather]) -> Vehicles:
     mind[STATION] = [car.station for car in cars]
     mind[GAP] = np.nan  # nobody has looked yet
     mind[[NEEDED_COLLISION, NEEDED_RED, NEEDED_WAY, WAY_STATION, SEEN_GAP, SEEN_FIRST_GAP, SEEN_STOP]] = np.inf
-    mind[MISJUDGED] = 1.0
+    mind[[MISJUDGED, CHANGING]] = 1.0
     made = fleet(starts, ground=ground_of(cars))
     made.state[ACTIVE, [car.is_outside for car in cars]] = 0.0
     return Vehicles(
@@ -242,6 +246,19 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
         **signals_of(settings),
         **surface_of(settings),
         **buildings_of(settings),
+    )
+
+
+def lanes_of(settings: Sequence[Setting], lines: Lines, detours: Detours) -> Lanes:
+    """Everybody on his usual lanes."""
+    beside, n = beside_of(settings, lines, detours), len(lines.home)
+    return Lanes(
+        block=np.array([each.start for each in lines.home], dtype=np.int64),
+        asked=np.full(n, -1),
+        left_first=np.zeros(n, dtype=np.int64),
+        left_count=np.zeros(n, dtype=np.int64),
+        beside=beside,
+        any_beside=bool((beside.home >= 0).any()),
     )
 
 

@@ -28,6 +28,7 @@ class Car:
     returns: bool = False  # whether it comes in again when it has arrived
     source: int | None = None  # the number of the source that lets it in when one is due
     is_outside: bool = False  # whether it is not on the road yet
+    changes_lanes: bool = False  # whether its driver does so where nothing asks for it
 
 
 def pose(path: Path, station: float) -> tuple[float, float, float]:

@@ -20,6 +20,7 @@ from studio.world.passes.census import CENSUS, PAIR
 from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.passes.sight import SIGHT
+from studio.world.table.lane import GATE
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
 from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP, ZEBRA
 from studio.world.table.unit import GPS_SET, HEARD, LOGGED, OUTPUT, SATELLITE, SENSOR, SENT, TROUBLE, UNIT, UNIT_SET
@@ -27,7 +28,7 @@ from studio.world.table.unit import GPS_SET, HEARD, LOGGED, OUTPUT, SATELLITE, S
 TABLES = (
     VEHICLE, WHEEL, COMMAND, PARAMETER, GEARBOX, GROUND, CONTACT, ADHESION, LIGHT,
     MIND, SCRIPT, DRIVER, UNIT, UNIT_SET, TROUBLE, SATELLITE, GPS_SET, SENSOR, OUTPUT, SENT, HEARD, LOGGED,
-    LINE, PIECE, OBSTACLE, SWEEP, ZEBRA, COLLISION, NOTICE, CENSUS, PAIR, PLACE, MAIL, SIGHT, CHART,
+    LINE, GATE, PIECE, OBSTACLE, SWEEP, ZEBRA, COLLISION, NOTICE, CENSUS, PAIR, PLACE, MAIL, SIGHT, CHART,
 )  # fmt: skip
 HEAD = "| Row | Unit | Role | Recorded as | Meaning |\n| --- | --- | --- | --- | --- |"
 

@@ -6,7 +6,7 @@ setting(scenario)   →  Setting
 import os
 import re
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -301,7 +301,8 @@ def named_car(name: str, scenario: Scenario, models: dict[str, VehicleModel], pa
             [Problem(field, "lies beyond the end of its route", f"{station} m", f"≤ {last:.0f} m")],
         )
     manned = vehicle.driver, vehicle.intervention, vehicle.colour, vehicle.gps
-    return Car(name, models[vehicle.model], path, station, vehicle.speed, *manned, is_light=vehicle.dynamics == "light")
+    own = Car(name, models[vehicle.model], path, station, vehicle.speed, *manned, is_light=vehicle.dynamics == "light")
+    return replace(own, changes_lanes=vehicle.lane_changes)
 
 
 def check_works(cars: list[Car], works: Works, where: str) -> None:

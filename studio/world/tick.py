@@ -22,7 +22,7 @@ from studio.world.board.own import carry
 from studio.world.board.post import Post, draw_lots, taking_turns
 from studio.world.board.post import lay as lay_open
 from studio.world.board.sensing import Mounted
-from studio.world.passes import collision, control, entry, ground, neighbour, percept, queue, traffic, zebra
+from studio.world.passes import collision, control, entry, ground, lane, neighbour, percept, queue, traffic, zebra
 from studio.world.seat import Seats
 from studio.world.table.mind import STATION
 from studio.world.world import Units, World
@@ -161,14 +161,25 @@ def environment(world: World) -> None:
 
 @Passes
 def surroundings(world: World) -> Iterator[Link]:
-    """Height and slope, friction, what every light shows."""
+    """Who changes lanes, height and slope, friction, what every light shows."""
     v, r = world.vehicles, world.roads
+    if world.lanes.any_beside:
+        yield go_over(world)
     if r.any_raised:
         yield link(ground.rise, v.state, v.parameter, v.mind[STATION], r.points, r.path_first, r.path_count, r.raised, v.ground)
     yield link(ground.lay, v.state, v.parameter, world.worlds.of, r.weather, r.pieces, r.near, v.ground)
     if r.shown.size:
         signals = (r.signal_time, r.signal_first, r.signal_count, r.phase_end, r.phase_state, r.forced, r.shown)
         yield link(traffic.lights, *signals, takes=("time",))
+
+
+def go_over(world: World) -> Link:
+    """Who wanted to change lanes does."""
+    v, r, d, b = world.vehicles, world.roads, world.detours, world.lanes
+    lines = (r.path_first, r.path_count, r.stop_first, r.stop_count, *world.obstacles.swept, r.drive_first, r.drive_count)
+    moving = (b.asked, b.block, b.left_first, b.left_count)
+    fixed = (b.beside, world.script.phase, r.points)
+    return link(lane.go_over, world.clock.tick, v.state, *moving, *fixed, *lines, d.base, d.work, d.choice, v.mind)
 
 
 @Passes
@@ -190,6 +201,8 @@ def look(world: World) -> Iterator[Link]:
         yield mind_movers(world)
     if world.obstacles.movers.zebra.size:
         yield let_cross(world)
+    if world.lanes.any_beside:
+        yield choose_lanes(world)
 
 
 def orient(world: World) -> Link:
@@ -206,7 +219,7 @@ def line_up(world: World) -> Link:
     """Who is behind whom on every strand."""
     v, r, q, w = world.vehicles, world.roads, world.queues, world.worlds
     asked = (q.wanted, q.wanted_at, q.there, q.count)
-    drives = (r.drive_first, r.drive_count, r.web)
+    drives = (r.drive_first, r.drive_count, world.lanes.left_first, world.lanes.left_count, r.web)
     return link(queue.sort, v.state, v.parameter, v.mind, w.of, w.entity, *drives, q.first, q.place, q.at, *asked)
 
 
@@ -239,6 +252,18 @@ def let_cross(world: World) -> Link:
     walking, view = (m.object, m.speed, m.zebra_first, m.zebra_count, m.zebra), (world.neighbours.places, r.place_of, r.shadow)
     own = (v.state, v.parameter, *paths, *objects, *walking, w.of, *view, v.drivers, v.mind)
     return link(zebra.let_cross, *own, takes=("time",))
+
+
+def choose_lanes(world: World) -> Link:
+    """Who wants to change lanes."""
+    v, r, q, w, d, b, g = world.vehicles, world.roads, world.queues, world.worlds, world.detours, world.lanes, world.neighbours
+    numbers = (r.points, r.path_first, r.path_count, w.of, w.number, w.entity)
+    moving = (b.asked, b.block, b.left_first, b.left_count, b.beside, world.script.phase)
+    lines = (r.stop_first, r.stop_count, *world.obstacles.swept, r.drive_first, r.drive_count, d.base, d.work, d.choice)
+    queues = (r.web, q.first, q.place, q.at, g.found)
+    every = max(round(lane.EVERY / world.clock.tick), 1)
+    own = (world.clock.tick, every, v.state, v.parameter, g.places, *numbers, *moving, *lines, *queues, v.drivers, v.mind)
+    return link(lane.choose, *own, takes=("k",))
 
 
 @Passes

@@ -23,6 +23,7 @@ from studio.world.board.sensing import Mounted
 from studio.world.passes.neighbour import Neighbours
 from studio.world.passes.queue import Queues
 from studio.world.seat import Seats
+from studio.world.table.lane import Beside
 from studio.world.table.mind import STEER_WISH, WISH
 from studio.world.table.street import OBJECT
 from studio.world.table.unit import PRESENT
@@ -217,11 +218,27 @@ class Detours:
 
     vehicle: np.ndarray  # int64[m]: columns
     choice: Moving  # int64[m]: bit b is work b
-    work: np.ndarray  # int64[MOST_WORKS, m]: entry of the script that work b belongs to, -1 for none
-    base: np.ndarray  # int64[m]: column of `lines` with choice 0
+    work: Moving  # int64[MOST_WORKS, m]: entry of the script that work b belongs to, -1 for none
+    base: Moving  # int64[m]: column of `lines` with choice 0
     lines: np.ndarray  # int64[LINE, line]
     span: np.ndarray  # float64[2 · MOST_WORKS, line]: where work b is entered and left
     held: Moving  # int64[entry]: vehicles that are still within it on the usual path
+
+
+@dataclass
+class Lanes:
+    """Who drives on which block of lines, and who changes from one to another."""
+
+    block: Moving  # int64[vehicle]
+    asked: Moving  # int64[vehicle]: the gate through which it will change, -1 for none
+    left_first: Moving  # int64[vehicle]: drives of the line that it is leaving
+    left_count: Moving  # 0 of one that leaves none
+    beside: Beside
+    any_beside: bool  # whether there are other lanes for anybody
+
+    def apart(self) -> np.ndarray:
+        """How many blocks behind the usual one everybody is, whatever else is in the batch."""
+        return np.where(self.beside.home < 0, 0, self.block - self.beside.home)
 
 
 @dataclass
@@ -266,6 +283,11 @@ class Obstacles:
     sweep_count: Moving
     movers: Movers
     names: tuple[str, ...]
+
+    @property
+    def swept(self) -> tuple[np.ndarray, np.ndarray]:
+        """First and number of those that every vehicle may run into."""
+        return self.sweep_first, self.sweep_count
 
 
 @dataclass
@@ -337,6 +359,7 @@ class World:
     events: Events
     script: Script
     detours: Detours
+    lanes: Lanes
     demand: Demand
     obstacles: Obstacles
     neighbours: Neighbours
@@ -414,6 +437,7 @@ class World:
             s.met,
             o.standing,
             self.detours.choice,
+            self.lanes.block,
             self.demand.gone,
         ]
         return [v.state, v.wheels, v.mind, v.intents, v.commands, *units, *happened, *(memory for _, memory in self.memories())]
@@ -451,6 +475,7 @@ class World:
         yield from (s.since[mine], s.met[mine])
         yield o.standing[self.objects(number)]
         yield d.choice[of[d.vehicle] == number]
+        yield self.lanes.apart()[columns]
         yield self.demand.gone[self.demand.world == number]
         yield from (memory for group, memory in self.memories() if group.world == number)
 

@@ -17,7 +17,7 @@ import sumo
 from studio import job
 from studio.cli import app
 from studio.errors import UnknownError
-from studio.store.export import export
+from studio.store.export import export, lane_beside
 from studio.store.runs import open_runs
 from tests.conftest import ROOT
 
@@ -91,6 +91,11 @@ def test_lane_and_position_lie_where_the_car_is(made):
         assert 0.0 <= float(each["pos"]) <= lane.length + 0.01
         distance = min((float(each["x"]) - x) ** 2 + (float(each["y"]) - y) ** 2 for x, y in dense(lane.centre)) ** 0.5
         assert distance < 4.0
+
+
+def test_who_has_changed_lanes_is_on_the_one_beside():
+    assert [lane_beside(each, 1) for each in ("12_3#1_0", ":12_3", ":junction")] == ["12_3#1_1", ":12_3", ":junction"]
+    assert lane_beside("-92_2", -2) == "-92_0" and lane_beside("-92_2", 0) == "-92_2"
 
 
 def dense(line):

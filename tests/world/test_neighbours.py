@@ -123,8 +123,8 @@ def test_a_queue_is_in_the_order_of_stations(n, seed):
     web = bare_web(drive, np.tile(np.arange(strands), n), strands)
     made, entity = queue.queues(n), random.permutation(n)
     queue.sort(
-        f.state, f.parameter, mind, worlds, entity, np.arange(n) * strands, np.full(n, strands), web, made.first, made.place, made.at,
-        made.wanted, made.wanted_at, made.there, made.count,
+        f.state, f.parameter, mind, worlds, entity, np.arange(n) * strands, np.full(n, strands), *np.zeros((2, n), np.int64), web,
+        made.first, made.place, made.at, made.wanted, made.wanted_at, made.there, made.count,
     )  # fmt: skip
     nose = mind[STATION] + f.parameter[FRONT]
     tail = nose - f.parameter[LENGTH]

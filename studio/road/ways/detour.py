@@ -176,7 +176,12 @@ def led(path: Path, work: Work, stations: np.ndarray) -> tuple[Path, np.ndarray]
     share = work.share(stations)
     moved = path.points[[PATH_X, PATH_Y]] + share * (goals(path, work, stations) - path.points[[PATH_X, PATH_Y]])
     inside = np.flatnonzero(share > 0.0)
-    a, b = max(inside[0] - 1, 0), min(inside[-1] + 1, path.points.shape[1] - 1)
+    return bent(path, moved, inside[0], inside[-1])
+
+
+def bent(path: Path, moved: np.ndarray, first: int, last: int) -> tuple[Path, np.ndarray]:
+    """A path whose points from the `first` to the `last` have `moved`, float64[2, n], and where on it every old one has come to lie [m]."""
+    a, b = first - 1, min(last + 1, path.points.shape[1] - 1)
     from scipy.interpolate import CubicSpline  # takes a third of a second, and is needed for this only
 
     low, high = max(a - 4, 0), min(b + 5, path.points.shape[1])
@@ -189,7 +194,7 @@ def led(path: Path, work: Work, stations: np.ndarray) -> tuple[Path, np.ndarray]
     at[: a + 1] = np.arange(a + 1) * PATH_SPACING
     points = resampled(path, at, a, own + low * PATH_SPACING, fine)
     bend = np.sqrt(SIDEWAYS / np.maximum(np.abs(points[PATH_CURVATURE]), 1e-6))
-    led_here = (np.arange(points.shape[1]) >= at[a]) & (np.arange(points.shape[1]) <= at[b])
+    led_here = (np.arange(points.shape[1]) >= at[max(a, 0)]) & (np.arange(points.shape[1]) <= at[b])
     points[PATH_SPEED] = np.minimum(points[PATH_SPEED], slowed(np.where(led_here, bend, np.inf)))
     stops = tuple((float(np.interp(s, np.arange(at.size), at)), link) for s, link in path.stop_lines)
     begun = tuple(replace(each, s=float(np.interp(each.s, np.arange(at.size), at))) for each in path.stations)
@@ -209,12 +214,12 @@ def goals(path: Path, work: Work, stations: np.ndarray) -> np.ndarray:
 
 
 def resampled(path: Path, at: np.ndarray, last: int, own: np.ndarray, fine: np.ndarray) -> np.ndarray:
-    """Points a metre apart: as they were up to the `last`, then on the fine curve whose stations are `own`, then on the old line."""
+    """Points a metre apart: as they were up to the `last` (-1: none), then on the fine curve with stations `own`, then on the old line."""
     new = np.arange(last + 1, int(np.floor(at[-1] + 1e-9)) + 1) * PATH_SPACING
     rows = np.array([np.interp(new, at, row) for row in path.points])
     on_fine = new <= own[-1]
     kinds = ((PATH_X, fine[0]), (PATH_Y, fine[1]), (PATH_HEADING, heading_of(fine)), (PATH_CURVATURE, curvature_of(fine)))
     for row, values in kinds:
-        turns = 2.0 * np.pi * np.round((path.points[row, last] - values[0]) / (2.0 * np.pi)) if row == PATH_HEADING else 0.0
+        turns = 2.0 * np.pi * np.round((path.points[row, max(last, 0)] - values[0]) / (2.0 * np.pi)) if row == PATH_HEADING else 0.0
         rows[row, on_fine] = np.interp(new[on_fine], own, values + turns)
     return np.concatenate([path.points[:, : last + 1], rows], axis=1)

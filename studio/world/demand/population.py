@@ -200,4 +200,5 @@ def car(i: int, who: Who, scenario: Scenario, of: Manned, models: Models, way: P
     """Traffic car i."""
     driver, paint = driver_of(who, scenario, of), PAINTS[i % len(PAINTS)]
     place, gps = (way, station, speed), Gps(drift=0.0, noise=0.0)
-    return Car(name_of(i), models[of.model], *place, driver, Intervention(), paint, gps, is_light=of.dynamics == "light")
+    own = Car(name_of(i), models[of.model], *place, driver, Intervention(), paint, gps, is_light=of.dynamics == "light")
+    return replace(own, changes_lanes=scenario.traffic.lane_changes)

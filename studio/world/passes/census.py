@@ -74,6 +74,7 @@ class Census:
 
     front: np.ndarray  # [m] per vehicle, the station of its bumper at the tick before; not a number when it was on another path
     path: np.ndarray  # per vehicle, the first point of its path then
+    end: np.ndarray  # [m] per vehicle, the station at which that path ends
     speed: np.ndarray  # [m/s] per vehicle
     stood: np.ndarray  # [s] per vehicle
     off: np.ndarray  # per vehicle, 1 while it is off its lanes
@@ -103,6 +104,7 @@ def census(world: World) -> Census:
     return Census(
         front=np.full(n, nan),
         path=np.full(n, -1),
+        end=np.zeros(n),
         speed=np.zeros(n),
         stood=np.zeros(n),
         off=np.zeros(n, dtype=np.int64),
@@ -140,21 +142,22 @@ def taking(world: World, at: Census) -> tuple:
         r.stop_link,
         r.shown,
     )
-    own = (world.demand.came, at.front, at.path, at.speed, at.stood, at.off, at.ringed, at.mark, at.watched, at.pairs, at.table, at.count)
+    before = (at.front, at.path, at.end, at.speed, at.stood, at.off)
+    own = (world.demand.came, *before, at.ringed, at.mark, at.watched, at.pairs, at.table, at.count)
     return everybody, *who, *road, r.drive_first, r.drive_count, r.web, q.first, q.place, q.at, *own
 
 
 @lean
 def everybody(state, parameter, mind, removed, world_of, number, first_of, chart, within, path_first, path_count, stop_first,
               stop_count, stop_station, stop_link, shown, drive_first, drive_count, web, first, place, at, came, front,
-              path, speed, stood, off, ringed, mark, watched, pairs, table, count, now, tick):  # fmt: skip
+              path, end, speed, stood, off, ringed, mark, watched, pairs, table, count, now, tick):  # fmt: skip
     """Each for himself, then the pairs, then the rings."""
     for v in range(state.shape[1]):
         bumper = mind[STATION, v] + parameter[FRONT, v]
         before = front[v] if path[v] == path_first[v] else nan
         is_there = state[ACTIVE, v] > 0.0
-        is_at_end = before > (path_count[v] - 1) * PATH_SPACING - ARRIVAL - ONE_TICK
-        if removed[v] == 0 and is_at_end and (not is_there or bumper < before):
+        is_at_end = front[v] > end[v] - ARRIVAL - ONE_TICK
+        if removed[v] == 0 and is_at_end and (not is_there or bumper < front[v]):
             note(now, CAME, v, -1, nan, world_of, number, table, count)
         if is_there and front[v] != front[v] and came[v] >= 0.0:
             note(now, ENTERED, v, -1, came[v], world_of, number, table, count)
@@ -168,7 +171,7 @@ def everybody(state, parameter, mind, removed, world_of, number, first_of, chart
         wait(v, now, is_there, mind, world_of, number, stood, table, count)
         if off[v] != 0 or abs(mind[OFFSET, v]) > within:  # nobody is off who is nearer to his line than the edge of any lane
             keep_to_lanes(v, now, is_there, mind, chart, path_first[v], path_count[v], world_of, number, off, table, count)
-        front[v], path[v] = bumper if is_there else nan, path_first[v]
+        front[v], path[v], end[v] = bumper if is_there else nan, path_first[v], (path_count[v] - 1) * PATH_SPACING
     for v in range(state.shape[1]):
         if watched[v] > 0:
             watch(v, now, tick, state, parameter, mind, world_of, number, speed, watched, pairs, table, count)

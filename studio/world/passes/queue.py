@@ -1,7 +1,8 @@
 """Queues: who drives on which strand, in the order of stations. Once a tick all vehicles are sorted, as `neighbour` does by place.
 
 A vehicle stands in the queue of every strand under its body. It is announced in that of every way ahead where it may meet others, with
-a station below zero, and of a lane that it will change to, where it drives beside it.
+a station below zero, and of a lane that it will change to, where it drives beside it. Who changes lanes where nothing asks for it stands on
+the lane that he leaves as well, until he has left it.
 
 A queue belongs to one strand in one world; its number decides its bucket, of which there are more than vehicles, so that neither the
 size of the map nor the number of worlds costs anything.
@@ -17,7 +18,7 @@ from studio.compiled import inlined, lean
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, V_X
 from studio.world.passes.neighbour import HALF, SCATTER
-from studio.world.table.mind import STATION
+from studio.world.table.mind import LEFT_BY, STATION
 from studio.world.table.web import END, ENTER, LEAVE, START
 
 MOST = 12  # queues that a vehicle stands in
@@ -98,7 +99,8 @@ def is_changed_to(d, bumper, speed, web):
 
 
 @lean
-def sort(state, parameter, mind, world_of, entity, drive_first, drive_count, web, first, place, at, wanted, wanted_at, there, count):
+def sort(state, parameter, mind, world_of, entity, drive_first, drive_count, left_first, left_count, web, first, place, at, wanted,
+         wanted_at, there, count):  # fmt: skip
     """Sorts all vehicles that take part, by counting: how many are in each bucket, then each into its place."""
     first[:] = 0
     buckets = first.size - 1
@@ -106,6 +108,7 @@ def sort(state, parameter, mind, world_of, entity, drive_first, drive_count, web
         count[v] = 0
         if state[ACTIVE, v] > 0.0:
             ask(v, state, parameter, mind, world_of[v], drive_first[v], drive_count[v], web, wanted, wanted_at, there, count)
+            stay(v, parameter, mind, world_of[v], left_first[v], left_count[v], web, wanted, wanted_at, there, count)
         for i in range(count[v]):
             first[bucket_of(wanted[i, v], buckets)] += 1
     for bucket in range(1, buckets + 1):
@@ -137,6 +140,32 @@ def ask(v, state, parameter, mind, world, drive_first, drive_count, web, wanted,
             wanted[count[v], v] = world * web.right.size + strand
             wanted_at[count[v], v] = station_on(d, station, web)
             count[v] += 1
+
+
+@inlined
+def stay(v, parameter, mind, world, left_first, left_count, web, wanted, wanted_at, there, count):
+    """The queues of the line that a vehicle is leaving, under its body."""
+    if left_count == 0:
+        return
+    station = mind[STATION, v] + mind[LEFT_BY, v]
+    bumper = station + parameter[FRONT, v]
+    rear = bumper - parameter[LENGTH, v]
+    for d in range(first_drive(rear, left_first, left_count, web), left_first + left_count):
+        if web.drive[ENTER, d] > bumper or count[v] == MOST:
+            return
+        queue = world * web.right.size + web.strand[d]
+        if web.drive[LEAVE, d] > rear and not is_wanted(v, queue, wanted, count):
+            there[count[v], v], wanted[count[v], v], wanted_at[count[v], v] = 1, queue, station_on(d, station, web)
+            count[v] += 1
+
+
+@inlined
+def is_wanted(v, queue, wanted, count):
+    """Whether a vehicle stands in a queue already."""
+    for i in range(count[v]):
+        if wanted[i, v] == queue:
+            return True
+    return False
 
 
 @lean

@@ -26,6 +26,7 @@ from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, 
 from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
+    ASIDE,
     BRAKE_COMFORT,
     COMFORT,
     D_PSI,
@@ -331,7 +332,7 @@ def sees(v, state, parameter, mind):
     return Sees(
         driver.foreseen_speed(state[V_X, v], mind[GAINED, v]), state[YAW_RATE, v], mind[V_DESIRED, v], mind[SEEN_GAP, v],
         mind[SEEN_SPEED, v], mind[SEEN_FIRST_GAP, v], mind[SEEN_FIRST_SPEED, v], mind[SEEN_STOP, v],
-        mind[FRONT_OFFSET, v] - mind[SWAYED, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v],
+        mind[FRONT_OFFSET, v] - mind[SWAYED, v] - mind[ASIDE, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v],
         parameter[STEER_RATE, v], parameter[L_F, v] + parameter[L_R, v], front - rear,
         state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v], state[V_X, v],
     )  # fmt: skip

@@ -1,0 +1,96 @@
+"""Changing lanes where no route asks for it: who stands is passed, who waits is not, and a run goes on from a snapshot."""
+
+import numpy as np
+import pytest
+
+from studio.model.driver import NO_LIMIT
+from studio.road.drawn.motorway import motorway
+from studio.scenario.setup import complete
+from studio.vehicle.state import A_Y, ACTIVE, V_X, VEHICLE
+from studio.world.build import build
+from studio.world.passes.lane import idles
+from studio.world.setting import setting
+from studio.world.snapshot import restore, snapshot
+from studio.world.table import mind as rows
+from studio.world.table.mind import CHANGING, FOLLOWING, MIND, OFFSET, RED_STATION, STATION, STOPPING, WAY_STATION, YIELDING
+from studio.world.tick import tick
+
+STANDS = {"broken": {"do": {"kind": "hold", "vehicle": "broken", "speed": 0, "acceleration": 8, "duration": 600}}}
+
+
+def made(folder, lane, **more):
+    """Somebody who has broken down on a lane of three, and a car that comes 350 m behind."""
+    (folder / "three.xodr").write_text(motorway(length=2500.0, lanes=3), encoding="utf-8")
+    at = {"road": "motorway", "lane": lane}
+    document = {
+        "title": "broken down",
+        "map": {"file": "three.xodr"},
+        "clock": {"duration": 60},
+        "routes": {"way": {"roads": ["motorway"]}},
+        "vehicles": {
+            "own": {"route": "way", "position": at | {"offset": 250}, "speed": 25, "lane_changes": True} | more,
+            "broken": {"route": "way", "position": at | {"offset": 600}, "speed": 0},
+        },
+        "script": STANDS,
+    }
+    return setting(complete(document, "broken down"), folder, "broken down")
+
+
+def driven(world, seconds):
+    """Station, offset, lateral acceleration and the block of the first car at every tick."""
+    seen = []
+    for _ in range(round(seconds / world.clock.tick)):
+        tick(world)
+        m, s = world.vehicles.mind, world.vehicles.state
+        seen.append((m[STATION, 0], m[OFFSET, 0], s[A_Y, 0], s[V_X, 0], world.lanes.block[0]))
+    return np.array(seen).T
+
+
+@pytest.mark.parametrize("lane", [0, 1, 2])
+def test_who_has_broken_down_is_passed(tmp_path, lane):
+    world = build([made(tmp_path, lane)])
+    station, offset, across, speed, block = driven(world, 25)
+    assert station[-1] > 620 and world.events.hits_found == 0
+    assert (np.diff(block) != 0).sum() >= 1 and np.abs(across).max() < 3.0
+    apart = np.abs(np.diff(offset[:-1]))
+    assert np.sort(apart)[-1] > 3.0 and abs(offset[-1]) < 0.3  # on the new line at once, and in its middle in the end
+    changed = np.flatnonzero(np.diff(block))
+    assert (np.diff(changed) * world.clock.tick >= 2.0).all() and speed.min() > 10.0
+
+
+def test_who_keeps_to_his_lanes_stops_behind(tmp_path):
+    world = build([made(tmp_path, 1, lane_changes=False)])
+    station, _, _, speed, block = driven(world, 25)
+    assert station[-1] < 600 and speed[-1] < 1.0 and not np.diff(block).any()
+
+
+def test_a_run_goes_on_from_a_snapshot_while_somebody_changes(tmp_path):
+    world = build([made(tmp_path, 1)])
+    while world.vehicles.mind[CHANGING, 0] == 1.0:
+        tick(world)
+    kept = snapshot(world)
+    driven(world, 3)
+    first = world.digest()
+    restore(world, kept)
+    driven(world, 3)
+    assert world.digest() == first
+
+
+def standing(**said):
+    """What the mind of one says who stands."""
+    mind = np.zeros((len(MIND), 1))
+    mind[[FOLLOWING, YIELDING, STOPPING]], mind[[RED_STATION, WAY_STATION]] = NO_LIMIT, np.inf
+    for row, value in said.items():
+        mind[getattr(rows, row)] = value
+    return mind
+
+
+def test_who_waits_is_no_obstacle():
+    state = np.zeros((len(VEHICLE), 1))
+    assert not idles(0, state, standing())
+    state[ACTIVE] = 1.0
+    assert idles(0, state, standing())
+    for waits in ({"RED_STATION": 90.0}, {"WAY_STATION": 90.0}, {"FOLLOWING": 0.0}, {"YIELDING": -1.0}, {"STOPPING": 0.1}):
+        assert not idles(0, state, standing(**waits)), waits
+    state[V_X] = 2.0
+    assert not idles(0, state, standing())
