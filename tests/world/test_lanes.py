@@ -18,7 +18,7 @@ from studio.world.tick import tick
 STANDS = {"broken": {"do": {"kind": "hold", "vehicle": "broken", "speed": 0, "acceleration": 8, "duration": 600}}}
 
 
-def made(folder, lane, **more):
+def made(folder, lane, traffic=None, **more):
     """Somebody who has broken down on a lane of three, and a car that comes 350 m behind."""
     (folder / "three.xodr").write_text(motorway(length=2500.0, lanes=3), encoding="utf-8")
     at = {"road": "motorway", "lane": lane}
@@ -32,6 +32,7 @@ def made(folder, lane, **more):
             "broken": {"route": "way", "position": at | {"offset": 600}, "speed": 0},
         },
         "script": STANDS,
+        "traffic": traffic or {},
     }
     return setting(complete(document, "broken down"), folder, "broken down")
 
@@ -74,6 +75,25 @@ def test_a_run_goes_on_from_a_snapshot_while_somebody_changes(tmp_path):
     restore(world, kept)
     driven(world, 3)
     assert world.digest() == first
+
+
+BUSY = {"count": 40, "lane_changes": True, "spacing": 30, "speed": 25}
+
+
+def test_who_changes_lanes_does_so_in_any_company(tmp_path):
+    """The same bits alone, beside worlds of other sizes in which nobody or everybody changes lanes, and in any order of these."""
+    variants = [made(tmp_path, 1, traffic=BUSY), made(tmp_path, 0), made(tmp_path, 1, traffic=BUSY | {"count": 25}, lane_changes=False)]
+    worlds = [build([each]) for each in variants]
+    for world in worlds:
+        for _ in range(round(12 / world.clock.tick)):
+            tick(world)
+    assert all(world.lanes.apart().any() for world in worlds)
+    alone = [world.digest(0) for world in worlds]
+    for order in ([0, 1, 2], [2, 1, 0]):
+        together = build([variants[i] for i in order])
+        for _ in range(round(12 / together.clock.tick)):
+            tick(together)
+        assert [together.digest(order.index(i)) for i in range(3)] == alone
 
 
 def standing(**said):
