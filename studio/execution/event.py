@@ -26,6 +26,7 @@ from studio.world.table.event import (
     COMMAND_TAKEN,
     COMPANY_CAME,
     COMPANY_LEFT,
+    COUNTED,
     CUT_OFF,
     EVENTS,
     HOPELESS,
@@ -145,6 +146,8 @@ def foreseen(setting: Setting) -> Iterator[Happening]:
     yield from hopeless(setting)
     yield from out_of_reach(setting)
     yield from rerouted(setting)
+    for each in setting.counted:
+        yield happening(COUNTED, 0.0, count=each.name, road=each.road, rate=each.rate, brought=each.brought)
     yield from (happening(ROUTE_FILE, 0.0, what=each) for each in setting.imported)
 
 

@@ -178,6 +178,23 @@ class Matrix(Departures):
     trips: list[Trip] = Field(..., min_length=1, max_length=5000, title="Trips")
 
 
+class Count(Part):
+    """How many cars an hour were counted on a road, over all lanes: flows and trips that lead over it become as many."""
+
+    road: str = Field(..., max_length=100, title="Road", description="an id of the map")
+    rate: float = number(..., unit="1/h", title="Cars an hour", ge=0, le=20_000)
+    begin: float = number(0.0, unit="s", title="From", ge=0, le=100_000, description="for cars that depart from then on")
+    end: float | None = Field(
+        None, gt=0, le=100_000, title="To", json_schema_extra={"unit": "s"}, description="left out: to the end of the run"
+    )
+
+    @model_validator(mode="after")
+    def ends_after_its_beginning(self):
+        if self.end is not None and self.end <= self.begin:
+            raise ValueError(f"it must end ({self.end:g} s) after its beginning ({self.begin:g} s)")
+        return self
+
+
 class Traffic(Part, defer_build=True):
     """Cars that fill the map: so many on the ways from any arm to any other, and those that come in and leave."""
 
@@ -190,6 +207,9 @@ class Traffic(Part, defer_build=True):
     )
     flows: dict[Name, Flow] = Field({}, title="Flows")
     matrices: dict[Name, Matrix] = Field({}, title="Matrices", description="trips between origins and destinations")
+    counts: dict[Name, Count] = Field(
+        {}, title="Counts", description="of cars at places of the road; flows and trips become as many, those of a route file do not"
+    )
     routes: str | None = Field(
         None, min_length=1, max_length=300, title="Route file",
         description="of SUMO, relative to the scenario (.rou.xml, .rou.xml.gz): its types, vehicles, trips and flows",

@@ -26,6 +26,7 @@ from studio.world import crew
 from studio.world.car import Car, footprint
 from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
+from studio.world.demand.count import Counted, counted
 from studio.world.demand.imported import imported
 from studio.world.demand.population import CAR_LENGTH, END_CLEARANCE, traffic
 from studio.world.demand.source import Detour, Source, sources_of, streams
@@ -56,6 +57,7 @@ class Setting:
     detours: tuple[Detour, ...] = ()  # what closed roads do to them
     imported: tuple[str, ...] = ()  # what is told of the route file
     routes_digest: str = ""  # of the route file
+    counted: tuple[Counted, ...] = ()  # what counts at the road do to the demand
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -80,10 +82,11 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     check_starts(cars, found, where)
     works = Works(found)
     check_works(cars, works, where)
-    sources, detours = sources_of([*streams(scenario), *asked.streams], network, works, where)
+    demand, changed = counted([*streams(scenario), *asked.streams], scenario, network, where)
+    sources, detours = sources_of(demand, network, works, where)
     filled = tuple(cars + traffic(asked.scenario, network, models, cars, works, sources))
     stations = spots(scenario, network, where)
-    return Setting(scenario, network, filled, found, works, stations, sources, detours, asked.told, asked.digest)
+    return Setting(scenario, network, filled, found, works, stations, sources, detours, asked.told, asked.digest, changed)
 
 
 def models_of(scenario: Scenario, folder: FilePath, where: str) -> dict[str, VehicleModel]:
@@ -232,7 +235,7 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
         if begin is not None and not begin.is_of_an_event and begin.at >= scenario.clock.duration:
             latest = f"< {scenario.clock.duration:g} s"
             found.append(Problem(f"{where}: measures.{name}.begin.at", "is after the end of the run", f"{begin.at:g} s", latest))
-    for part, known in (("flows", scenario.traffic.flows), ("matrices", scenario.traffic.matrices)):
+    for part, known in (("flows", scenario.traffic.flows), ("matrices", scenario.traffic.matrices), ("counts", scenario.traffic.counts)):
         for name, each in known.items():
             if each.begin >= scenario.clock.duration:
                 latest = f"< {scenario.clock.duration:g} s"

@@ -57,9 +57,18 @@ class Closure(NamedTuple):
     end: float
 
 
+class Rated(NamedTuple):
+    """So many cars an hour from a time to a time [s], one like the other or at random."""
+
+    rate: float
+    begin: float
+    end: float
+    is_even: bool
+
+
 @dataclass(frozen=True)
 class Stream:
-    """Cars from a road to another: where it stands in the scenario, its roads, and when they are due."""
+    """Cars from a road to another: where it stands in the scenario, its roads, when they are due, and the rate behind it if one is."""
 
     name: str
     field: str
@@ -68,6 +77,7 @@ class Stream:
     model: str | None
     lane: int | None = None
     speeds: tuple = ()
+    rated: Rated | None = None
 
 
 def sources_of(asked: Iterable[Stream], network: Network, works: Works, where: str) -> tuple[tuple[Source, ...], tuple[Detour, ...]]:
@@ -98,8 +108,9 @@ def streams(scenario: Scenario) -> Iterator[Stream]:
     """The flows, then the trips of all matrices; nothing hangs on their order in the file."""
     for name, flow in sorted(scenario.traffic.flows.items()):
         route, field = scenario.routes[flow.route], f"traffic.flows.{name}"
-        due = departures(name, flow, flow.rate, scenario)
-        yield Stream(name, field, tuple(route.roads), due, flow.model, flow.lane, tuple(route.speeds))
+        rated = rate_of(flow, flow.rate, scenario)
+        due = departures(name, rated, scenario)
+        yield Stream(name, field, tuple(route.roads), due, flow.model, flow.lane, tuple(route.speeds), rated)
     for name, matrix in sorted(scenario.traffic.matrices.items()):
         numbered = sorted(enumerate(matrix.trips), key=lambda each: (each[1].origin, each[1].destination))
         yield from (stream_of(name, matrix, i, trip, scenario) for i, trip in numbered)
@@ -108,14 +119,20 @@ def streams(scenario: Scenario) -> Iterator[Stream]:
 def stream_of(matrix: str, of: Matrix, number: int, trip: Trip, scenario: Scenario) -> Stream:
     """A trip of a matrix."""
     name, roads = f"{matrix}: {trip.origin} to {trip.destination}", dict.fromkeys((trip.origin, trip.destination))
-    due = departures(name, of, trip.rate, scenario)
-    return Stream(name, f"traffic.matrices.{matrix}.trips.{number}", tuple(roads), due, of.model)
+    rated = rate_of(of, trip.rate, scenario)
+    due = departures(name, rated, scenario)
+    return Stream(name, f"traffic.matrices.{matrix}.trips.{number}", tuple(roads), due, of.model, rated=rated)
 
 
-def departures(name: str, of: Departures, rate: float, scenario: Scenario) -> np.ndarray:
+def rate_of(of: Departures, rate: float, scenario: Scenario) -> Rated:
+    """A rate [1/h] from the beginning of a stream to its end, or that of the run."""
+    return Rated(rate, of.begin, min(of.end or np.inf, scenario.clock.duration), of.headways == "even")
+
+
+def departures(name: str, of: Rated, scenario: Scenario) -> np.ndarray:
     """Times [s] at which cars of a stream are due; those at random hang on its name, and not on other streams."""
-    end, every = min(of.end or np.inf, scenario.clock.duration), HOUR / rate
-    if of.headways == "even":
+    end, every = of.end, HOUR / of.rate
+    if of.is_even:
         return np.arange(of.begin + 0.5 * every, end, every)
     seed, who = scenario.seed_of("traffic"), crc32(name.encode())
     times, time = [], of.begin
@@ -123,6 +140,14 @@ def departures(name: str, of: Departures, rate: float, scenario: Scenario) -> np
         time -= every * log(1.0 - uniform(seed, who, TRAFFIC_HEADWAY, len(times)))
         times.append(time)
     return np.array(times[:-1])
+
+
+def varying(name: str, of: Rated, pieces: Sequence[tuple[float, float]], scenario: Scenario) -> np.ndarray:
+    """The same with a rate that is multiplied, until each of some times [s], by a factor: cars are due by a clock that goes faster by it."""
+    ends = np.array([of.begin, *(min(max(end, of.begin), of.end) for end, _ in pieces)])
+    own = np.concatenate([[0.0], np.cumsum(np.diff(ends) * [factor for _, factor in pieces])])
+    due = departures(name, Rated(of.rate, 0.0, float(own[-1]), of.is_even), scenario)
+    return np.interp(due, own, ends)
 
 
 # -- closed roads ----------------------------------------------------------------------------------

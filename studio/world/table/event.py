@@ -40,6 +40,10 @@ OUT_OF_REACH = event(
     speed="m/s", top_speed="m/s",
 )  # fmt: skip
 LED_AROUND = event("led_around", "{demand} is led around {road}, which is closed: {longer:.0f} m more", "demand", "road", longer="m")
+COUNTED = event(
+    "counted", "traffic.counts.{count} has {rate:.0f} cars an hour on {road}, where {brought:.0f} would drive", "count", "road",
+    rate="1/h", brought="1/h",
+)  # fmt: skip
 ROUTE_FILE = event("route_file", "traffic.routes {what}", "what")
 CUT_OFF = event("cut_off", "{demand} cannot get around {road}, which is closed: its cars stop before it", "demand", "road")
 HIT = event("collision", "collision of {0} and {1} at {impact_speed:.1f} m/s", impact_speed="m/s")
