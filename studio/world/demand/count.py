@@ -118,6 +118,7 @@ def rates_in(asked: Sequence[Stream], begin: float, end: float) -> tuple[np.ndar
 def balanced(a: np.ndarray, free: np.ndarray, fixed: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The factor of every stream, and what then drives at every count [1/h]."""
     log_x, there = np.zeros(c.size), fixed @ a
+    met = there
     for _ in range(SWEEPS):
         for j in range(c.size):
             wanted, found = c[j] - there[j], float((free * np.exp(a @ log_x)) @ a[:, j])
@@ -126,7 +127,7 @@ def balanced(a: np.ndarray, free: np.ndarray, fixed: np.ndarray, c: np.ndarray) 
         met = there + (free * np.exp(a @ log_x)) @ a
         if (np.abs(met - c) <= EXACT * np.maximum(c, 1.0)).all():
             break
-    return np.exp(a @ log_x), met if c.size else there
+    return np.exp(a @ log_x), met
 
 
 def scaled(stream: Stream, number: int, pieces: Sequence[tuple[float, np.ndarray]], scenario: Scenario) -> Stream:
