@@ -143,7 +143,7 @@ def departures(name: str, of: Rated, scenario: Scenario) -> np.ndarray:
 
 
 def varying(name: str, of: Rated, pieces: Sequence[tuple[float, float]], scenario: Scenario) -> np.ndarray:
-    """The same with a rate that is multiplied, until each of some times [s], by a factor: cars are due by a clock that goes faster by it."""
+    """The same with a rate that is multiplied, until each of some times [s], by a factor: cars are due by a clock that goes so fast."""
     ends = np.array([of.begin, *(min(max(end, of.begin), of.end) for end, _ in pieces)])
     own = np.concatenate([[0.0], np.cumsum(np.diff(ends) * [factor for _, factor in pieces])])
     due = departures(name, Rated(of.rate, 0.0, float(own[-1]), of.is_even), scenario)
