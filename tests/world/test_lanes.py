@@ -1,5 +1,7 @@
 """Changing lanes where no route asks for it: who stands is passed, who waits is not, and a run goes on from a snapshot."""
 
+from itertools import groupby
+
 import numpy as np
 import pytest
 
@@ -94,6 +96,37 @@ def test_who_changes_lanes_does_so_in_any_company(tmp_path):
         for _ in range(round(12 / together.clock.tick)):
             tick(together)
         assert [together.digest(order.index(i)) for i in range(3)] == alone
+
+
+@pytest.mark.parametrize("changes", [False, True])
+def test_where_one_of_two_lanes_is_closed_they_are_driven_in_turn(tmp_path, changes):
+    """Zipper (StVO § 7 (4)): 1100 cars an hour on each lane. Chance would take half of them from the same lane again."""
+    (tmp_path / "two.xodr").write_text(motorway(length=2000.0, lanes=2), encoding="utf-8")
+    shut = {"kind": "close_lane", "road": "motorway", "lane": 0, "start": 1200, "end": 1600, "taper": 60}
+    flow = {"route": "way", "rate": 1100, "headways": "even"}
+    document = {
+        "title": "one closed",
+        "map": {"file": "two.xodr"},
+        "clock": {"duration": 300},
+        "routes": {"way": {"roads": ["motorway"]}},
+        "vehicles": {"own": {"route": "way", "position": {"road": "motorway", "lane": 1, "offset": 5}, "speed": 25}},
+        "script": {"shut": {"do": shut}},
+        "traffic": {"lane_changes": changes, "flows": {"kerb": flow | {"lane": 0}, "left": flow | {"lane": 1}}},
+    }
+    made = setting(complete(document, "one closed"), tmp_path, "one closed")
+    world, came = build([made]), []
+    of = np.array(["" if car.source is None else made.sources[car.source].stream[:4] for car in made.cars])
+    within = np.zeros(of.size, dtype=bool)
+    for _ in range(round(300 / world.clock.tick)):
+        tick(world)
+        now = (world.vehicles.mind[STATION] > 1300) & (world.vehicles.state[ACTIVE] > 0)
+        came += of[now & ~within].tolist()
+        within |= now
+    came = came[1:]  # the named one
+    runs = [len(list(group)) for _, group in groupby(came)]
+    assert len(came) > 70 and world.events.hits_found == 0
+    assert max(runs) <= 6 and (len(runs) - 1) / (len(came) - 1) > 0.65
+    assert min(came.count("kerb"), came.count("left")) > 0.35 * len(came)
 
 
 def standing(**said):
