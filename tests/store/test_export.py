@@ -151,7 +151,8 @@ def test_the_command_writes_the_same(made, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("named", "ending", "found"),
     [
-        (None, "fcd.xml", "fcd"), (None, "csv", "csv"), (None, "parquet", "parquet"), ("channels", "csv", "channels"), ("csv", "txt", "csv"),
+        (None, "fcd.xml", "fcd"), (None, "csv", "csv"), (None, "parquet", "parquet"), ("channels", "csv", "channels"),
+        ("csv", "txt", "csv"),
         ("channels", "parquet", None), ("fcd", "csv", None), ("parquet", "xml", None), (None, "txt", None),
     ],
 )  # fmt: skip
