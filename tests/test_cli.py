@@ -118,6 +118,7 @@ def test_explain(sample, tmp_path):
     assert json.loads(studio("explain", 1, 1, "--json", cwd=tmp_path)[1]) == found[:1]
     text = studio("explain", 1, "hard_brake", cwd=tmp_path)[1]
     assert "leader: brakes hard" in text and "follower_1 knew leader by front" in text
+    assert studio("explain", 1, "collision", cwd=tmp_path)[1].strip() == "Run 1: no collision."  # a hard brake there was
     assert studio("explain", 1, "hard_brak", cwd=tmp_path)[0] == 2 and studio("explain", 1, 77, cwd=tmp_path)[0] == 2
 
 

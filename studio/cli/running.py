@@ -160,7 +160,7 @@ def explain(
     if as_json:
         print_json([each.as_json() for each in found])
     elif not found:
-        print(f"Run {run}: no collision, near miss or hard brake.")
+        print(f"Run {run}: no {event.replace('_', ' ') or 'collision, near miss or hard brake'}.")
     for i, each in enumerate([] if as_json else found):
         number = event if event.isdecimal() else i + 1
         print(f"{number}. {each.event.time:.2f} s, {' and '.join(each.event.units)}: {each.event.text}")
@@ -193,16 +193,21 @@ def compare(
     print(result["unranked"] or f"same: differs by less than {100 * result['alike']:g} %")
 
 
+Form = Literal["fcd", "csv", "parquet", "channels"]
+
+
 @commands.command()
 def export(
     run: Annotated[int, typer.Argument(help="Number of the run.")],
     out: Annotated[Path, typer.Option("--out", help="The file to write; one that is there is replaced.")],
     format_: Annotated[
-        Literal["fcd", "csv", "parquet", "channels"],
+        Form | None,
         typer.Option(
-            "--format", help="Trajectories: SUMO's floating car data (XML), or a table. All recorded channels: Parquet, or a table (CSV)."
+            "--format",
+            help="Trajectories: fcd (SUMO's floating car data, .xml) or csv. All recorded channels: parquet, or channels (a .csv table). "
+            "Left out: by the ending of the file, csv for .csv.",
         ),
-    ] = "fcd",
+    ] = None,
     as_degrees: Annotated[bool, typer.Option("--degrees", help="Longitude and latitude instead of metres of the map.")] = False,
     db: Db = DEFAULT_DB,
 ) -> None:
@@ -210,15 +215,32 @@ def export(
     from studio.store import trace
     from studio.store.export import export as exported
 
+    form = format_of(out, format_)
     runs = existing(db)
-    if format_ == "parquet":
+    if form == "parquet":
         parts = iter([runs.parquet(run)])
     else:
-        texts = trace.lines(runs.parquet(run)) if format_ == "channels" else exported(runs, run, format_, as_degrees=as_degrees)
+        texts = trace.lines(runs.parquet(run)) if form == "channels" else exported(runs, run, form, as_degrees=as_degrees)
         parts = (each.encode() for each in texts)
     put(out, lambda file: file.writelines(parts))
-    what = "trajectories" if format_ in ("fcd", "csv") else "recorded channels"
+    what = "trajectories" if form in ("fcd", "csv") else "recorded channels"
     print(f"{out}: the {what} of run {run}, {out.stat().st_size / 1e6:.1f} MB")
+
+
+ENDINGS: dict[Form, str] = {"fcd": ".xml", "csv": ".csv", "parquet": ".parquet", "channels": ".csv"}  # of an exported run
+
+
+def format_of(out: Path, named: Form | None) -> Form:
+    """The format that is named, or that of a file's ending; raises StoreError where there is none, or where the two contradict."""
+    ending = out.suffix.lower()
+    by_ending = [name for name, each in ENDINGS.items() if each == ending]
+    if named and (named in by_ending or not by_ending):
+        return named
+    if by_ending and not named:
+        return by_ending[0]
+    allowed = ", ".join(f"{name}: {each}" for name, each in ENDINGS.items() if named in (None, name))
+    what = f"does not end as {named} does" if named else "tells no format by its ending"
+    raise StoreError("The run cannot be exported.", [Problem("--out", what, str(out), allowed, "another ending, or another --format")])
 
 
 @commands.command()

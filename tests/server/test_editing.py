@@ -272,6 +272,19 @@ def test_what_happens_when_and_what_never(desk, folder, when, never, begins):
     assert turn.begins == begins or (begins is not None and turn.begins == pytest.approx(begins))
 
 
+@pytest.mark.parametrize(
+    ("more", "ends"),
+    [({"duration": 4}, 16.0), ({"duration": 4, "to_speed": 2}, 16.0), ({"duration": 40}, 15.0)],
+)  # fmt: skip
+def test_an_action_ends_when_it_has_taken_as_long_as_it_takes(desk, folder, more, ends):
+    """At the latest: what stands behind `until` may come before."""
+    do = {"kind": "brake", "vehicle": "first", "deceleration": 3, **more}
+    entry = {"when": {"kind": "time", "at": 12}, "do": do} | ({"until": {"kind": "time", "at": 15}} if ends == 15.0 else {})
+    state = edit(desk, folder / "stepping_out.yaml", "Add mine", 0, patch=[operation("add", ["script", "mine"], value=entry)])
+    (turn,) = [each for each in state.turns if each.entry == "mine"]
+    assert (turn.begins, turn.ends) == (12.0, ends)
+
+
 def test_what_comes_after_what_never_comes_never_comes(desk, folder):
     patch = [
         operation("add", ["script", "one"], value={"when": {"kind": "time", "at": 100}, "do": {"kind": "mark"}}),

@@ -16,7 +16,8 @@ import sumo
 
 from studio import job
 from studio.cli import app
-from studio.errors import UnknownError
+from studio.cli.running import format_of
+from studio.errors import StoreError, UnknownError
 from studio.store.export import export, lane_beside
 from studio.store.runs import open_runs
 from tests.conftest import ROOT
@@ -150,3 +151,21 @@ def test_the_command_writes_the_same(made, tmp_path, capsys):
     app(["export", str(run.row.run), "--format", "csv", "--out", str(out), "--db", str(runs.path)], standalone_mode=False)
     assert out.read_text() == "".join(export(runs, run.row.run, "csv"))
     assert "trajectories of run 1" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("named", "ending", "found"),
+    [
+        (None, "fcd.xml", "fcd"), (None, "csv", "csv"), (None, "parquet", "parquet"), ("channels", "csv", "channels"),
+        ("csv", "txt", "csv"),
+        ("channels", "parquet", None), ("fcd", "csv", None), ("parquet", "xml", None), (None, "txt", None),
+    ],
+)  # fmt: skip
+def test_what_is_written_is_what_the_ending_says(tmp_path, named, ending, found):
+    """A format that is not named is that of the ending; one that contradicts it is refused with what is allowed."""
+    out = tmp_path / f"run.{ending}"
+    if found:
+        assert format_of(out, named) == found
+    else:
+        with pytest.raises(StoreError, match=r"\.(csv|xml|parquet)"):
+            format_of(out, named)

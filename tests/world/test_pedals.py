@@ -63,6 +63,17 @@ def test_what_is_asked_is_what_comes(alone, model):
     assert a[50:].mean(axis=0) == pytest.approx(wanted, rel=0.01)
 
 
+@pytest.mark.parametrize("model", MODELS)
+def test_at_walking_pace_a_creeping_engine_is_held_back(alone, model):
+    """Mild decelerations where an idling engine pushes through the converter: the brakes take that too."""
+    wanted = -np.array([0.1, 0.2, 0.35, 0.5, 0.8])
+    world = alone([model] * wanted.size, 3.5)
+    asked(world, lambda time, speed: 0.0 * speed, 2.0, [A_X])
+    v, a = asked(world, lambda time, speed: wanted, 3.5, [V_X, A_X])
+    assert v.min() > 0.4
+    assert a[75:].mean(axis=0) == pytest.approx(wanted, rel=0.08, abs=0.02)
+
+
 def test_a_motor_that_takes_back_leaves_the_brakes_alone(alone):
     """Up to what the motor can; beyond it the brakes do the rest, with no more than a tenth beyond what is asked meanwhile."""
     wanted = -np.array([0.5, 1.0, 2.0, 4.0])

@@ -1,4 +1,7 @@
-"""Strongest jerk of a follower, to either side: the mean over 1 s, as ISO 15622 bounds that of an adaptive cruise control."""
+"""Strongest jerk of a follower, to either side: the mean over 1 s, as ISO 15622 bounds that of an adaptive cruise control.
+
+Where nobody follows in a chain, all recorded cars count.
+"""
 
 import numpy as np
 

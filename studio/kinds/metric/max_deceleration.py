@@ -1,4 +1,7 @@
-"""Strongest deceleration of a follower: how hard the cars had to brake that were not told to by the script."""
+"""Strongest deceleration of a follower: how hard the cars behind the first of a chain had to brake.
+
+Where nobody follows in a chain, all recorded cars count, those that the script brakes too.
+"""
 
 from studio.assess.search import greatest
 

@@ -1,4 +1,7 @@
-"""Mean gap of the followers, while somebody is ahead: how much road a platoon needs."""
+"""Mean gap of the followers, while somebody is ahead: how much road a platoon needs.
+
+Where nobody follows in a chain, all recorded cars count.
+"""
 
 from studio.assess.total import mean
 

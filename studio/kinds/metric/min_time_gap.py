@@ -1,4 +1,7 @@
-"""Least time gap of a follower: the gap over its own speed, while it rolls. Also called time headway, of the gap."""
+"""Least time gap of a follower: the gap over its own speed, while it rolls. Also called time headway, of the gap.
+
+Where nobody follows in a chain, all recorded cars count.
+"""
 
 from studio.assess.search import least_behind
 

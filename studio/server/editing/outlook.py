@@ -55,7 +55,7 @@ class Outlook:
         """When an entry begins and ends."""
         begins = self.begin(site.name)
         until = self.when(site.entry.until) if site.entry.until is not None else NOBODY_KNOWS
-        ends = begins.time if site.is_momentary else until.time
+        ends = begins.time if site.is_momentary else soonest_of(until.time, lasts(begins.time, site.entry.do))
         why = words(site.entry.when)
         return Turn(
             entry=site.name, told=site.text, begins=begins.time, ends=ends, is_exact=begins.is_exact, why=why, never=begins.never
@@ -194,6 +194,17 @@ def travelled(car: Car) -> tuple[np.ndarray, np.ndarray]:
     )
     times = np.concatenate([[0.0], np.cumsum(2.0 * PATH_SPACING / (speeds[1:] + speeds[:-1]))])
     return np.arange(times.size) * PATH_SPACING, times
+
+
+def lasts(begins: float | None, action: Any) -> float | None:
+    """When an action is over at the latest [s], as far as it says how long it takes."""
+    duration = getattr(action, "duration", None)
+    return None if begins is None or not isinstance(duration, float | int) else begins + duration
+
+
+def soonest_of(*times: float | None) -> float | None:
+    """The first of some times [s] that are known."""
+    return min((time for time in times if time is not None), default=None)
 
 
 def words(condition: Any) -> str:

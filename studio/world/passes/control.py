@@ -54,6 +54,7 @@ from studio.world.table.mind import (
 
 STRONGEST_BRAKE, STRONGEST_DRIVE = -10.0, 5.0  # [m/s²] bounds of the request interface
 HOLD_SPEED = 0.2  # [m/s] below this a car that is not to drive is held by its brakes
+IDLING = 1.05  # times the idle speed, below which an engine only idles
 HOLD = 1.0  # [m/s²] by as much as this, beyond what the slope needs
 (
     APP_ACCELERATION, APP_STEERING, APP_STEERING_TORQUE, APP_ACCELERATOR, APP_DRIVE, APP_ENGINE, APP_BRAKE, APP_GEAR,
@@ -128,11 +129,13 @@ def least_joined(v, state, parameter):
 def least_torque(v, state, parameter):
     """Torque [Nm] at the wheels that is left when no drive is asked for: known where engine and wheels are one, else as it is now.
 
-    What still drives while the pedal is pressed, or though the wheels turn faster than an idling engine, is about to fade.
+    What still drives though the wheels turn faster than an idling engine, or while the engine turns faster than it would idle with the
+    pedal pressed, is about to fade. An idling engine creeps on, whatever share of its own drag is asked for.
     """
     if state[CLUTCH, v] >= 1.0 and state[RATIO, v] > 0.0:
         return least_joined(v, state, parameter)
-    creeps = state[RATIO, v] * state[V_X, v] < parameter[IDLE, v] * parameter[RADIUS, v] and state[ACCELERATOR, v] == 0.0
+    idles = state[ACCELERATOR, v] == 0.0 or state[OMEGA_E, v] < IDLING * parameter[IDLE, v]
+    creeps = idles and state[RATIO, v] * state[V_X, v] < parameter[IDLE, v] * parameter[RADIUS, v]
     return 0.0 if state[TORQUE_DRIVE, v] > 0.0 and not creeps else state[TORQUE_DRIVE, v]
 
 

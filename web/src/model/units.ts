@@ -7,7 +7,7 @@ export function formatNumber(value: number): string {
   if (!Number.isFinite(value)) return "–";
   if (Number.isInteger(value)) return signed(String(value));
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return signed(value.toExponential(2));
+  if (size >= 1e6 || size < 1e-4) return signed(value.toExponential(3).replace(/\.?0+e/, "e"));
   return signed(String(Number(value.toPrecision(4))));
 }
 

@@ -52,6 +52,8 @@ function Track({ turn: { begins, ends, is_exact, never, why }, duration }: { tur
       <span
         className={classes.span}
         data-guess={!is_exact || undefined}
+        data-open={ends === null || undefined}
+        title={ends === null ? "When it ends depends on what happens" : `until ${ends.toFixed(1)} s at the latest`}
         style={{ left: `${from * 100}%`, width: `max(5px, ${Math.max(0, to - from) * 100}%)` }}
       />
       <span className={classes.when} style={from > 0.6 ? { right: `${(1 - from) * 100 + 1}%` } : { left: `calc(${from * 100}% + 6px)` }}>

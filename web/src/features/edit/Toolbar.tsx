@@ -101,7 +101,14 @@ function AddMenu({ onTool, onEvent }: Pick<Props, "onTool" | "onEvent">) {
         ))}
         <Menu.Label>What happens</Menu.Label>
         <Menu.Item onClick={() => onTool({ is: "area", corners: [] })}>Area with a trigger</Menu.Item>
-        <Menu.Item onClick={onEvent}>Event</Menu.Item>
+        <Menu.Item
+          onClick={() => {
+            onTool({ is: "select" });
+            onEvent();
+          }}
+        >
+          Event
+        </Menu.Item>
       </Menu.Dropdown>
     </Menu>
   );
