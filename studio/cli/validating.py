@@ -59,7 +59,7 @@ def taken(file: Path, mapping: Path | None, dbc: Path | None):
     log = reading.read(file, dbc or (known.dbc if known else None))
     if known is None and not maps.has_named(log):
         return log, None
-    return log, recording.resampled(file.name, maps.apply(known.mapping if known else maps.as_named(log), log))
+    return log, recording.of_log(log, known.mapping if known else None)
 
 
 def facts(each: dict[str, Any]) -> list[str]:

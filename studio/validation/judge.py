@@ -19,7 +19,7 @@ from studio.validation import known, replay, span
 from studio.validation.criterion import FAIL, PASS, Measure, Verdict, overridden, verdicts
 from studio.validation.marks import Marks
 from studio.validation.project import Loaded
-from studio.validation.smooth import smooth
+from studio.log.smooth import smooth
 from studio.validation.zone import WORDS, Confidence, Zone, zone
 
 

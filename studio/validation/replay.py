@@ -17,7 +17,7 @@ from studio.rig import side
 from studio.rig.side import Order, Outcome
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.validation.smooth import smooth, stretches
+from studio.log.smooth import smooth, stretches
 
 LEAD = 2.0  # [s]
 STEERS = ("road_wheel_angle", "steering_wheel_angle")

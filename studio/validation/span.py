@@ -10,7 +10,7 @@ import numpy as np
 
 from studio.log.recording import Recording
 from studio.scenario.vehicle import Span
-from studio.validation.smooth import smooth
+from studio.log.smooth import smooth
 
 DIGITS = 4  # of a bound, after the point
 UNITS = {"speed": "m/s", "acceleration": "m/s²", "lateral_acceleration": "m/s²", "yaw_rate": "rad/s"}

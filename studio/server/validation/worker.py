@@ -80,7 +80,7 @@ def look(pipe: Connection, order: Order) -> dict[str, Any]:
         return found | {"drawn": [drawn(each) for each in log.signals.values()]}
     try:
         tell(pipe, "stage", "mapping", None)
-        made = recording.resampled(log.name, mapping.apply(wanted.mapping if wanted else mapping.as_named(log), log))
+        made = recording.of_log(log, wanted.mapping if wanted else None)
         cuts = [{"kind": kind, "begin": begin, "end": end} for kind, begin, end in known.cuts(made)]
     except StudioError as error:
         return found | {"drawn": [drawn(each) for each in log.signals.values()], "problem": without(error, order).as_json()}

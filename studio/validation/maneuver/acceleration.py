@@ -7,7 +7,7 @@ import numpy as np
 
 from studio.log.recording import Recording
 from studio.validation.marks import Marks, during, gears, lacking
-from studio.validation.smooth import smooth, stretches
+from studio.log.smooth import smooth, stretches
 
 TITLE = "Acceleration through the gears"
 STEP = "III Long-III"

@@ -5,7 +5,7 @@ import numpy as np
 from studio.log.recording import Recording
 from studio.validation import rolling
 from studio.validation.marks import Marks, lacking, mean
-from studio.validation.smooth import smooth
+from studio.log.smooth import smooth
 
 TITLE = "Braking"
 STEP = "III Long-II"

@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.log.recording import Recording
 from studio.validation.marks import Lobe, Marks, Part, lacking, lobes, steering
-from studio.validation.smooth import crossing, smooth
+from studio.log.smooth import crossing, smooth
 
 TITLE = "Double lane change"
 STEP = "II Lat-II"
