@@ -68,7 +68,7 @@ def stretched(record: Record, row: int, name: str, span: Span) -> Spanned:
     far = np.nan_to_num(distance(values, span))
     edges = np.flatnonzero(np.diff(np.concatenate([[0], far.max(axis=0) > 0.0, [0]])))
     found = tuple(stretch(record.time, values, far, int(a), int(b), span) for a, b in zip(edges[::2], edges[1::2], strict=True))
-    lacking = tuple(each for each, known in zip(CHANNELS, np.isfinite(values).any(axis=1), strict=True) if not known)
+    lacking = tuple(each for each, own in zip(CHANNELS, values, strict=True) if not np.isfinite(own).any())
     return Spanned(name, found, lacking)
 
 

@@ -1,10 +1,10 @@
 """From the place of a sensor to the centre of gravity: what a rigid body's points do differently.
 
-A sensor at ρ = (x, y, z), from the centre of gravity forward, left and up, moves with the body, whose angular velocity is ω = (p, q, r).
+A sensor at d = (x, y, z), from the centre of gravity forward, left and up, moves with the body, whose angular velocity is w = (p, q, r).
 The velocities and accelerations of two points of a rigid body differ by (Goldstein, Poole, Safko, "Classical Mechanics", 3rd edition,
-chapter 4)
+chapter 4; [ , ] is the cross product, a dot the change)
 
-    v_P = v + ω × ρ            a_P = a + ω̇ × ρ + ω × (ω × ρ)
+    v_P = v + [w, d]           a_P = a + [ẇ, d] + [w, [w, d]]
 
 With q = 0, a pitch that is slow beside the others, the centre of gravity has
 
@@ -51,7 +51,8 @@ def centred(name: str, time: np.ndarray, signals: Mapping[str, np.ndarray], plac
         return dict(signals)
     if "yaw_rate" not in signals:
         remedy = "map yaw_rate too, or leave `at` out"
-        raise ScenarioError(f"{name} does not tell how the body turns.", [Problem(f"signals.{next(iter(places))}.at", "needs the yaw rate", remedy=remedy)])  # fmt: skip
+        problem = Problem(f"signals.{next(iter(places))}.at", "needs the yaw rate", remedy=remedy)
+        raise ScenarioError(f"{name} does not tell how the body turns.", [problem])
     body = turning(time, signals)
     return dict(signals) | {each: signals[each] + OFF[each](body, *at) for each, at in places.items()}
 

@@ -82,7 +82,9 @@ def of_text(found: text.Source) -> Mapping:
     made = file.model(found, Mapping, "mapping")
     strange = [name for name in made.signals if name not in QUANTITIES]
     with file.placed(found, found.where):
-        problems = [Problem(f"{found.where}: signals.{name}", "is none of our signals", remedy=nearest(name, QUANTITIES)) for name in strange]
+        problems = [
+            Problem(f"{found.where}: signals.{name}", "is none of our signals", remedy=nearest(name, QUANTITIES)) for name in strange
+        ]
         problems += [
             Problem(f"{found.where}: signals.{name}.at", "is the same wherever a sensor sits", name, ", ".join(lever.OFF), "leave it out")
             for name in made.places

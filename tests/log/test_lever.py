@@ -43,7 +43,7 @@ def test_a_body_that_rolls_and_turns_seen_from_a_corner_of_it():
     true = {"speed": 20.0, "lateral_speed": 0.3, "acceleration": -1.0, "lateral_acceleration": 4.0}
     seen = {"speed": v[:, 0], "lateral_speed": v[:, 1], "acceleration": a[:, 0], "lateral_acceleration": a[:, 1]}
     columns = {name: true[name] + values for name, values in seen.items()} | {"yaw_rate": R, "roll_rate": P}
-    made = taken(columns, dict.fromkeys(true, [X, Y, Z]))
+    made = taken(columns, {name: [X, Y, Z] for name in true})
     for name, value in true.items():
         assert np.ptp(seen[name]) > 0.3, name  # there is something to be taken away
         assert np.allclose(made[name][INSIDE], value, atol=2e-3), name
