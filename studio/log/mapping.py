@@ -21,10 +21,10 @@ import numpy as np
 from pydantic import Field
 
 from studio.errors import Problem, ScenarioError, nearest
+from studio.kind.log import Log, Signal, signal
 from studio.kind.settings import Part, number
 from studio.log import lever, unit
 from studio.log.quantity import QUANTITIES
-from studio.log.signal import Log, Signal, signal
 from studio.scenario import file
 from studio.scenario.text import source as text
 

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
+from studio.kind.log import GAP, Log, Signal
 from studio.log import lever, mapping, reading
 from studio.log.mapping import Known, Mapping
 from studio.log.quantity import QUANTITIES
-from studio.log.signal import GAP, Log, Signal
 from studio.rig import table
 
 PERIOD = 0.01  # [s] of the common clock

@@ -5,8 +5,8 @@ import pytest
 import yaml
 
 from studio.errors import ScenarioError
+from studio.kind.log import Log, signal
 from studio.log import mapping, recording
-from studio.log.signal import Log, signal
 from studio.scenario.text import source
 
 TIME = np.arange(0.0, 12.0, 0.01)

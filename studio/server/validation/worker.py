@@ -21,16 +21,21 @@ POINTS = 1500  # of a signal that is drawn
 
 @dataclass(frozen=True)
 class Order:
-    """What to do, in which folder, with which run database."""
+    """What to do, in which folder, with which run database, and the folders of the user's own kinds."""
 
     job: NewJob
     folder: Path
     db: Path
+    kinds: tuple[Path, ...] = ()
 
 
 def main(pipe: Connection, order: Order) -> None:
     """The process: does what it is ordered to do, and tells how it goes."""
+    from studio.kind.registry import load_folder
+
     confine()
+    for folder in order.kinds:
+        load_folder(folder)
     with suppress(ServerGone):
         tell(pipe, *outcome(pipe, order))
 
