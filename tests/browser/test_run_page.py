@@ -66,7 +66,6 @@ def test_where_a_vehicle_was_outside_its_validated_span(tmp_path, beyond):
         chart = page.get_by_role("figure", name="Speed [m/s] over time")
         expect(chart).to_contain_text(TELLS)
         until(lambda: shares(chart)[1] > 0.004, "the band")
-        page.screenshot(path="/tmp/valid/run.png")
         assert shares(chart)[0] == 0.0
         page.goto(f"{client.base_url}/studio/beyond?run={run}")
         expect(page.get_by_role("region", name="Charts")).to_contain_text(TELLS)
