@@ -395,8 +395,8 @@ export function TimeChart(props: Props) {
 /** What the band means, and the worst of it. */
 function Legend({ beyond }: { beyond: Beyond }) {
   return (
-    <span className={classes.item} title={beyond.all}>
-      <svg width={14} height={10} aria-hidden="true">
+    <span className={`${classes.item} ${classes.wraps}`} title={beyond.all}>
+      <svg width={14} height={10} className={classes.swatch} aria-hidden="true">
         <rect width={14} height={10} fill={BEYOND_GROUND} />
         <rect width={14} height={3} fill={BEYOND_BAR} />
       </svg>
