@@ -35,6 +35,7 @@ GIVES = {  # modules that say what functions of a kind are given and give back
     "action": ("studio.world.maneuver", "studio.world.effect"),
     "metric": ("studio.kind.metric", "studio.execution.record"),
     "channel": ("studio.execution.record",),
+    "logformat": ("studio.kind.log",),
 }
 
 

@@ -34,17 +34,18 @@ def kinds(folder: Kinds = None, as_json: AsJson = False) -> None:
 @commands.command()
 def new(
     sort: Annotated[
-        str, typer.Argument(metavar="SORT", help="sensor, radio, message, driver, condition, action, metric, channel, application.")
+        str,
+        typer.Argument(metavar="SORT", help="sensor, radio, message, driver, condition, action, metric, channel, logformat, application."),
     ],
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the kind, and of its file.")],
     folder: Annotated[Path, typer.Option("--folder", help="Where it is written.")] = Path(),
 ) -> None:
-    """Begins a kind of your own: a small working file, a test for it, and a scenario that uses it."""
-    from studio.workshop.draft import draft
+    """Begins a kind of your own: a small working file, a test for it, and a scenario, or a log, that uses it."""
+    from studio.workshop.draft import draft, use
 
     for path in draft(sort, name, folder):
         print(path)
-    print(f"Try: studio conform {folder / name}.py; studio run {folder / name}.yaml --kinds {folder}")
+    print(f"Try: studio conform {folder / name}.py; studio {use(sort, name, folder)} --kinds {folder}")
 
 
 @commands.command()

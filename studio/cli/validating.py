@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from studio.cli.option import DEFAULT_DB, AsJson, Db
+from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, load_kinds
 from studio.cli.output import print_json, print_table, signed, text
 from studio.cli.progress import compile_first, progress, told
 from studio.errors import Problem, ScenarioError
@@ -14,7 +14,10 @@ commands = typer.Typer()
 logs = typer.Typer(help="Recorded drives.", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
 commands.add_typer(logs, name="logs")
 LogFile = Annotated[
-    Path, typer.Argument(metavar="FILE", help="CSV, .npz, MDF (.mf4), a CAN trace (.blf, .asc), or a folder of arrays; .gz too.")
+    Path,
+    typer.Argument(
+        metavar="FILE", help="CSV, .npz, MDF (.mf4), a CAN trace (.blf, .asc), or a folder of arrays; .gz too; or of a format of your own."
+    ),
 ]
 MappingFile = Annotated[Path | None, typer.Option("--mapping", help="Which recorded signal is which of ours (YAML).")]
 DbcFile = Annotated[Path | None, typer.Option("--dbc", help="What the frames of a CAN trace mean.")]
@@ -27,7 +30,7 @@ HEAD = ["signal", "unit", "samples", "rate [1/s]", "from [s]", "to [s]", "lowest
 def import_(
     file: LogFile, mapping: MappingFile = None, dbc: DbcFile = None,
     out: Annotated[Path | None, typer.Option("--out", help="CSV for our signals on one clock; .gz packs it.")] = None,
-    as_json: AsJson = False,
+    kinds: Kinds = None, as_json: AsJson = False,
 ) -> None:  # fmt: skip
     """Reads a log: what was recorded, and by a mapping what of it is ours, in SI on one clock.
 
@@ -35,6 +38,7 @@ def import_(
     """
     from studio.log import recording
 
+    load_kinds(kinds)
     log, made = taken(file, mapping, dbc)
     if out is not None and made is None:
         problem = Problem("--out", "is of our signals, and nobody says which they are", remedy="give --mapping")
@@ -59,7 +63,7 @@ def taken(file: Path, mapping: Path | None, dbc: Path | None):
     log = reading.read(file, dbc or (known.dbc if known else None))
     if known is None and not maps.has_named(log):
         return log, None
-    return log, recording.resampled(file.name, maps.apply(known.mapping if known else maps.as_named(log), log))
+    return log, recording.of_log(log, known.mapping if known else None)
 
 
 def facts(each: dict[str, Any]) -> list[str]:
@@ -69,10 +73,11 @@ def facts(each: dict[str, Any]) -> list[str]:
 
 
 @logs.command()
-def cut(file: LogFile, mapping: MappingFile = None, dbc: DbcFile = None, as_json: AsJson = False) -> None:
+def cut(file: LogFile, mapping: MappingFile = None, dbc: DbcFile = None, kinds: Kinds = None, as_json: AsJson = False) -> None:
     """Finds the maneuvers in a long log, as the runs of a project take them: correct the times there where a cut is wrong."""
     from studio.validation import known
 
+    load_kinds(kinds)
     _, made = taken(file, mapping, dbc)
     if made is None:
         raise ScenarioError(
@@ -98,6 +103,7 @@ def calibrate(
     step: Annotated[str | None, typer.Argument(metavar="STEP", help="A step of calibration; none: all of them, in their order.")] = None,
     afresh: Annotated[bool, typer.Option("--afresh", help="Leave aside what was calibrated before.")] = False,
     out: VehicleOut = None,
+    kinds: Kinds = None,
     db: Db = DEFAULT_DB,
     as_json: AsJson = False,
 ) -> None:
@@ -109,6 +115,7 @@ def calibrate(
     from studio.validation import iterate
     from studio.validation.project import load
 
+    load_kinds(kinds)
     loaded = load(project)
     steps = [step] if step else list(loaded.project.calibration)
     if not steps:
@@ -157,6 +164,7 @@ def validate(
     afresh: Annotated[bool, typer.Option("--afresh", help="The vehicle as the project names it, without what was calibrated.")] = False,
     report: Annotated[Path | None, typer.Option("--report", help="A page to write (HTML), with tables and figures.")] = None,
     out: VehicleOut = None,
+    kinds: Kinds = None,
     db: Db = DEFAULT_DB,
     as_json: AsJson = False,
 ) -> None:
@@ -168,6 +176,7 @@ def validate(
     from studio.validation import iterate
     from studio.validation.project import load
 
+    load_kinds(kinds)
     loaded = load(project)
     runs = open_runs(db)
     step = iterate.begin(loaded, runs, afresh=afresh)

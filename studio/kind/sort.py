@@ -4,6 +4,7 @@ Every file of a kind says `KIND = "sensor"` (or another sort), has a docstring t
 parts below. What is optional may be left out. `problems` finds everything that does not fit.
 """
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from inspect import Parameter, signature
@@ -24,6 +25,7 @@ from studio.kind.quantity import quantities
 from studio.kind.sensor import Sensor
 from studio.kind.settings import Nested, marks, named
 
+ENDING = re.compile(r"/?\.[a-z0-9_]+")
 Test = Callable[[Any], str]  # what is wrong with a part; "" when it fits
 
 
@@ -119,6 +121,17 @@ def needy(value: Any) -> str:
 def plain(value: Any) -> str:
     """A pydantic model of plain numbers with first values."""
     return settings(value) or unplain(value)
+
+
+def endings(value: Any) -> str:
+    """Endings of files in small letters, or of those in a folder."""
+    is_fine = isinstance(value, tuple) and value and all(isinstance(each, str) and ENDING.fullmatch(each) for each in value)
+    return "" if is_fine else f'is {value!r}; allowed: (".csv", ".tsv"), or ("/.npy",) for a folder of such files'
+
+
+def content(value: Any) -> str:
+    """The bytes of a file."""
+    return "" if isinstance(value, bytes) and value else f"is {type(value).__name__}, not bytes"
 
 
 def flat(value: Any) -> str:
@@ -274,6 +287,7 @@ class Sort:
     whole: Test = fits  # what its parts must be together
     remedy: str = ""
     usual: type[BaseModel] | None = None  # what is set of a kind without Settings
+    is_run: bool = True  # whether scenarios and their runs use it
 
 
 SORTS = {
@@ -381,6 +395,16 @@ SORTS = {
             UNIT,
             Need("trace", "its values, of those of other channels", function("read"), "def trace(read)"),
         )),
+        Sort("logformat", "reads recorded drives of a form of files", (
+            TITLE,
+            Need("SUFFIXES", "endings of the files that it takes, in small letters and without .gz; with / before it, of those in a folder",
+                 endings, 'SUFFIXES = (".drv",)'),
+            Need("read", "all signals of a file, a Log; ScenarioError when it is none. `dbc` is the file that describes a CAN bus, or None",
+                 function("path", "dbc"), "def read(path, dbc)"),
+            Need("fits", "whether a file of such an ending is of this format; left out: all of them are", function("path"),
+                 "def fits(path)", optional=True),
+            Need("SAMPLE", "the bytes of a small log, to try it with", content, 'SAMPLE = b"0 20.1\\n"', optional=True),
+        ), is_run=False),
         Sort("application", "what a developer invents", (
             TITLE,
             Need("Parameters", "what its developer tunes, with unit and range", plain, "class Parameters(Part): ..."),

@@ -4,29 +4,32 @@
     signals:
       yaw_rate: {from: YawRateSensor, unit: deg/s, sign: -1, offset: 0.4, delay: 0.02}
       road_wheel_angle: {from: [SteerAngleFL, SteerAngleFR], unit: rad}
+      lateral_acceleration: {from: AccY, unit: g, at: [0.4, -0.3, 0.1]}
       speed: {from: ["velocity[0]", "velocity[1]", "velocity[2]"], unit: m/s, combine: norm}
 
 Ours is sign · (recorded - offset), the offset in the recorded unit, brought to SI; of several recorded signals it is the mean, or as
 `combine: norm` the length of the vector that they are. A signal that comes `delay` seconds late has its times moved back. Without
-`unit` it is the one that the log gives.
+`unit` it is the one that the log gives. A speed or an acceleration of a sensor that sits `at` x, y, z [m] forward, left and up from the
+centre of gravity is brought to that (studio/log/lever.py).
 """
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
 from studio.errors import Problem, ScenarioError, nearest
+from studio.kind.log import Log, Signal, signal
 from studio.kind.settings import Part, number
-from studio.log import unit
+from studio.log import lever, unit
 from studio.log.quantity import QUANTITIES
-from studio.log.signal import Log, Signal, signal
 from studio.scenario import file
 from studio.scenario.text import source as text
 
 SIZE_LIMIT = 1_000_000  # [B] of a mapping file
+Metres = Annotated[float, Field(ge=-25, le=25, allow_inf_nan=False)]
 
 
 class Source(Part):
@@ -38,6 +41,10 @@ class Source(Part):
     sign: Literal[1, -1] = Field(1, title="Sign", description="-1 where the log counts to the other side")
     offset: float = number(0.0, unit="1", title="What the sensor shows at rest, in its own unit")
     delay: float = number(0.0, unit="s", title="How late the signal comes", ge=-60, le=60)
+    at: tuple[Metres, Metres, Metres] | None = Field(
+        None, title="Where the sensor sits", description="x, y, z from the centre of gravity: forward, left, up; left out: there",
+        json_schema_extra={"unit": "m"},
+    )  # fmt: skip
 
 
 class Mapping(Part):
@@ -45,6 +52,11 @@ class Mapping(Part):
 
     dbc: str | None = Field(None, title="DBC of a CAN trace", description="relative to the mapping")
     signals: dict[str, Source] = Field(..., min_length=1, title="Our signals")
+
+    @property
+    def places(self) -> dict[str, lever.Place]:
+        """Where sensors sit that are not at the centre of gravity [m], by our signal."""
+        return {name: each.at for name, each in self.signals.items() if each.at is not None}
 
 
 @dataclass(frozen=True)
@@ -70,10 +82,15 @@ def of_text(found: text.Source) -> Mapping:
     made = file.model(found, Mapping, "mapping")
     strange = [name for name in made.signals if name not in QUANTITIES]
     with file.placed(found, found.where):
-        if strange:
-            problems = [
-                Problem(f"{found.where}: signals.{name}", "is none of our signals", remedy=nearest(name, QUANTITIES)) for name in strange
-            ]
+        problems = [
+            Problem(f"{found.where}: signals.{name}", "is none of our signals", remedy=nearest(name, QUANTITIES)) for name in strange
+        ]
+        problems += [
+            Problem(f"{found.where}: signals.{name}.at", "is the same wherever a sensor sits", name, ", ".join(lever.OFF), "leave it out")
+            for name in made.places
+            if name not in (*lever.OFF, *strange)
+        ]
+        if problems:
             raise refused(found.where, problems)
     return made
 

@@ -8,7 +8,7 @@ signal and ends with the last one; `start` keeps the recorded time of its zero.
 
 import hashlib
 from collections.abc import Mapping as Table
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
-from studio.log import mapping, reading
-from studio.log.mapping import Known
+from studio.kind.log import GAP, Log, Signal
+from studio.log import lever, mapping, reading
+from studio.log.mapping import Known, Mapping
 from studio.log.quantity import QUANTITIES
-from studio.log.signal import GAP, Signal
 from studio.rig import table
 
 PERIOD = 0.01  # [s] of the common clock
@@ -76,8 +76,14 @@ class Recording:
 
 def load(path: Path, known: Known | None = None, *, period: float = PERIOD) -> Recording:
     """A log on one clock by a mapping, or by its names where they are ours; raises ScenarioError."""
-    log = reading.read(path, known.dbc if known else None)
-    return resampled(path.name, mapping.apply(known.mapping if known else mapping.as_named(log), log), period)
+    return of_log(reading.read(path, known.dbc if known else None), known.mapping if known else None, period)
+
+
+def of_log(log: Log, known: Mapping | None = None, period: float = PERIOD) -> Recording:
+    """The same of a log that was read: mapped, on one clock, at the centre of gravity; raises ScenarioError."""
+    used = known or mapping.as_named(log)
+    made = resampled(log.name, mapping.apply(used, log), period)
+    return replace(made, signals=lever.centred(log.name, made.time, made.signals, used.places))
 
 
 def resampled(name: str, signals: Table[str, Signal], period: float = PERIOD) -> Recording:

@@ -480,6 +480,26 @@ class Explanation(BaseModel):
     lines: list[str]
 
 
+class Beyond(BaseModel):
+    """From when until when a vehicle was outside its validated span, what led it farthest, and how far."""
+
+    begin: float = Field(description="[s]")
+    end: float = Field(description="[s]")
+    quantity: str = Field(description="the channel that led farthest outside, in the width of its own span")
+    unit: str
+    value: float = Field(description="its value where it was farthest outside")
+    low: float = Field(description="what it was validated from")
+    high: float = Field(description="what it was validated until")
+
+
+class Spanned(BaseModel):
+    """A vehicle with a validated span, and where it was outside of it."""
+
+    vehicle: str
+    stretches: list[Beyond]
+    not_recorded: list[str] = Field(description="channels that the run has not kept: nothing is said of them")
+
+
 class Revision(BaseModel):
     """What git has told of a folder of code: the commit, and the digest of the patch of what was not committed, "" when all was."""
 

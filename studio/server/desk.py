@@ -51,7 +51,7 @@ class Desk:
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
         self.projects = Projects(self.scenarios)
-        self.project_jobs = ProjectJobs(self.db, lambda: self.warmup.is_over)
+        self.project_jobs = ProjectJobs(self.db, lambda: self.warmup.is_over, self.kinds)
         self._stage: Stage | None = None
         self._lock = threading.Lock()
 

@@ -8,6 +8,7 @@ from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
+from studio.assess.beyond import stretches
 from studio.assess.compare import ALIKE
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError, short
 from studio.kind import registry
@@ -333,6 +334,20 @@ def run_explanation(
 ) -> list[answer.Explanation]:
     """Why collisions, near misses and hard brakes happened in a run."""
     return [answer.Explanation(**each.as_json(), lines=each.lines) for each in explanation(kept, run, event)]
+
+
+@router.get("/runs/{run}/beyond")
+def run_beyond(run: int, kept: KeptRuns) -> list[answer.Spanned]:
+    """Every vehicle of a run that has a validated span, and where it was outside of it; of a run that goes on, as far as it is."""
+    units = {each.name: each.unit for each in channel.CHANNELS}
+    return [
+        answer.Spanned(
+            vehicle=each.vehicle,
+            stretches=[answer.Beyond(unit=units[one.quantity], **one._asdict()) for one in each.stretches],
+            not_recorded=list(each.not_recorded),
+        )
+        for each in stretches(kept.record(run))
+    ]
 
 
 @router.get("/compare")

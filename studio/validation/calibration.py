@@ -19,11 +19,11 @@ from scipy.optimize import least_squares
 
 from studio.errors import Problem, ScenarioError
 from studio.log.recording import Recording
+from studio.log.smooth import smooth
 from studio.scenario import catalogue, edit
 from studio.scenario.datasheet import quantities
 from studio.validation import known, replay
 from studio.validation.project import Calibration, Loaded
-from studio.validation.smooth import smooth
 
 STEP = 1e-3  # [1] of the range, for differences
 MOST = 60  # evaluations until it should have converged

@@ -14,12 +14,12 @@ import numpy as np
 from studio.errors import Problem, ScenarioError
 from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
+from studio.log.smooth import smooth
 from studio.scenario.vehicle import Span
 from studio.validation import known, replay, span
 from studio.validation.criterion import FAIL, PASS, Measure, Verdict, overridden, verdicts
 from studio.validation.marks import Marks
 from studio.validation.project import Loaded
-from studio.validation.smooth import smooth
 from studio.validation.zone import WORDS, Confidence, Zone, zone
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from studio.errors import Problem, ScenarioError
 from studio.log.recording import Recording
-from studio.validation.smooth import smooth, stretches
+from studio.log.smooth import smooth, stretches
 
 WHEELS = ("road_wheel_angle", "steering_wheel_angle")
 LEAST = {"road_wheel_angle": 0.002, "steering_wheel_angle": 0.03}  # [rad] below which nobody steers

@@ -13,11 +13,11 @@ from studio.conventions import DEFAULT_STEP
 from studio.errors import Problem, ScenarioError
 from studio.log.quantity import QUANTITIES
 from studio.log.recording import PERIOD, Recording
+from studio.log.smooth import smooth, stretches
 from studio.rig import side
 from studio.rig.side import Order, Outcome
 from studio.scenario import catalogue
 from studio.scenario.catalogue import VehicleModel
-from studio.validation.smooth import smooth, stretches
 
 LEAD = 2.0  # [s]
 STEERS = ("road_wheel_angle", "steering_wheel_angle")

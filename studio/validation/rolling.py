@@ -9,8 +9,8 @@ from collections.abc import Callable
 import numpy as np
 
 from studio.log.recording import Recording
+from studio.log.smooth import smooth, stretches
 from studio.validation.marks import Marks, lacking, mean
-from studio.validation.smooth import smooth, stretches
 
 STILL = 0.3  # [m/s] below which a car stands, or nearly so
 LEAST_FALL = 3.0  # [m/s] that it slows down

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from studio.log.recording import Recording
+from studio.log.smooth import smooth
 from studio.scenario.vehicle import Span
-from studio.validation.smooth import smooth
 
 DIGITS = 4  # of a bound, after the point
 UNITS = {"speed": "m/s", "acceleration": "m/s²", "lateral_acceleration": "m/s²", "yaw_rate": "rad/s"}

@@ -1,7 +1,7 @@
 """A new kind: a small working file of a sort, a test for it, and a scenario that uses it.
 
 They are written from the templates beside this file. The scenario is on a map of its own, a motorway that is drawn for it, so that
-a folder of kinds needs nothing from elsewhere.
+a folder of kinds needs nothing from elsewhere. What no scenario uses, a format of logs, comes with a log instead.
 """
 
 import keyword
@@ -36,15 +36,22 @@ def texts(sort: str, name: str, folder: Path) -> dict[Path, str]:
     files = {
         path: Template(template.read_text(encoding="utf-8")).substitute(words) for path, template in places(sort, name, folder).items()
     }
-    return files if (folder / MAP).exists() else files | {folder / MAP: motorway()}
+    return files if (folder / MAP).exists() or not SORTS[sort].is_run else files | {folder / MAP: motorway()}
 
 
 def places(sort: str, name: str, folder: Path) -> dict[Path, Path]:
     """Which file is made of which template."""
-    named = {f"{name}.py": "py", f"test_{name}.py": "test.py", f"{name}.yaml": "yaml"}
+    named = {f"{name}.py": "py", f"test_{name}.py": "test.py"} | (
+        {f"{name}.yaml": "yaml"} if SORTS[sort].is_run else {f"drive.{name}": "log"}
+    )
     if sort == "message":
         named[f"{name}_talk.py"] = "talk.py"  # an application: nobody else would tell or hear it
     return {folder / file: TEMPLATES / f"{sort}.{ending}.txt" for file, ending in named.items()}
+
+
+def use(sort: str, name: str, folder: Path) -> str:
+    """The command that uses it."""
+    return f"run {folder / name}.yaml" if SORTS[sort].is_run else f"logs import {folder / 'drive'}.{name}"
 
 
 def problems(sort: str, name: str, folder: Path) -> list[Problem]:

@@ -9,6 +9,7 @@ import pytest
 
 from studio.kind import registry
 from studio.kind.sort import SORTS
+from studio.log import recording
 from studio.workshop.conform import conform
 from tests.conftest import ROOT
 from tests.patience import PATIENCE
@@ -51,13 +52,21 @@ def test_each_keeps_its_contract_and_names_its_source(examples):
 def test_one_scenario_uses_them_all(run, examples):
     row, runs = run
     assert row["status"] == "done" and row["error"] is None and row["unmet"] == []
-    assert {f"{kind.sort}.{kind.name}" for kind in examples.values()} <= set(row["kinds"])
+    assert {f"{kind.sort}.{kind.name}" for kind in examples.values() if SORTS[kind.sort].is_run} <= set(row["kinds"])
     assert row["metrics"]["time_exposed"]["value"] == 0.0
     kept = runs.trace(1, ["letting.letting.wanting", "letting.letting.notice", "letting.side.ahead", "ahead.specific_power"])
     assert kept["letting.letting.wanting"].max() == 1.0 and kept["letting.letting.notice"].max() == 1.0
     assert 2.0 < kept["letting.side.ahead"][0] < 12.0 and kept["ahead.specific_power"].max() > 5.0
     told = [event.text for event in runs.events(1)]
     assert any("careful begins" in text for text in told) and any("wriggle begins: sine with dwell" in text for text in told)
+
+
+def test_a_track_is_read_by_its_format(examples, tmp_path):
+    """One second and 0.0001° of latitude apart, 11.12 m on the sphere of the format, then twice that."""
+    path = tmp_path / "ride.gpx"
+    path.write_bytes(examples["logformat"].module.SAMPLE)
+    made = recording.load(path)
+    assert made["speed"][[0, -1]] == pytest.approx([11.1195, 22.239], abs=1e-3) and made.start == 0.5
 
 
 def files_of(kind) -> int:

@@ -5,8 +5,8 @@ import pytest
 import yaml
 
 from studio.errors import ScenarioError
+from studio.kind.log import Log, signal
 from studio.log import mapping, reading, recording
-from studio.log.signal import Log, signal
 from studio.log.unit import factor
 from studio.scenario.text import source
 from tests.conftest import ROOT

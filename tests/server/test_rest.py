@@ -326,6 +326,7 @@ def test_a_database_is_closed_when_its_request_is_over(client, pair, server):
         "runs/999",
         "runs/1/trace?channels=leader.speed",
         "runs/1/explanation",
+        "runs/1/beyond",
         "runs/1/trajectories",
         "compare?a=1&b=2",
     ):

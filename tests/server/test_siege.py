@@ -166,6 +166,7 @@ def test_a_damaged_database_is_told(here, tmp_path, damage):
         "/api/runs/1": "/api/runs/{run}",
         "/api/runs/1/trace?channels=leader.speed": "/api/runs/{run}/trace",
         "/api/runs/1/explanation": "/api/runs/{run}/explanation",
+        "/api/runs/1/beyond": "/api/runs/{run}/beyond",
         "/api/compare?a=1&b=1": "/api/compare",
     }
     answers = {address: client.get(address) for address in asked}

@@ -22,7 +22,8 @@ def done(*command, cwd):
 
 
 def test_every_sort_has_its_templates():
-    wanted = {f"{sort}.{ending}.txt" for sort in SORTS for ending in ("py", "test.py", "yaml")} | {"message.talk.py.txt"}
+    wanted = {f"{sort}.{ending}.txt" for sort in SORTS for ending in ("py", "test.py", "yaml" if SORTS[sort].is_run else "log")}
+    wanted |= {"message.talk.py.txt"}
     assert {path.name for path in TEMPLATES.iterdir()} == wanted
 
 
@@ -31,7 +32,16 @@ def test_templates_are_short():
         assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST, path.name
 
 
-@pytest.mark.parametrize("sort", SORTS)
+def test_a_format_of_logs_reads_the_log_that_comes_with_it(tmp_path):
+    written = draft("logformat", "rally", tmp_path)
+    assert {path.name for path in written} == {"rally.py", "test_rally.py", "drive.rally"}
+    done("pytest", "-q", "-p", "no:cacheprovider", "-c", "/dev/null", "test_rally.py", cwd=tmp_path)
+    found = json.loads(done("studio.cli", "logs", "import", "drive.rally", "--kinds", ".", "--json", cwd=tmp_path))
+    speed, yaw = found["ours"]
+    assert (speed["high"], yaw["high"]) == pytest.approx((72.4 / 3.6, 0.033161), abs=1e-6) and speed["rate"] == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize("sort", [name for name, each in SORTS.items() if each.is_run])
 def test_it_works_as_it_was_written(sort, tmp_path):
     name = f"my_{sort}"
     written = draft(sort, name, tmp_path)

@@ -136,6 +136,7 @@ class ProjectJobs:
 
     db: Path
     is_compiled: Callable[[], bool]
+    kinds: tuple[Path, ...] = ()
     jobs: dict[int, ProjectJob] = field(default_factory=dict)
     working: ProjectJob | None = None
     last: int = 0
@@ -162,7 +163,7 @@ class ProjectJobs:
                 problem = Problem("jobs", "are too many", allowed=f"{MOST_WAITING} at once", remedy="wait for one, or cancel it")
                 raise ServerError("The studio has enough to do.", [problem])
             self.last += 1
-            job = self.jobs[self.last] = ProjectJob(self.last, project, Order(new, folder, self.db))
+            job = self.jobs[self.last] = ProjectJob(self.last, project, Order(new, folder, self.db, self.kinds))
             self.forget()
         self.proceed()
         return job.row()

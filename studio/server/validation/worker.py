@@ -21,16 +21,21 @@ POINTS = 1500  # of a signal that is drawn
 
 @dataclass(frozen=True)
 class Order:
-    """What to do, in which folder, with which run database."""
+    """What to do, in which folder, with which run database, and the folders of the user's own kinds."""
 
     job: NewJob
     folder: Path
     db: Path
+    kinds: tuple[Path, ...] = ()
 
 
 def main(pipe: Connection, order: Order) -> None:
     """The process: does what it is ordered to do, and tells how it goes."""
+    from studio.kind.registry import load_folder
+
     confine()
+    for folder in order.kinds:
+        load_folder(folder)
     with suppress(ServerGone):
         tell(pipe, *outcome(pipe, order))
 
@@ -80,7 +85,7 @@ def look(pipe: Connection, order: Order) -> dict[str, Any]:
         return found | {"drawn": [drawn(each) for each in log.signals.values()]}
     try:
         tell(pipe, "stage", "mapping", None)
-        made = recording.resampled(log.name, mapping.apply(wanted.mapping if wanted else mapping.as_named(log), log))
+        made = recording.of_log(log, wanted.mapping if wanted else None)
         cuts = [{"kind": kind, "begin": begin, "end": end} for kind, begin, end in known.cuts(made)]
     except StudioError as error:
         return found | {"drawn": [drawn(each) for each in log.signals.values()], "problem": without(error, order).as_json()}

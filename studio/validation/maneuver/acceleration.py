@@ -6,8 +6,8 @@ A car's acceleration falls in each gear while the speed rises, nearly along a li
 import numpy as np
 
 from studio.log.recording import Recording
+from studio.log.smooth import smooth, stretches
 from studio.validation.marks import Marks, during, gears, lacking
-from studio.validation.smooth import smooth, stretches
 
 TITLE = "Acceleration through the gears"
 STEP = "III Long-III"

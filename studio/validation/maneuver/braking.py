@@ -3,9 +3,9 @@
 import numpy as np
 
 from studio.log.recording import Recording
+from studio.log.smooth import smooth
 from studio.validation import rolling
 from studio.validation.marks import Marks, lacking, mean
-from studio.validation.smooth import smooth
 
 TITLE = "Braking"
 STEP = "III Long-II"

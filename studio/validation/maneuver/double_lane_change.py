@@ -8,8 +8,8 @@ signal reaches half of its own first extremum.
 import numpy as np
 
 from studio.log.recording import Recording
+from studio.log.smooth import crossing, smooth
 from studio.validation.marks import Lobe, Marks, Part, lacking, lobes, steering
-from studio.validation.smooth import crossing, smooth
 
 TITLE = "Double lane change"
 STEP = "II Lat-II"

@@ -3,8 +3,8 @@
 import numpy as np
 
 from studio.log.recording import Recording
+from studio.log.smooth import crossing
 from studio.validation.marks import Lobe, Marks, lacking, lobes, mean, steering
-from studio.validation.smooth import crossing
 
 TITLE = "J-turn"
 STEP = "II Lat-I"

@@ -176,6 +176,18 @@ export const explanations = ({ run, status, events }: Pick<RunDetail, "run" | "s
     enabled: !isLive(status) && events.some(({ kind }) => EXPLAINED.has(kind)),
   });
 
+/** Where vehicles of a run were outside the span that they were validated for; of a run that is over only where its measure says that one was. */
+export const beyond = (of: Pick<RunDetail, "run" | "status" | "metrics" | "channels"> | undefined) =>
+  queryOptions({
+    queryKey: ["beyond", of?.run, isLive(of?.status)],
+    queryFn: () => answer(client.GET("/api/runs/{run}/beyond", { params: { path: { run: of?.run ?? 0 } } })),
+    enabled: of !== undefined && of.channels.length > 0 && (isLive(of.status) || (of.metrics[OUTSIDE]?.value ?? 0) > 0),
+    // Whether any of its vehicles has a span is known from the first sample on.
+    refetchInterval: ({ state }) => (isLive(of?.status) && state.data?.length ? 2000 : false),
+  });
+
+const OUTSIDE = "outside_validated_span";
+
 /** Runs beside each other, each compared with the first. */
 export const beside = (numbers: readonly number[], everything: boolean) =>
   queryOptions({

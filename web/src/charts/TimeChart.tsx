@@ -4,6 +4,7 @@ import { useComputedColorScheme } from "@mantine/core";
 import { type ReactNode, useEffect, useMemo, useRef, useState, useSyncExternalStore } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import type { Beyond } from "../model/beyond";
 import { formatFixed, formatNumber, formatTime, unitText, withUnit, words } from "../model/units";
 import { type Limits, limitsOf } from "./limits";
 import { Stroke } from "./Stroke";
@@ -49,6 +50,8 @@ interface Props {
   rightUnit?: string | undefined;
   /** Where goals are missed: the ground is red there. */
   shades?: readonly Shade[];
+  /** When a vehicle was outside the span that it was validated for. */
+  beyond?: Beyond | undefined;
   /** The time of a playback: a line stands there, and a click goes there. */
   head?: Head | undefined;
 }
@@ -98,6 +101,26 @@ function shade(chart: uPlot, shades: readonly Shade[]): void {
 
 const MISSED = "rgba(224, 49, 49, 0.13)";
 
+/** A band over the times at which a vehicle was outside its span, with a bar above it, so that the colour is not all that tells. */
+function band(chart: uPlot, beyond: Beyond | undefined): void {
+  const { ctx, bbox } = chart;
+  const edge = (time: number) => Math.min(Math.max(chart.valToPos(time, "x", true), bbox.left), bbox.left + bbox.width);
+  ctx.save();
+  for (const [begin, end] of beyond?.parts ?? []) {
+    const [from, to] = [edge(begin), edge(end)];
+    if (to <= bbox.left || from >= bbox.left + bbox.width) continue;
+    const width = Math.max(to - from, uPlot.pxRatio);
+    ctx.fillStyle = BEYOND_GROUND;
+    ctx.fillRect(from, bbox.top, width, bbox.height);
+    ctx.fillStyle = BEYOND_BAR;
+    ctx.fillRect(from, bbox.top, width, 3 * uPlot.pxRatio);
+  }
+  ctx.restore();
+}
+
+const BEYOND_GROUND = "rgba(174, 62, 201, 0.12)";
+const BEYOND_BAR = "#ae3ec9";
+
 /** In a low chart the unit stands at the ticks, which saves the line of the label. */
 const withSecond = (_chart: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${tick} s`);
 
@@ -108,6 +131,7 @@ const LOW = 120;
 interface Memory {
   span: Span | undefined;
   limits: Limits | undefined;
+  beyond: Beyond | undefined;
   onCursor: (time: number | null) => void;
   onSpan: (span: Span | undefined) => void;
   /** Puts the line of the playback where it belongs. */
@@ -205,7 +229,7 @@ function options(
     ],
     series: [{ label: "Time" }, ...lines.map(series)],
     hooks: {
-      drawClear: [(chart) => shade(chart, shades)],
+      drawClear: [(chart) => shade(chart, shades), (chart) => band(chart, memory.beyond)],
       draw: [() => memory.onDraw()],
       setCursor: [(chart) => memory.onCursor(pointedAt(chart))],
       setSelect: [
@@ -277,7 +301,7 @@ function leftOf(data: Columns, lines: readonly Line[]): Columns {
 }
 
 export function TimeChart(props: Props) {
-  const { lines, data, version, title, unit, height = 180, lead, head, zoom } = props;
+  const { lines, data, version, title, unit, height = 180, lead, head, zoom, beyond } = props;
   const dark = useComputedColorScheme("light") === "dark";
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>(undefined);
@@ -287,11 +311,12 @@ export function TimeChart(props: Props) {
   const memory = useRef<Memory>({
     span: zoom.span,
     limits,
+    beyond,
     onCursor: setCursor,
     onSpan: zoom.choose,
     onDraw: () => undefined,
   });
-  Object.assign(memory.current, { span: zoom.span, limits, onSpan: zoom.choose });
+  Object.assign(memory.current, { span: zoom.span, limits, beyond, onSpan: zoom.choose });
   const shape = JSON.stringify([lines, title, unit, props.sync, props.duration, dark, props.rightUnit, props.shades]);
 
   // A chart is rebuilt only when its lines, axes or theme change; samples are set below.
@@ -325,6 +350,8 @@ export function TimeChart(props: Props) {
   // The columns grow in place, `version` tells when; the scales are asked for their ranges again.
   useEffect(() => chart.current?.setData(data as uPlot.AlignedData), [data, version, zoom.span, limits]);
 
+  useEffect(() => chart.current?.redraw(false), [beyond]);
+
   const played = useSyncExternalStore(head?.subscribe ?? still, () =>
     head ? shownTime(head) : null,
   );
@@ -352,6 +379,7 @@ export function TimeChart(props: Props) {
             goal {words(each.metric)} {[each.least === undefined ? "" : `≥ ${formatNumber(each.least)}`, each.most === undefined ? "" : `≤ ${formatNumber(each.most)}`].filter(Boolean).join(", ")}
           </span>
         ))}
+        {beyond ? <Legend beyond={beyond} /> : null}
         <Outside limits={outside} whole={limits !== outside} onToggle={toggle} />
         {zoom.span ? (
           <button type="button" className={classes.action} onClick={() => zoom.choose(undefined)}>
@@ -361,6 +389,19 @@ export function TimeChart(props: Props) {
       </figcaption>
       <div ref={host} className={classes.plot} style={{ minHeight: height }} />
     </figure>
+  );
+}
+
+/** What the band means, and the worst of it. */
+function Legend({ beyond }: { beyond: Beyond }) {
+  return (
+    <span className={`${classes.item} ${classes.wraps}`} title={beyond.all}>
+      <svg width={14} height={10} className={classes.swatch} aria-hidden="true">
+        <rect width={14} height={10} fill={BEYOND_GROUND} />
+        <rect width={14} height={3} fill={BEYOND_BAR} />
+      </svg>
+      outside its validated span: {beyond.worst}
+    </span>
   );
 }
 

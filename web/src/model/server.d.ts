@@ -400,6 +400,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/runs/{run}/beyond": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Run Beyond
+         * @description Every vehicle of a run that has a validated span, and where it was outside of it; of a run that goes on, as far as it is.
+         */
+        get: operations["run_beyond_api_runs__run__beyond_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/compare": {
         parameters: {
             query?: never;
@@ -1436,6 +1456,44 @@ export interface components {
             values: unknown[];
             /** Unit */
             unit: string;
+        };
+        /**
+         * Beyond
+         * @description From when until when a vehicle was outside its validated span, what led it farthest, and how far.
+         */
+        Beyond: {
+            /**
+             * Begin
+             * @description [s]
+             */
+            begin: number;
+            /**
+             * End
+             * @description [s]
+             */
+            end: number;
+            /**
+             * Quantity
+             * @description the channel that led farthest outside, in the width of its own span
+             */
+            quantity: string;
+            /** Unit */
+            unit: string;
+            /**
+             * Value
+             * @description its value where it was farthest outside
+             */
+            value: number;
+            /**
+             * Low
+             * @description what it was validated from
+             */
+            low: number;
+            /**
+             * High
+             * @description what it was validated until
+             */
+            high: number;
         };
         /**
          * BrokenKind
@@ -4605,6 +4663,21 @@ export interface components {
             diff: string;
         };
         /**
+         * Spanned
+         * @description A vehicle with a validated span, and where it was outside of it.
+         */
+        Spanned: {
+            /** Vehicle */
+            vehicle: string;
+            /** Stretches */
+            stretches: components["schemas"]["Beyond"][];
+            /**
+             * Not Recorded
+             * @description channels that the run has not kept: nothing is said of them
+             */
+            not_recorded: string[];
+        };
+        /**
          * Started
          * @description The number of a run that has begun, or that waits for its turn.
          */
@@ -7634,6 +7707,127 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Explanation"][];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    run_beyond_api_runs__run__beyond_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Spanned"][];
                 };
             };
             /** @description The body is no JSON. */

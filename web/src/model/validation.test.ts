@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, guesses, type Kinds, mappingText, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
+import { addParameter, addRun, guesses, type Kinds, mappingText, placedAt, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -58,6 +58,13 @@ test("a mapping is written without what goes without saying", () => {
     speed: { from: [], unit: "m/s", combine: "mean", sign: 1, offset: 0, delay: 0 },
   });
   expect(text).toBe('signals:\n  yaw_rate: {from: "Gierrate: links", unit: "deg/s", sign: -1, offset: 0.4}\n');
+});
+
+test("the place of a sensor is written, and taken away when it is the centre of gravity", () => {
+  const at = placedAt(placedAt(null, 0, 1.4), 1, -0.3);
+  const entry = { from: ["AccY"], unit: "g", combine: "mean", sign: 1, offset: 0, delay: 0, at } as const;
+  expect(mappingText({ lateral_acceleration: entry })).toContain("at: [1.4, -0.3, 0]}");
+  expect(placedAt(placedAt(at, 0, 0), 1, 0)).toBeNull();
 });
 
 test("a mapping that was kept is written again as it was: its DBC, its lists, what they become", () => {

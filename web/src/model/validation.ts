@@ -113,6 +113,19 @@ export interface SourceEntry {
   sign: 1 | -1;
   offset: number;
   delay: number;
+  /** x, y, z of the sensor from the centre of gravity [m]; null when it is there. */
+  at?: Place | null;
+}
+
+export type Place = readonly [x: number, y: number, z: number];
+
+/** Our signals that are another at another place of the body. */
+export const PLACED: ReadonlySet<string> = new Set(["speed", "lateral_speed", "acceleration", "lateral_acceleration"]);
+
+/** A place with another coordinate; none where all of them are zero. */
+export function placedAt(at: Place | null | undefined, axis: number, value: number): Place | null {
+  const made = [0, 1, 2].map((each) => (each === axis ? value : (at?.[each] ?? 0))) as unknown as Place;
+  return made.some((each) => each !== 0) ? made : null;
 }
 
 /** A mapping as its file says it. */
@@ -125,7 +138,7 @@ export interface Mapping {
 export function mappingText(sources: Readonly<Record<string, SourceEntry>>, dbc: string | null = null): string {
   const lines = Object.entries(sources)
     .filter(([, { from }]) => from.length > 0)
-    .map(([name, { from, unit, combine, sign, offset, delay }]) => {
+    .map(([name, { from, unit, combine, sign, offset, delay, at }]) => {
       const more = [
         `from: ${JSON.stringify(from.length === 1 ? from[0] : from)}`,
         unit ? `unit: ${JSON.stringify(unit)}` : "",
@@ -133,6 +146,7 @@ export function mappingText(sources: Readonly<Record<string, SourceEntry>>, dbc:
         sign === -1 ? "sign: -1" : "",
         offset ? `offset: ${offset}` : "",
         delay ? `delay: ${delay}` : "",
+        at ? `at: [${at.join(", ")}]` : "",
       ];
       return `  ${name}: {${more.filter(Boolean).join(", ")}}`;
     });

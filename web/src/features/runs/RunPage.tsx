@@ -5,10 +5,11 @@ import { useQuery } from "@tanstack/react-query";
 import { Link, useNavigate } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
-import { explanations, kinds as kindsQuery, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
+import { beyond as beyondQuery, explanations, kinds as kindsQuery, run as runQuery, runs as runsQuery, trace } from "../../api/queries";
 import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
+import { beyondOf } from "../../model/beyond";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
 import { goalsOf, type Wanted } from "../../model/goal";
@@ -334,6 +335,8 @@ interface ChartProps {
 function QuantityChart({ run, shown: { name, label, unit }, all, zoom, lead }: ChartProps) {
   const dark = useDark();
   const channels = useMemo(() => drawn(name, all), [name, all]);
+  const { data: spanned } = useQuery(beyondQuery(run));
+  const beyond = useMemo(() => beyondOf(spanned, channels.map((channel) => parts(channel).vehicle)), [spanned, channels]);
   const { data, error } = useQuery(trace(run.run, channels, { span: zoom.span, grows: isLive(run.status) }));
   const lines = useMemo<Line[]>(() => {
     const vehicles = vehiclesOf(all);
@@ -351,7 +354,7 @@ function QuantityChart({ run, shown: { name, label, unit }, all, zoom, lead }: C
   if (!data) return <Loading what="the trace" />;
   return (
     <div className={classes.chart}>
-      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" zoom={zoom} lead={lead} />
+      <TimeChart title={label} unit={unit} lines={lines} data={columns} sync="run" zoom={zoom} lead={lead} beyond={beyond} />
     </div>
   );
 }

@@ -6,6 +6,7 @@ import { useGlossary } from "../../api/glossary";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { type Curve, XYChart } from "../../charts/XYChart";
 import type { Zoom } from "../../charts/zoom";
+import { beyondOf, type Spanned } from "../../model/beyond";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import {
   type Layout,
@@ -42,6 +43,8 @@ interface Shared {
   zoom: Zoom;
   /** The scenario of the run, for its goals. */
   document: Json | undefined;
+  /** Where vehicles were outside their validated span. */
+  spanned: readonly Spanned[] | undefined;
 }
 
 interface Props extends Omit<Shared, "samples"> {
@@ -118,7 +121,7 @@ interface ChartProps<Kind extends Setup> extends Shared {
   unitOf: (channel: string) => string;
 }
 
-function OverTime({ setup, onChange, tools, names, quantities, unitOf, samples, version, paints, document, ...chart }: ChartProps<TimeSetup>) {
+function OverTime({ setup, onChange, tools, names, quantities, unitOf, samples, version, paints, document, spanned, ...chart }: ChartProps<TimeSetup>) {
   const dark = useDark();
   const more = useMemo(() => setup.more.filter((name) => names.includes(name)), [setup, names]);
   const shown = useMemo(() => {
@@ -137,6 +140,7 @@ function OverTime({ setup, onChange, tools, names, quantities, unitOf, samples, 
     [samples, shown, version],
   );
   const shades = useMemo(() => bandsOf(document, setup.quantity), [document, setup.quantity]);
+  const beyond = useMemo(() => beyondOf(spanned, shown.map((channel) => parts(channel).vehicle)), [spanned, shown]);
   return (
     <div className={classes.chart}>
       <TimeChart
@@ -149,6 +153,7 @@ function OverTime({ setup, onChange, tools, names, quantities, unitOf, samples, 
         height={60}
         rightUnit={right}
         shades={shades}
+        beyond={beyond}
         {...chart}
         lead={
           <>

@@ -88,7 +88,7 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
           blocked={form.blocked}
         />
       ) : null}
-      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} span={zoom.span} /> : null}
+      {active && head ? <Timeline head={head} events={shown.events} notes={scene.notes} active={active} span={zoom.span} spanned={shown.spanned} /> : null}
       <SceneView
         vehicles={scene.vehicles}
         attribution={scene.attribution}
@@ -112,6 +112,7 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
             layout={layout}
             onLayout={arrange}
             document={shown.detail?.document}
+            spanned={shown.spanned}
             version={shown.version}
             duration={duration}
             paints={scene.paints}

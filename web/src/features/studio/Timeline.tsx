@@ -3,6 +3,7 @@
 import { ActionIcon, NativeSelect, Slider, Text, Tooltip, VisuallyHidden } from "@mantine/core";
 import { memo, useMemo } from "react";
 import type { Span } from "../../charts/zoom";
+import { type Beyond, beyondOf, type Spanned } from "../../model/beyond";
 import type { RunEvent } from "../../model/run";
 import { formatNumber, formatTime } from "../../model/units";
 import { Icon, type IconName } from "../../ui/Icon";
@@ -20,9 +21,11 @@ interface Props {
   active: boolean;
   /** The stretch that the charts show [s]; none when they show all of it. */
   span: Span | undefined;
+  /** Where vehicles were outside their validated span. */
+  spanned: readonly Spanned[] | undefined;
 }
 
-export const Timeline = memo(function Timeline({ head, events, notes, active, span }: Props) {
+export const Timeline = memo(function Timeline({ head, events, notes, active, span, spanned }: Props) {
   const toEvent = (way: 1 | -1) => {
     const time = nextEvent(events, head.time, way);
     if (time !== undefined) head.seek(time);
@@ -38,6 +41,7 @@ export const Timeline = memo(function Timeline({ head, events, notes, active, sp
     },
     active,
   );
+  const beyond = useMemo(() => beyondOf(spanned), [spanned]);
   const step = `${formatNumber(Number((1000 * head.step).toFixed(3)))} ms`;
   return (
     <div className={classes.timeline} role="toolbar" aria-label="Playback">
@@ -49,7 +53,7 @@ export const Timeline = memo(function Timeline({ head, events, notes, active, sp
         <Press icon="right" label="Next event (])" onClick={() => toEvent(1)} />
       </ActionIcon.Group>
       <Speed head={head} />
-      <Scrubber head={head} events={events} />
+      <Scrubber head={head} events={events} beyond={beyond} />
       <Moment head={head} />
       <Stretch head={head} span={span} active={active} />
       {notes.length ? (
@@ -103,26 +107,43 @@ function Speed({ head }: { head: Playhead }) {
   );
 }
 
-function Scrubber({ head, events }: { head: Playhead; events: readonly RunEvent[] }) {
+function Scrubber({ head, events, beyond }: { head: Playhead; events: readonly RunEvent[]; beyond: Beyond | undefined }) {
   const time = useMoment(head, 0.01) ?? head.begin;
   const marks = useMemo(
     () => [...new Set(events.map((event) => event.time))].map((value) => ({ value })),
     [events],
   );
   return (
-    <Slider
-      className={classes.scrubber}
-      size="sm"
-      min={head.begin}
-      max={head.end}
-      step={head.step}
-      value={time}
-      onChange={head.seek}
-      marks={marks}
-      restrictToMarks={false}
-      label={(value) => `${formatTime(value)} s`}
-      thumbLabel="Time of the playback"
-    />
+    <div className={classes.scrubber}>
+      <Slider
+        size="sm"
+        min={head.begin}
+        max={head.end}
+        step={head.step}
+        value={time}
+        onChange={head.seek}
+        marks={marks}
+        restrictToMarks={false}
+        label={(value) => `${formatTime(value)} s`}
+        thumbLabel="Time of the playback"
+      />
+      {beyond ? <Outside beyond={beyond} begin={head.begin} end={head.end} /> : null}
+    </div>
+  );
+}
+
+/** Under the slider, when a vehicle was outside the span that it was validated for. */
+function Outside({ beyond, begin, end }: { beyond: Beyond; begin: number; end: number }) {
+  const share = (time: number) => (100 * (Math.min(Math.max(time, begin), end) - begin)) / Math.max(end - begin, 1e-9);
+  const told = `Outside its validated span: ${beyond.worst}`;
+  return (
+    <Tooltip label={`Outside the validated span.\n${beyond.all}`} multiline maw={420} style={{ whiteSpace: "pre-line" }}>
+      <div className={classes.beyond} role="img" aria-label={told}>
+        {beyond.parts.map(([from, to]) => (
+          <span key={from} style={{ left: `${share(from)}%`, width: `max(2px, ${share(to) - share(from)}%)` }} />
+        ))}
+      </div>
+    </Tooltip>
   );
 }
 

@@ -29,6 +29,7 @@ export function useShownRun(run: number | undefined, layout: Layout, span: Span 
   useEffect(() => {
     if (lost) follow(undefined);
   }, [lost]);
+  const { data: spanned } = useQuery(queries.beyond(detail));
   const samples = useStoredSamples(live ? undefined : detail, layout, span);
   return {
     live,
@@ -37,6 +38,7 @@ export function useShownRun(run: number | undefined, layout: Layout, span: Span 
     samples: live?.samples ?? samples,
     version: live?.version ?? 0,
     events: live?.events ?? detail?.events ?? NONE,
+    spanned,
     progress: live ? fromLive(live) : detail ? fromStored(detail) : undefined,
   };
 }

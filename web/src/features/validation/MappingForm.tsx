@@ -1,16 +1,17 @@
-/** Which recorded signal is which of ours, in what unit, with what sign, offset and delay; kept as mapping.yaml of the project. */
+/** Which recorded signal is which of ours, in what unit, with what sign, offset, delay and place; kept as mapping.yaml of the project. */
 
 import { Button, NativeSelect, Text } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { usePatch, usePutFile, validationKinds } from "../../api/validations";
 import { words } from "../../model/units";
-import { guesses, type Kinds, type Mapping, mappingText, type Project, type Said, type SourceEntry, sourcesOf } from "../../model/validation";
+import { guesses, type Kinds, type Mapping, mappingText, PLACED, placedAt, type Project, type Said, type SourceEntry, sourcesOf } from "../../model/validation";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { notify, notifyError } from "../../ui/notify";
 import { Loading } from "../../ui/State";
 import classes from "./Validation.module.css";
 
+const AXES = ["x", "y", "z"] as const;
 const FILE = "mapping.yaml";
 
 interface Props {
@@ -59,6 +60,9 @@ function Form({ project, said, recorded, mapping, kinds, onSaved }: Props & { ki
               <th scope="col">Sign</th>
               <th scope="col">At rest it shows</th>
               <th scope="col">Comes late by</th>
+              <th scope="col" title="Forward, left and up from the centre of gravity; what it shows is brought there with the yaw rate">
+                Sits at x, y, z [m]
+              </th>
             </tr>
           </thead>
           <tbody>
@@ -126,6 +130,24 @@ function Form({ project, said, recorded, mapping, kinds, onSaved }: Props & { ki
                       onNumber={(delay) => set(name, { delay })}
                       onEmpty={() => set(name, { delay: 0 })}
                     />
+                  </td>
+                  <td>
+                    {PLACED.has(name) ? (
+                      <div className={classes.place}>
+                        {AXES.map((axis, i) => (
+                          <NumberEntry
+                            key={axis}
+                            size="xs"
+                            w={64}
+                            aria-label={`${axis} of the sensor of ${words(name)}`}
+                            disabled={off}
+                            value={source.at?.[i] ?? 0}
+                            onNumber={(value) => set(name, { at: placedAt(source.at, i, value) })}
+                            onEmpty={() => set(name, { at: placedAt(source.at, i, 0) })}
+                          />
+                        ))}
+                      </div>
+                    ) : null}
                   </td>
                 </tr>
               );

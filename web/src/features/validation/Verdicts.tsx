@@ -87,8 +87,10 @@ const UNITS: Readonly<Record<string, string>> = { speed: "m/s", yaw_rate: "rad/s
 
 function Span({ span }: { span: Spanned | null }) {
   if (!span) return <Text size="sm">Nothing is validated: no maneuver met all of its criteria.</Text>;
-  const parts = Object.entries(span).map(
-    ([name, [low, high]]) => `${words(name).toLowerCase()} ${formatNumber(low)} to ${formatNumber(high)} ${UNITS[name] ?? "m/s²"}`,
+  const parts = Object.entries(span).map(([name, [low, high]]) =>
+    low === high
+      ? `${words(name).toLowerCase()} not covered by any run`
+      : `${words(name).toLowerCase()} ${formatNumber(low)} to ${formatNumber(high)} ${UNITS[name] ?? "m/s²"}`,
   );
   return <Text size="sm">Validated span: {parts.join("; ")}.</Text>;
 }

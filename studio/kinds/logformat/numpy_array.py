@@ -16,8 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
-from studio.log.signal import Log, Signal, signal
+from studio.kind.log import Log, Signal, signal
 
+KIND = "logformat"
+TITLE = "Arrays of NumPy"
 SUFFIXES = (".npz", "/.npy", "/.txt")
 CLOCKS = ("t", "time", "time_s", "t_s")
 

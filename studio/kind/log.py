@@ -1,4 +1,7 @@
-"""What a log holds: signals over their own times, and what can be said of one: rate, gaps, range."""
+"""What a log holds, and a format of logs gives: signals over their own times, and what can be said of one: rate, gaps, range.
+
+Log(path.name, {"yaw rate": signal("yaw rate", "deg/s", times, values)})
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

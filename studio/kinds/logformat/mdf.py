@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
-from studio.log.signal import Log, Signal, signal
+from studio.kind.log import Log, Signal, signal
 
+KIND = "logformat"
+TITLE = "ASAM MDF"
 SUFFIXES = (".mf4", ".mdf")
 
 

@@ -15,9 +15,12 @@ from pathlib import Path
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
-from studio.log.signal import Log, signal
+from studio.kind.log import Log, signal
 
+KIND = "logformat"
+TITLE = "Table of text"
 SUFFIXES = (".csv", ".tsv", ".dat")
+SAMPLE = b"Time [s];Speed [km/h];Yaw rate [deg/s]\n0;72;0\n0,01;72,1;0,5\n0,02;72;0,9\n"
 SIZE_LIMIT = 500_000_000  # [B] unpacked
 MOST_HEAD = 20  # lines before the first numbers
 DAY = 86_400.0  # [s]

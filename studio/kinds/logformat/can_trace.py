@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from studio.errors import Problem, ScenarioError
-from studio.log.signal import Log, signal
+from studio.kind.log import Log, signal
 
+KIND = "logformat"
+TITLE = "Trace of a CAN bus"
 SUFFIXES = (".blf", ".asc")
 
 

@@ -1,0 +1,1 @@
+"""Formats of recorded drives, a file each."""
