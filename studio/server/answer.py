@@ -9,6 +9,7 @@ from studio.kind import registry
 from studio.kind.given import given
 from studio.kind.preset import presets
 from studio.scenario.text.patch import Operation, is_text
+from studio.store.runs import LARGEST_RUN
 
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
@@ -59,6 +60,7 @@ class Refusal(BaseModel):
     problems: list[Problem]
 
 
+MOST_SAID = 10_000  # runs of which something is said at once
 REFUSALS: dict[int | str, dict[str, Any]] = {
     400: {"model": Refusal, "description": "The body is no JSON."},
     401: {
@@ -371,6 +373,43 @@ class Verdict(BaseModel):
     reason: str
     who: str
     when: str = Field(description="UTC (ISO 8601)")
+
+
+class GivenVerdict(BaseModel):
+    """A verdict on one of many runs."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    run: int = Field(ge=1, le=LARGEST_RUN)
+    verdict: VerdictWord
+    reason: str = Field(description="why, in one line")
+
+
+class ManyVerdicts(BaseModel):
+    """What somebody decides about many runs at once."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    verdicts: list[GivenVerdict] = Field(min_length=1, max_length=MOST_SAID)
+    who: str = Field("", description="empty for the user of the machine that the server runs on")
+
+
+class Retag(BaseModel):
+    """Tags that are put on a run, and such that are taken off it."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    run: int = Field(ge=1, le=LARGEST_RUN)
+    add: list[str] = []
+    remove: list[str] = []
+
+
+class ManyTags(BaseModel):
+    """Changes of the tags of many runs."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    tags: list[Retag] = Field(max_length=MOST_SAID)
 
 
 class Remark(BaseModel):

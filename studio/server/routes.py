@@ -31,6 +31,7 @@ from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
 from studio.store.ledger import MEDIA as LEDGER_MEDIA
 from studio.store.ledger import Form, ledger
+from studio.store.many import Given, Retag, judge_all, retag
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
@@ -254,6 +255,20 @@ def run(run: int, kept: KeptRuns) -> answer.RunDetail:
 def judge_run(run: int, new: answer.NewVerdict, kept: KeptRuns) -> answer.Verdict:
     """Decides about a run that is over: a verdict stands behind those before it, and counts from now on."""
     return answer.Verdict(**judge(kept, run, new.verdict, new.reason, new.who).as_json())
+
+
+@router.post("/verdicts", status_code=201)
+def judge_runs(new: answer.ManyVerdicts, kept: KeptRuns) -> list[answer.Verdict]:
+    """Decides about many runs: about all of them or, when about one of them it cannot be decided, about none."""
+    given = [Given(each.run, each.verdict, each.reason) for each in new.verdicts]
+    return [answer.Verdict(**each.as_json()) for each in judge_all(kept, given, new.who)]
+
+
+@router.post("/tags")
+def tag_runs(new: answer.ManyTags, kept: KeptRuns) -> answer.ManyTags:
+    """Puts tags on runs and takes them off; what was changed by that, whose opposite takes it back. All of it is done, or nothing."""
+    wanted = [Retag(each.run, tuple(each.add), tuple(each.remove)) for each in new.tags]
+    return answer.ManyTags(tags=[answer.Retag(**each.as_json()) for each in retag(kept, wanted)])
 
 
 @router.put("/runs/{run}/remark")
