@@ -133,6 +133,29 @@ export function useRemark() {
   });
 }
 
+/** Decide about many runs, about all of them or none. */
+export function useJudgeMany() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: (verdicts: Server["GivenVerdict"][]) => answer(client.POST("/api/verdicts", { body: { verdicts, who: "" } })),
+    onSettled: () => saidOfMany(kept),
+  });
+}
+
+export type Retag = Server["Retag"];
+
+/** Put tags on many runs and take them off; what was changed by that. */
+export function useRetag() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: async (tags: Retag[]) => (await answer(client.POST("/api/tags", { body: { tags } }))).tags,
+    onSettled: () => saidOfMany(kept),
+  });
+}
+
+const saidOfMany = (kept: QueryClient) =>
+  Promise.all([["runs"], ["run"]].map((queryKey) => kept.invalidateQueries({ queryKey })));
+
 /** Something was said of a run: it and the table are asked anew. */
 const said = (kept: QueryClient, number: number) =>
   Promise.all([["runs"], ["run", number]].map((queryKey) => kept.invalidateQueries({ queryKey })));
