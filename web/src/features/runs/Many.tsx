@@ -5,7 +5,7 @@ import { notifications } from "@mantine/notifications";
 import { type FormEvent, useMemo, useState } from "react";
 import { type Retag, useJudgeMany, useRetag } from "../../api/queries";
 import type { ListedRun } from "../../model/run";
-import { apart, LONGEST, type Word, WORDS } from "../../model/verdict";
+import { apart, LONGEST, tagsOf, type Word, WORDS } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
 import { notify, notifyError } from "../../ui/notify";
 import classes from "./Runs.module.css";
@@ -105,16 +105,19 @@ function useVerdicts() {
 function TagsOfMany({ runs, all, onDone }: FormProps & { all: readonly ListedRun[] }) {
   const known = useMemo(() => [...new Set(all.flatMap(({ tags }) => tags))].sort(), [all]);
   const had = useMemo(() => [...new Set(runs.flatMap(({ tags }) => tags))].sort(), [runs]);
-  const [add, setAdd] = useState<string[]>([]);
+  const [put, setPut] = useState<string[]>([]);
+  const [typed, setTyped] = useState("");
   const [remove, setRemove] = useState<string[]>([]);
   const { change, busy } = useTags();
+  // What stands in the field and was not ended by Enter is meant too.
+  const add = tagsOf([...put, typed].join(","));
   const send = (event: FormEvent) => {
     event.preventDefault();
     if (add.length || remove.length) change(runs.map(({ run }) => ({ run, add, remove })), onDone);
   };
   return (
     <form onSubmit={send} aria-label={`Tags of ${many(runs)}`}>
-      <TagsInput size="xs" label="Put on" placeholder={add.length ? "" : "Enter or a comma ends a tag"} data={known} value={add} onChange={setAdd} acceptValueOnBlur data-autofocus />
+      <TagsInput size="xs" label="Put on" placeholder={put.length ? "" : "Enter or a comma ends a tag"} data={known} value={put} onChange={setPut} searchValue={typed} onSearchChange={setTyped} acceptValueOnBlur data-autofocus />
       <TagsInput
         size="xs"
         mt="xs"
