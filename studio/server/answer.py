@@ -60,6 +60,7 @@ class Refusal(BaseModel):
     problems: list[Problem]
 
 
+FIRST_STAGE, MOST_STAGES = 1, 8  # pages that show scenes of their own
 MOST_SAID = 10_000  # runs of which something is said at once
 REFUSALS: dict[int | str, dict[str, Any]] = {
     400: {"model": Refusal, "description": "The body is no JSON."},
@@ -695,6 +696,20 @@ class SideBySide(BaseModel):
     sources: list[SourceBeside]
 
 
+class WantedStage(BaseModel):
+    """The stage that a page had before it was loaded again; null for one that has none yet."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    wanted: int | None = Field(None, ge=FIRST_STAGE, le=MOST_STAGES)
+
+
+class AllottedStage(BaseModel):
+    """The stage that a page has to itself while its scene is connected."""
+
+    stage: int
+
+
 class OnStage(BaseModel):
     """What the scene is to show: a scenario as it would start, or a run: as it goes on, or as it was recorded."""
 
@@ -704,6 +719,7 @@ class OnStage(BaseModel):
     set: ChangesByPath = {}
     run: int | None = None
     ghosts: list[int] = Field([], max_length=7, description="other runs that are over, among the cars of the run that is played back")
+    stage: int = Field(FIRST_STAGE, ge=FIRST_STAGE, le=MOST_STAGES, description="on which stage; see `/api/stages`")
     align: str = Field("", description="kind of event whose first is at the same time in all of them; empty: by their clocks")
 
 
@@ -809,6 +825,7 @@ class Moment(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
+    stage: int = Field(FIRST_STAGE, ge=FIRST_STAGE, le=MOST_STAGES, description="on which stage; see `/api/stages`")
     run: int
     time: float = Field(description="[s]; before the first and after the last sample that of this", allow_inf_nan=False)
     layers: bool = Field(False, description="whether what can be drawn over the scene is wanted")

@@ -465,21 +465,28 @@ async def socket(browser: WebSocket, run: int) -> None:
         live.leave(listener)
 
 
+@router.post("/stages", status_code=201)
+def stage(new: answer.WantedStage, desk: AtDesk) -> answer.AllottedStage:
+    """Gives a page a stage to itself, whose scene is at `/scene/{stage}/`; the wanted one if nobody has it."""
+    return answer.AllottedStage(stage=desk.stages.allot(new.wanted))
+
+
 @router.post("/scene")
 def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneCast:
-    """Chooses what the scene shows."""
+    """Chooses what a scene shows."""
+    stage = desk.stages[wanted.stage]
     if wanted.run is not None:
         live = desk.lives.going(wanted.run)
         if live is None:
-            return answer.SceneCast(**desk.play(runs, wanted.run, tuple(wanted.ghosts), wanted.align))
-        return answer.SceneCast(**desk.stage.show(live.loaded, live))
+            return answer.SceneCast(**desk.play(runs, wanted.stage, wanted.run, tuple(wanted.ghosts), wanted.align))
+        return answer.SceneCast(**stage.show(live.loaded, live))
     if wanted.scenario is None:
         raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])
-    return answer.SceneCast(**desk.stage.show(desk.load(wanted.scenario, wanted.set)))
+    return answer.SceneCast(**stage.show(desk.load(wanted.scenario, wanted.set)))
 
 
 @router.put("/scene/time")
 def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
-    """Another time of the run that the scene plays back."""
-    played = desk.stage.seek(moment.run, moment.time)
+    """Another time of the run that a scene plays back."""
+    played = desk.stages[moment.stage].seek(moment.run, moment.time)
     return answer.Shown(shown=played is not None, layers=played.layers(moment.time) if played and moment.layers else None)

@@ -8,6 +8,7 @@ import yaml
 from playwright.sync_api import expect
 
 from tests.browser.browser import browser, drawn, watched
+from tests.patience import until
 from tests.server.server import served
 
 SIZE = {"width": 1280, "height": 800}
@@ -341,9 +342,8 @@ def test_corners_are_put_on_an_edge_and_taken_out(page, path):
     knob(page, "Corner 2 of area").focus()
     page.keyboard.press("ArrowRight")
     expect(page.get_by_role("button", name="Undo: Reshape area")).to_be_enabled()
-    page.wait_for_function("before => document.activeElement.style.left !== before", arg=knob(page, "Corner 2 of area").evaluate("e => e.style.left"))
-    moved = shaped(path)
-    assert moved[1] == [pytest.approx(after[1][0] + 0.5), after[1][1]]
+    until(lambda: shaped(path)[1] != after[1], "the corner to be moved")
+    assert shaped(path)[1] == [pytest.approx(after[1][0] + 0.5), after[1][1]]
     page.keyboard.press("Delete")
     expect(knob(page, "Corner 4 of area")).to_have_count(0)
     assert shaped(path) == before
@@ -365,13 +365,14 @@ def test_walls_go_from_corner_to_corner_and_each_by_its_ends(page, path):
     for east, south in ((60, -60), (140, -60), (140, 20)):
         page.mouse.click(x + east, y + south)
     page.keyboard.press("Enter")
-    done(page, "Add 2 things")
+    done(page, "Add 2 things", "wall_2")
     first, second = (document(path)["script"][name]["do"] for name in ("wall", "wall_2"))
     assert first["heading"] == 0 and second["heading"] == pytest.approx(-1.571, abs=0.01)
     # Where the one ends, the other begins.
     assert first["x"] + first["length"] / 2 == pytest.approx(second["x"], abs=0.02)
     assert second["y"] + second["length"] / 2 == pytest.approx(first["y"], abs=0.02)
     row(page, "wall").click()
+    expect(row(page, "wall_2", pressed=False)).to_be_visible()
     end = middle_of(knob(page, "End 1 of wall"))
     drag(page, end, (end[0] - 40, end[1]))
     done(page, "Reshape wall")

@@ -4,6 +4,7 @@ import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQuery
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import { numbersOf, type SideBySide } from "../model/beside";
+import { stage } from "./stage";
 import type { Check, Kinds, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
@@ -218,8 +219,10 @@ const haunted = ({ run, ghosts, align }: { run: number; ghosts: string; align: s
 export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean; ghosts: string; align: string }) =>
   queryOptions({
     queryKey: ["scene", what],
-    queryFn: () =>
-      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run, ...haunted(what) } : { set: {}, ghosts: [], align: "", ...what } })),
+    queryFn: async () => {
+      const shown = "run" in what ? { set: {}, run: what.run, ...haunted(what) } : { set: {}, ghosts: [], align: "", ...what };
+      return answer(client.POST("/api/scene", { body: { stage: await stage(), ...shown } }));
+    },
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,

@@ -644,6 +644,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/stages": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stage
+         * @description Gives a page a stage to itself, whose scene is at `/scene/{stage}/`; the wanted one if nobody has it.
+         */
+        post: operations["stage_api_stages_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/scene": {
         parameters: {
             query?: never;
@@ -655,7 +675,7 @@ export interface paths {
         put?: never;
         /**
          * Scene
-         * @description Chooses what the scene shows.
+         * @description Chooses what a scene shows.
          */
         post: operations["scene_api_scene_post"];
         delete?: never;
@@ -674,7 +694,7 @@ export interface paths {
         get?: never;
         /**
          * Scene Time
-         * @description Another time of the run that the scene plays back.
+         * @description Another time of the run that a scene plays back.
          */
         put: operations["scene_time_api_scene_time_put"];
         post?: never;
@@ -1465,6 +1485,14 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * AllottedStage
+         * @description The stage that a page has to itself while its scene is connected.
+         */
+        AllottedStage: {
+            /** Stage */
+            stage: number;
+        };
         /**
          * Beside
          * @description What differs between several runs: a value of each, in their order, null where a run has none.
@@ -3245,6 +3273,12 @@ export interface components {
          * @description A time of a run that the scene plays back.
          */
         Moment: {
+            /**
+             * Stage
+             * @description on which stage; see `/api/stages`
+             * @default 1
+             */
+            stage: number;
             /** Run */
             run: number;
             /**
@@ -3649,6 +3683,12 @@ export interface components {
              * @default []
              */
             ghosts: number[];
+            /**
+             * Stage
+             * @description on which stage; see `/api/stages`
+             * @default 1
+             */
+            stage: number;
             /**
              * Align
              * @description kind of event whose first is at the same time in all of them; empty: by their clocks
@@ -4940,6 +4980,14 @@ export interface components {
              * @description UTC (ISO 8601)
              */
             when: string;
+        };
+        /**
+         * WantedStage
+         * @description The stage that a page had before it was loaded again; null for one that has none yet.
+         */
+        WantedStage: {
+            /** Wanted */
+            wanted?: number | null;
         };
         /**
          * Way
@@ -9425,6 +9473,129 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["News"];
+                };
+            };
+        };
+    };
+    stage_api_stages_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WantedStage"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AllottedStage"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
                 };
             };
         };
