@@ -1,16 +1,12 @@
 """Stages: a page has one to itself while its scene is connected, and gets the same again; what one shows is nobody else's."""
 
-import asyncio
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-import viser
-import websockets
 
 from studio.errors import ConflictError
 from studio.server.answer import MOST_STAGES
 from studio.server.stages import Stages
-from tests.patience import PATIENCE
 from tests.server.server import served
 
 
@@ -43,28 +39,6 @@ def test_more_pages_than_stages_are_told_so():
 def client(tmp_path_factory, sample):
     with served(tmp_path_factory.mktemp("stages"), "--scenarios", sample.parent) as (found, _, _):
         yield found
-
-
-def test_two_pages_show_two_scenarios(client, sample):
-    def show(stage, scenario):
-        return client.post("/api/scene", json={"stage": stage, "scenario": scenario}).json()["map"]
-
-    one, other = show(1, "cacc_brake"), show(2, "urban_grid")
-    assert one and other and one != other
-
-    async def maps():
-        return [await shown(stage) for stage in ("/scene", "/scene/2")]
-
-    async def shown(path):
-        url = str(client.base_url).replace("http", "ws", 1) + path
-        options = {"open_timeout": PATIENCE, "max_size": None, "proxy": None}
-        async with websockets.connect(url, subprotocols=[f"viser-v{viser.__version__}"], **options) as socket:
-            seen = b""
-            while b"/map/" not in seen:
-                seen = await asyncio.wait_for(socket.recv(), PATIENCE)
-            return [digest for digest in (one, other) if digest.encode() in seen]
-
-    assert asyncio.run(maps()) == [[one], [other]]
 
 
 def test_a_stage_that_there_is_not_is_refused(client):
