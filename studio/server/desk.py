@@ -28,6 +28,7 @@ from studio.server.validation import Projects
 from studio.server.validation.job import ProjectJobs
 from studio.server.worker import Order, pace_factor
 from studio.store import queue
+from studio.store.backup import edits_of
 from studio.store.runs import Row, Runs, reopen_runs
 from studio.warmup import Warmup
 
@@ -46,7 +47,7 @@ class Desk:
         self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
         self.scenario_files = Scenarios(self.documents)
-        self.editing = Editing(self.documents, History(self.db.with_name(f"{self.db.stem}.edits.db")))
+        self.editing = Editing(self.documents, History(edits_of(self.db)))
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
