@@ -251,6 +251,24 @@ class Kind(BaseModel):
     presets: list[Preset]
 
 
+class Slip(BaseModel):
+    """What Python cannot read in a file."""
+
+    line: int = Field(description="from 1 on")
+    column: int = Field(description="from 1 on")
+    what: str
+
+
+class Manuscript(BaseModel):
+    """The file of a kind, as it stands on the disk now. It is only read: what a browser sends is never run."""
+
+    file: str = Field(description="where it lies on the server's machine; empty of a kind in no file")
+    text: str
+    loaded: bool = Field(description="whether that is the text that the studio has loaded")
+    missing: str = Field(description="why the file cannot be read, and the text is what was loaded; empty when it can")
+    slips: list[Slip]
+
+
 class BrokenKind(BaseModel):
     """A file that gave no kind, and why."""
 

@@ -1,6 +1,7 @@
 """REST under /api. Every route calls the function that the command line calls too."""
 
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
@@ -21,6 +22,7 @@ from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.listing import listing
 from studio.server.live import Listener, plain
+from studio.server.manuscript import manuscript
 from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
@@ -168,6 +170,13 @@ def expected(if_match: str | None) -> str | None:
 def kinds() -> answer.Kinds:
     """All kinds with the schemas of their settings, sort by sort, and the files that are broken."""
     return answer.Kinds(kinds=list(map(answer.kind, registry.every())), broken=list(map(answer.broken_kind, registry.broken())))
+
+
+@router.get("/kinds/{sort}/{name}/source")
+def kind_source(sort: str, name: str) -> answer.Manuscript:
+    """The file of a kind as it stands now, with what Python cannot read in it."""
+    found = manuscript(registry.find(sort, name))
+    return answer.Manuscript(**asdict(found))
 
 
 @router.get("/glossary")

@@ -26,6 +26,16 @@ export const kinds = queryOptions({
   staleTime: Number.POSITIVE_INFINITY,
 });
 
+export type Manuscript = Server["Manuscript"];
+
+/** The file of a kind, which somebody may be writing in: asked again while it is looked at. */
+export const manuscript = (sort: string, name: string) =>
+  queryOptions({
+    queryKey: ["manuscript", sort, name],
+    queryFn: () => answer(client.GET("/api/kinds/{sort}/{name}/source", { params: { path: { sort, name } } })),
+    refetchInterval: 2000,
+  });
+
 /** What channels and metrics are called, and what they mean; it stays for as long as the server runs. */
 export const glossary = queryOptions({
   queryKey: ["glossary"],

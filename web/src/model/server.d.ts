@@ -116,6 +116,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/kinds/{sort}/{name}/source": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Kind Source
+         * @description The file of a kind as it stands now, with what Python cannot read in it.
+         */
+        get: operations["kind_source_api_kinds__sort___name__source_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/glossary": {
         parameters: {
             query?: never;
@@ -1071,7 +1091,7 @@ export interface paths {
         put?: never;
         /**
          * Restore
-         * @description Brings a deleted scenario back, under its name or another one.
+         * @description Brings a deleted scenario back with the history of its edits, under its name or another one.
          */
         post: operations["restore_api_trash__entry__restore_post"];
         delete?: never;
@@ -2763,6 +2783,31 @@ export interface components {
             fed: string[];
             /** Judged */
             judged: string[];
+        };
+        /**
+         * Manuscript
+         * @description The file of a kind, as it stands on the disk now. It is only read: what a browser sends is never run.
+         */
+        Manuscript: {
+            /**
+             * File
+             * @description where it lies on the server's machine; empty of a kind in no file
+             */
+            file: string;
+            /** Text */
+            text: string;
+            /**
+             * Loaded
+             * @description whether that is the text that the studio has loaded
+             */
+            loaded: boolean;
+            /**
+             * Missing
+             * @description why the file cannot be read, and the text is what was loaded; empty when it can
+             */
+            missing: string;
+            /** Slips */
+            slips: components["schemas"]["Slip"][];
         };
         /**
          * ManyTags
@@ -4727,6 +4772,24 @@ export interface components {
             units: string[];
         };
         /**
+         * Slip
+         * @description What Python cannot read in a file.
+         */
+        Slip: {
+            /**
+             * Line
+             * @description from 1 on
+             */
+            line: number;
+            /**
+             * Column
+             * @description from 1 on
+             */
+            column: number;
+            /** What */
+            what: string;
+        };
+        /**
          * SourceBeside
          * @description What a run has used in another form than the first one: a unified diff, or `only` the run that has used it at all.
          */
@@ -5921,6 +5984,128 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Kinds"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    kind_source_api_kinds__sort___name__source_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sort: string;
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Manuscript"];
                 };
             };
             /** @description The body is no JSON. */

@@ -11,6 +11,7 @@ import { Icon } from "../../ui/Icon";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Kinds.module.css";
+import { SourceView } from "./SourceView";
 
 export function KindsPage() {
   const { data, error, refetch } = useQuery(kinds);
@@ -88,7 +89,19 @@ function Entry({ kind }: { kind: KnownKind }) {
         <p className={classes.description}>{description}</p>
         <Settings kind={kind} />
         <Gives kind={kind} />
+        <Source kind={kind} />
       </div>
+    </details>
+  );
+}
+
+/** Its file, asked for when it is opened. */
+function Source({ kind }: { kind: KnownKind }) {
+  const [open, setOpen] = useState(false);
+  return (
+    <details onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary className={classes.opener}>Source</summary>
+      {open ? <SourceView kind={kind} /> : null}
     </details>
   );
 }
