@@ -6,9 +6,7 @@ It is only read. What a browser sends is never run, so a kind is written in an e
 
 import ast
 from dataclasses import dataclass
-from pathlib import Path
 
-from studio.errors import short
 from studio.kind.registry import Kind
 
 LONGEST = 400_000  # letters that are shown of a file
@@ -42,14 +40,11 @@ def manuscript(kind: Kind) -> Manuscript:
         return Manuscript("", known, True, "it stands in no file", ())
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        return Manuscript(str(path), known[:LONGEST], True, short(str(error)), ())
-    return Manuscript(str(path), text[:LONGEST], is_loaded(text, path, kind), "", slips(text))
-
-
-def is_loaded(text: str, path: Path, kind: Kind) -> bool:
-    """Whether a text is what was loaded of its file; of a built-in, whose texts nobody keeps, it is taken for that."""
-    return path.name not in kind.texts or kind.texts[path.name] == text
+    except OSError as error:
+        return Manuscript(str(path), known[:LONGEST], True, error.strerror or str(error), ())
+    except UnicodeDecodeError:
+        return Manuscript(str(path), known[:LONGEST], True, "it is no text in UTF-8", ())
+    return Manuscript(str(path), text[:LONGEST], text == known, "", slips(text))
 
 
 def slips(text: str) -> tuple[Slip, ...]:

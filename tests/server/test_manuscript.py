@@ -35,7 +35,7 @@ def test_the_text_is_that_of_the_file_and_follows_it(studio):
     assert (slip["line"], slip["column"]) == (1, 13) and slip["what"]
     file.unlink()
     gone = told(client)
-    assert gone["text"] == FLAWLESS and "flawless.py" in gone["missing"]
+    assert gone["text"] == FLAWLESS and "No such file" in gone["missing"]
 
 
 def test_a_built_in_kind_has_a_file_and_a_strange_one_is_refused(studio):
