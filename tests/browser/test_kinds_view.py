@@ -116,7 +116,7 @@ def test_the_source_follows_the_file_and_tells_what_python_cannot_read(page, stu
     page.goto(f"{studio[2].base_url}/kinds")
     entry = page.get_by_test_id("kind-sensor.flawless")
     entry.locator("summary").first.click()
-    entry.get_by_text("Source", exact=True).click()
+    entry.get_by_role("button", name="Source").click()
     source = entry.get_by_role("region", name="Source of flawless")
     expect(source).to_contain_text(str(file))
     expect(source.get_by_role("status")).to_have_count(0)

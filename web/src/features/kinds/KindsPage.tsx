@@ -99,10 +99,12 @@ function Entry({ kind }: { kind: KnownKind }) {
 function Source({ kind }: { kind: KnownKind }) {
   const [open, setOpen] = useState(false);
   return (
-    <details onToggle={(event) => setOpen(event.currentTarget.open)}>
-      <summary className={classes.opener}>Source</summary>
+    <>
+      <button type="button" className={classes.opener} aria-expanded={open} onClick={() => setOpen(!open)}>
+        <Icon name={open ? "down" : "right"} size={12} /> Source
+      </button>
       {open ? <SourceView kind={kind} /> : null}
-    </details>
+    </>
   );
 }
 
