@@ -108,6 +108,7 @@ def done(page, name, chosen=None):
     expect(page.get_by_role("button", name=f"Undo: {name}")).to_be_enabled()
     if chosen:
         expect(row(page, chosen, pressed=True)).to_be_visible()
+        drawn(page)  # the list of what happens may have become longer, and the plan lower
 
 
 def document(path):
