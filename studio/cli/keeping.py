@@ -23,7 +23,8 @@ def backup(
 ) -> None:
     """Copies the run database to one file, also while it is in use: all runs with traces, events, messages, and texts of their kinds.
 
-    Results that wait beside it are in the copy; of a run that goes on, only that it has begun.
+    Results that wait beside it are in the copy; of a run that goes on, only that it has begun. The history of edits of scenarios is
+    copied beside it.
     """
     with progress("copying") as report:
         from studio.store.backup import back_up, stamp

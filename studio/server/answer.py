@@ -9,6 +9,7 @@ from studio.kind import registry
 from studio.kind.given import given
 from studio.kind.preset import presets
 from studio.scenario.text.patch import Operation, is_text
+from studio.store.runs import LARGEST_RUN
 
 Pace = float | Literal["fast"]
 Better = Literal["a", "b", "same"] | None
@@ -59,6 +60,8 @@ class Refusal(BaseModel):
     problems: list[Problem]
 
 
+FIRST_STAGE, MOST_STAGES = 1, 8  # pages that show scenes of their own
+MOST_SAID = 10_000  # runs of which something is said at once
 REFUSALS: dict[int | str, dict[str, Any]] = {
     400: {"model": Refusal, "description": "The body is no JSON."},
     401: {
@@ -248,6 +251,24 @@ class Kind(BaseModel):
     presets: list[Preset]
 
 
+class Slip(BaseModel):
+    """What Python cannot read in a file."""
+
+    line: int = Field(description="from 1 on")
+    column: int = Field(description="from 1 on")
+    what: str
+
+
+class Manuscript(BaseModel):
+    """The file of a kind, as it stands on the disk now. It is only read: what a browser sends is never run."""
+
+    file: str = Field(description="where it lies on the server's machine; empty of a kind in no file")
+    text: str
+    loaded: bool = Field(description="whether that is the text that the studio has loaded")
+    missing: str = Field(description="why the file cannot be read, and the text is what was loaded; empty when it can")
+    slips: list[Slip]
+
+
 class BrokenKind(BaseModel):
     """A file that gave no kind, and why."""
 
@@ -371,6 +392,43 @@ class Verdict(BaseModel):
     reason: str
     who: str
     when: str = Field(description="UTC (ISO 8601)")
+
+
+class GivenVerdict(BaseModel):
+    """A verdict on one of many runs."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    run: int = Field(ge=1, le=LARGEST_RUN)
+    verdict: VerdictWord
+    reason: str = Field(description="why, in one line")
+
+
+class ManyVerdicts(BaseModel):
+    """What somebody decides about many runs at once."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    verdicts: list[GivenVerdict] = Field(min_length=1, max_length=MOST_SAID)
+    who: str = Field("", description="empty for the user of the machine that the server runs on")
+
+
+class Retag(BaseModel):
+    """Tags that are put on a run, and such that are taken off it."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    run: int = Field(ge=1, le=LARGEST_RUN)
+    add: list[str] = []
+    remove: list[str] = []
+
+
+class ManyTags(BaseModel):
+    """Changes of the tags of many runs."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    tags: list[Retag] = Field(max_length=MOST_SAID)
 
 
 class Remark(BaseModel):
@@ -676,6 +734,20 @@ class SideBySide(BaseModel):
     sources: list[SourceBeside]
 
 
+class WantedStage(BaseModel):
+    """The stage that a page had before it was loaded again; null for one that has none yet."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    wanted: int | None = Field(None, ge=FIRST_STAGE, le=MOST_STAGES)
+
+
+class AllottedStage(BaseModel):
+    """The stage that a page has to itself while its scene is connected."""
+
+    stage: int
+
+
 class OnStage(BaseModel):
     """What the scene is to show: a scenario as it would start, or a run: as it goes on, or as it was recorded."""
 
@@ -685,6 +757,7 @@ class OnStage(BaseModel):
     set: ChangesByPath = {}
     run: int | None = None
     ghosts: list[int] = Field([], max_length=7, description="other runs that are over, among the cars of the run that is played back")
+    stage: int = Field(FIRST_STAGE, ge=FIRST_STAGE, le=MOST_STAGES, description="on which stage; see `/api/stages`")
     align: str = Field("", description="kind of event whose first is at the same time in all of them; empty: by their clocks")
 
 
@@ -790,6 +863,7 @@ class Moment(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
+    stage: int = Field(FIRST_STAGE, ge=FIRST_STAGE, le=MOST_STAGES, description="on which stage; see `/api/stages`")
     run: int
     time: float = Field(description="[s]; before the first and after the last sample that of this", allow_inf_nan=False)
     layers: bool = Field(False, description="whether what can be drawn over the scene is wanted")

@@ -28,6 +28,7 @@ from studio.errors import (
 )
 from studio.scenario.finding import MOST_TOLD, allowed
 from studio.server import relay, routes
+from studio.server.answer import FIRST_STAGE
 from studio.server.desk import Desk
 from studio.server.editing import routes as editing_routes
 from studio.server.maps import routes as map_routes
@@ -55,7 +56,7 @@ def create_app(desk: Desk) -> FastAPI:
     app.include_router(scenario_routes.router)
     app.include_router(validation_routes.router)
     app.include_router(editing_routes.router)
-    app.include_router(relay.router(lambda: desk.stage.scene.door))
+    app.include_router(relay.router(lambda stage: desk.stages[stage].scene.door, desk.stages.joined))
     app.add_route(
         "/api/{path:path}", no_such_route, methods=["GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", "TRACE"], include_in_schema=False
     )
@@ -74,13 +75,13 @@ async def lifespan(app: FastAPI) -> AsyncGenerator[None]:
     await asyncio.to_thread(desk.lives.close)
     await asyncio.to_thread(desk.map_jobs.close)
     await asyncio.to_thread(desk.project_jobs.close)
-    await asyncio.to_thread(desk.stage.scene.stop)
+    await asyncio.to_thread(desk.stages.close)
 
 
 def make_ready(desk: Desk) -> None:
     """Worker first: it gets ready while the scene is made."""
     desk.lives.make_ready()
-    desk.stage  # noqa: B018 - made by being looked at
+    desk.stages[FIRST_STAGE]  # made by being looked at
 
 
 STATUS = {UnknownError: 404, StaleError: 412, ConflictError: 409, SealedError: 403, StoreError: 503, SizeError: 413}

@@ -1,4 +1,4 @@
-"""What the routes work with: where scenarios, maps and runs are, the live runs, the imports, the stage."""
+"""What the routes work with: where scenarios, maps and runs are, the live runs, the imports, the stages."""
 
 import threading
 from collections.abc import Iterable, Mapping
@@ -23,18 +23,19 @@ from studio.server.maps import Maps
 from studio.server.maps.job import MapJobs
 from studio.server.replay import Replay, replay
 from studio.server.scenarios import Scenarios
-from studio.server.stage import Stage
+from studio.server.stages import Stages
 from studio.server.validation import Projects
 from studio.server.validation.job import ProjectJobs
 from studio.server.worker import Order, pace_factor
 from studio.store import queue
+from studio.store.backup import edits_of
 from studio.store.runs import Row, Runs, reopen_runs
 from studio.warmup import Warmup
 
 
 @dataclass
 class Desk:
-    """One server's work: paths, live runs, maps and their imports, stage."""
+    """One server's work: paths, live runs, maps and their imports, stages."""
 
     db: Path
     scenarios: Path
@@ -46,25 +47,18 @@ class Desk:
         self.lives = Lives(db=self.db, first=first, kinds=self.kinds, most=self.at_once, on_frame=self.on_frame)
         self.documents = Documents(self.scenarios)
         self.scenario_files = Scenarios(self.documents)
-        self.editing = Editing(self.documents, History(self.db.with_name(f"{self.db.stem}.edits.db")))
+        self.editing = Editing(self.documents, History(edits_of(self.db)))
         self.maps = Maps(self.scenarios)
         self.map_jobs = MapJobs(self.maps)
         self.warmup = Warmup()
         self.projects = Projects(self.scenarios)
         self.project_jobs = ProjectJobs(self.db, lambda: self.warmup.is_over, self.kinds)
-        self._stage: Stage | None = None
+        self.stages = Stages()
         self._lock = threading.Lock()
 
     def compiling(self) -> dict[str, Any] | None:
         """How far the warm-up is, while it goes on."""
         return None if self.warmup.is_over else asdict(self.warmup.progress())
-
-    @property
-    def stage(self) -> Stage:
-        """The scene, made when it is first wanted."""
-        with self._lock:
-            self._stage = self._stage or Stage()
-            return self._stage
 
     def settle(self) -> None:
         """Before something is written: the samples of an installed package are copied to ./scenarios, and from now on that is the folder.
@@ -90,8 +84,8 @@ class Desk:
             self.projects = Projects(own)
 
     def on_frame(self, live: LiveRun, frame: Frame) -> None:
-        """Frames go to the stage."""
-        self.stage.on_frame(live, frame)
+        """Frames go to the stages."""
+        self.stages.on_frame(live, frame)
 
     def files(self) -> dict[str, Path]:
         """Scenario files by id, the one that a newcomer sees first in front."""
@@ -166,11 +160,11 @@ class Desk:
         """A run that is over, for the scene. Raises UnknownError, StudioError for what its map or models do not give any more."""
         return replay(runs, run, self.scenarios / f"{runs.find(run).scenario}.yaml")
 
-    def play(self, runs: Runs, run: int, others: tuple[int, ...] = (), align: str = "") -> dict[str, Any]:
-        """Shows a run that is over, and others as its ghosts. Raises what `replay` raises, and UnknownError where they do not fit."""
+    def play(self, runs: Runs, stage: int, run: int, others: tuple[int, ...] = (), align: str = "") -> dict[str, Any]:
+        """Shows a run that is over, and others as its ghosts, on a stage; raises what `replay` raises, and UnknownError for unfit ones."""
         played = self.replay(runs, run)
         ghosts = haunting(played, [self.replay(runs, other) for other in others], align)
-        return self.stage.play(played, ghosts=ghosts)
+        return self.stages[stage].play(played, ghosts=ghosts)
 
     def start(self, scenario: str, *, changes: dict[str, Any], seed: int | None, parent: int | None,
               pace: Pace, paused: bool) -> LiveRun:  # fmt: skip

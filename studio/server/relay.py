@@ -5,14 +5,17 @@ The viser server listens on 127.0.0.1 only and lets in nobody who has not its ke
 
 import asyncio
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from typing import Annotated
 
 import websockets
-from fastapi import APIRouter, WebSocket
+from fastapi import APIRouter, Path, WebSocket
 from fastapi.responses import HTMLResponse, RedirectResponse
 from starlette.websockets import WebSocketDisconnect, WebSocketState
 from websockets.asyncio.client import ClientConnection
 
 from studio.scene import client
+from studio.server.answer import FIRST_STAGE, MOST_STAGES
 
 # opens a public tunnel to the viser server: nobody may ask for that
 FORBIDDEN = b"ShareUrlRequest"
@@ -26,8 +29,14 @@ UNSENDABLE = {1005, 1006, 1015}
 GOING_AWAY, TRY_AGAIN_LATER = 1001, 1013
 
 
-def router(door: Callable[[], tuple[int, dict[str, str]]]) -> APIRouter:
-    """Routes of the scene; `door` tells where the viser server listens on 127.0.0.1, and the headers that it wants."""
+Number = Annotated[int, Path(ge=FIRST_STAGE, le=MOST_STAGES)]
+
+
+def router(
+    door: Callable[[int], tuple[int, dict[str, str]]], joined: Callable[[int], AbstractContextManager[None]] = lambda stage: nullcontext()
+) -> APIRouter:
+    """Routes of the scenes, the first without its number; `door` tells where the viser server of a stage listens on 127.0.0.1, and the
+    headers that it wants; `joined` holds while a browser is connected."""
     routes = APIRouter(include_in_schema=False)
 
     @routes.get("/scene")
@@ -35,14 +44,24 @@ def router(door: Callable[[], tuple[int, dict[str, str]]]) -> APIRouter:
         return RedirectResponse("/scene/")
 
     @routes.get("/scene/")
-    def page() -> HTMLResponse:
+    def first() -> HTMLResponse:
+        return page(FIRST_STAGE)
+
+    @routes.get("/scene/{stage}/")
+    def page(stage: Number) -> HTMLResponse:
         return HTMLResponse(client.page(), headers={"Cache-Control": "no-cache", "Content-Security-Policy": POLICY})
 
     @routes.websocket("/scene")
     @routes.websocket("/scene/")
-    async def socket(browser: WebSocket) -> None:
-        port, headers = door()
-        await relay(browser, f"ws://127.0.0.1:{port}", headers)
+    async def first_socket(browser: WebSocket) -> None:
+        await socket(browser, FIRST_STAGE)
+
+    @routes.websocket("/scene/{stage}")
+    @routes.websocket("/scene/{stage}/")
+    async def socket(browser: WebSocket, stage: Number) -> None:
+        with joined(stage):
+            port, headers = await asyncio.to_thread(door, stage)
+            await relay(browser, f"ws://127.0.0.1:{port}", headers)
 
     return routes
 

@@ -1,6 +1,7 @@
 """REST under /api. Every route calls the function that the command line calls too."""
 
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Body, Depends, Header, Query, Request, WebSocket
@@ -22,6 +23,7 @@ from studio.server import answer
 from studio.server.desk import Desk, check_pace
 from studio.server.listing import listing
 from studio.server.live import Listener, plain
+from studio.server.manuscript import manuscript
 from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
@@ -32,6 +34,7 @@ from studio.store.explanation import explanation
 from studio.store.export import MEDIA, Format, export
 from studio.store.ledger import MEDIA as LEDGER_MEDIA
 from studio.store.ledger import Form, ledger
+from studio.store.many import Given, Retag, judge_all, retag
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
@@ -170,6 +173,13 @@ def kinds() -> answer.Kinds:
     return answer.Kinds(kinds=list(map(answer.kind, registry.every())), broken=list(map(answer.broken_kind, registry.broken())))
 
 
+@router.get("/kinds/{sort}/{name}/source")
+def kind_source(sort: str, name: str) -> answer.Manuscript:
+    """The file of a kind as it stands now, with what Python cannot read in it."""
+    found = manuscript(registry.find(sort, name))
+    return answer.Manuscript(**asdict(found))
+
+
 @router.get("/glossary")
 def glossary() -> answer.Glossary:
     """What channels and metrics are called, their units, and what they mean."""
@@ -255,6 +265,20 @@ def run(run: int, kept: KeptRuns) -> answer.RunDetail:
 def judge_run(run: int, new: answer.NewVerdict, kept: KeptRuns) -> answer.Verdict:
     """Decides about a run that is over: a verdict stands behind those before it, and counts from now on."""
     return answer.Verdict(**judge(kept, run, new.verdict, new.reason, new.who).as_json())
+
+
+@router.post("/verdicts", status_code=201)
+def judge_runs(new: answer.ManyVerdicts, kept: KeptRuns) -> list[answer.Verdict]:
+    """Decides about many runs: about all of them or, when about one of them it cannot be decided, about none."""
+    given = [Given(each.run, each.verdict, each.reason) for each in new.verdicts]
+    return [answer.Verdict(**each.as_json()) for each in judge_all(kept, given, new.who)]
+
+
+@router.post("/tags")
+def tag_runs(new: answer.ManyTags, kept: KeptRuns) -> answer.ManyTags:
+    """Puts tags on runs and takes them off; what was changed by that, whose opposite takes it back. All of it is done, or nothing."""
+    wanted = [Retag(each.run, tuple(each.add), tuple(each.remove)) for each in new.tags]
+    return answer.ManyTags(tags=[answer.Retag(**each.as_json()) for each in retag(kept, wanted)])
 
 
 @router.put("/runs/{run}/remark")
@@ -465,21 +489,28 @@ async def socket(browser: WebSocket, run: int) -> None:
         live.leave(listener)
 
 
+@router.post("/stages", status_code=201)
+def stage(new: answer.WantedStage, desk: AtDesk) -> answer.AllottedStage:
+    """Gives a page a stage to itself, whose scene is at `/scene/{stage}/`; the wanted one if nobody has it."""
+    return answer.AllottedStage(stage=desk.stages.allot(new.wanted))
+
+
 @router.post("/scene")
 def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneCast:
-    """Chooses what the scene shows."""
+    """Chooses what a scene shows."""
+    stage = desk.stages[wanted.stage]
     if wanted.run is not None:
         live = desk.lives.going(wanted.run)
         if live is None:
-            return answer.SceneCast(**desk.play(runs, wanted.run, tuple(wanted.ghosts), wanted.align))
-        return answer.SceneCast(**desk.stage.show(live.loaded, live))
+            return answer.SceneCast(**desk.play(runs, wanted.stage, wanted.run, tuple(wanted.ghosts), wanted.align))
+        return answer.SceneCast(**stage.show(live.loaded, live))
     if wanted.scenario is None:
         raise StudioError("Nothing to show.", [Problem("scene", "names nothing", "", "a scenario or a run")])
-    return answer.SceneCast(**desk.stage.show(desk.load(wanted.scenario, wanted.set)))
+    return answer.SceneCast(**stage.show(desk.load(wanted.scenario, wanted.set)))
 
 
 @router.put("/scene/time")
 def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
-    """Another time of the run that the scene plays back."""
-    played = desk.stage.seek(moment.run, moment.time)
+    """Another time of the run that a scene plays back."""
+    played = desk.stages[moment.stage].seek(moment.run, moment.time)
     return answer.Shown(shown=played is not None, layers=played.layers(moment.time) if played and moment.layers else None)

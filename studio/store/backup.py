@@ -3,7 +3,8 @@
     back_up(db, target)     a copy of all that is in it at one moment, and of the results that wait beside it
     restore(source, db)     a copy takes the place of a database, and the one before is kept beside it
 
-A backup is a run database like any other, in one file. What is recorded of a run that goes on is not in it: that has not come into
+A backup is a run database like any other, in one file; the history of edits of scenarios, where there is one, is copied to a file beside
+it and comes back with it. What is recorded of a run that goes on is not in it: that has not come into
 the database yet. A file is whole, or it is not there: both are made beside and renamed.
 """
 
@@ -43,8 +44,10 @@ def back_up(db: Path, target: Path, report: Report = lambda share: None) -> Copi
     """Copies a run database to a file that is not there yet. Raises StoreError, or UnknownError when there is no database."""
     with closing(opened(db)) as source:
         waits = [result for _, result in waiting.results(db)]  # before the copy: what goes in meanwhile is in one of both
-        if target.exists():
-            raise StoreError(f"{target} is there already.", [Problem("backup", "would be overwritten", str(target), "a new file", OTHER)])
+        for each in (target, edits_of(target)):
+            if each.exists():
+                raise StoreError(f"{each} is there already.", [Problem("backup", "would be overwritten", str(each), "a new file", OTHER)])
+        copy_edits(db, target)
         with made(target) as beside:
             copy(source, beside, target, report)
             with closing(Runs(beside, open_database(beside))) as runs:
@@ -66,7 +69,37 @@ def restore(source: Path, db: Path, *, replace: bool, report: Report = lambda sh
             open_database(beside).conn.close()  # brings one of an older layout up
             refuse_damage(beside, source)
             before = set_aside(db, is_whole) if db.exists() else None
+        bring_edits(source, db)
     return described(db, before)
+
+
+# -- the history of edits ----------------------------------------------------------------------------
+
+
+def edits_of(db: Path) -> Path:
+    """Where the history of edits of scenarios lies that belongs to a run database."""
+    return db.with_name(f"{db.stem}.edits.db")
+
+
+def copy_edits(db: Path, target: Path) -> bool:
+    """Copies the history of edits beside one database beside another, in the place of what is there; whether there is one."""
+    edits = edits_of(db)
+    if not edits.is_file():
+        return False
+    with made(edits_of(target)) as beside, closing(connected(edits)) as source:
+        copy(source, beside, edits_of(target), lambda share: None)
+    return True
+
+
+def bring_edits(source: Path, db: Path) -> None:
+    """The history of edits that a backup has beside it takes the place of that of the database, which is kept beside."""
+    here = edits_of(db)
+    if not edits_of(source).is_file():
+        return
+    if here.exists():
+        with closing(connected(here)) as found, made(free(here.with_name(f"{here.name}.before-{stamp()}"))) as beside:
+            copy(found, beside, here, lambda share: None)
+    copy_edits(source, db)
 
 
 # -- what is looked at first -------------------------------------------------------------------------

@@ -49,23 +49,22 @@ def judge(runs: Runs, run: int, verdict: str, reason: str, who: str = "") -> Ver
     Raises StudioError for a run that goes on, a candidate that did not come to its end, a verdict that there is not, and a reason that
     says nothing or is no line; UnknownError when there is no such run.
     """
-    check(verdict in VERDICTS, "verdict", "is none", verdict, ", ".join(VERDICTS))
-    status = runs.find(run).status
-    check(
-        status not in UNFINISHED, "verdict", "is about a run that is not over", status, "a run that is over", "wait for its end, or stop it"
-    )
-    check(
-        verdict != CANDIDATE or status == "done",
-        "verdict",
-        "is candidate, but the run did not come to its end",
-        status,
-        "done",
-        "run it again",
-    )
-    made = Verdict(verdict, line(reason, "reason"), line(who or user(), "who"), datetime.now(UTC).isoformat(timespec="milliseconds"))
-    check(bool(made.reason), "reason", "is missing", "", "one line", "say why, for who reads it later")
+    made = checked(runs, run, verdict, reason, who)
     with runs.writing():
         runs.database.table("verdicts").insert({"run": run, **made.as_json()})
+    return made
+
+
+def checked(runs: Runs, run: int, verdict: str, reason: str, who: str) -> Verdict:
+    """A verdict that may be given, and is not yet; raises what `judge` raises."""
+    check(verdict in VERDICTS, "verdict", "is none", verdict, ", ".join(VERDICTS))
+    status = runs.find(run).status
+    what, remedy = f"is about run {run}, which is not over", "wait for its end, or stop it"
+    check(status not in UNFINISHED, "verdict", what, status, "a run that is over", remedy)
+    what = f"is candidate, but run {run} did not come to its end"
+    check(verdict != CANDIDATE or status == "done", "verdict", what, status, "done", "run it again")
+    made = Verdict(verdict, line(reason, "reason"), line(who or user(), "who"), datetime.now(UTC).isoformat(timespec="milliseconds"))
+    check(bool(made.reason), "reason", "is missing", "", "one line", "say why, for who reads it later")
     return made
 
 
@@ -78,14 +77,20 @@ def verdicts(runs: Runs, run: int) -> list[Verdict]:
 def remark(runs: Runs, run: int, *, name: str, tags: Sequence[str], note: str) -> Remark:
     """Sets name, tags and note of a run, all three; raises StudioError for what is too long or no line, and UnknownError."""
     runs.find(run)
-    check(len(tags) <= MOST_TAGS, "tags", "are too many", str(len(tags)), f"at most {MOST_TAGS}")
+    made = as_remark(name=name, tags=tags, note=note)
+    row = {"run": run, "name": made.name, "tags": json.dumps(made.tags, ensure_ascii=False), "note": made.note}
+    with runs.writing():
+        runs.database.table("remarks").insert(row, pk="run", replace=True)
+    return made
+
+
+def as_remark(*, name: str, tags: Sequence[str], note: str) -> Remark:
+    """A remark as it may be kept, each tag once; raises StudioError for what is too long or no line."""
     check(len(note) <= LONGEST_NOTE, "note", "is too long", f"{len(note)} letters", f"at most {LONGEST_NOTE}")
     kept = [line(each, f"tags[{i}]") for i, each in enumerate(tags)]
     check(all(kept), "tags", "has one that says nothing", "", "words")
     made = Remark(line(name, "name"), tuple(dict.fromkeys(kept)), storable(note, "note"))
-    row = {"run": run, "name": made.name, "tags": json.dumps(made.tags, ensure_ascii=False), "note": made.note}
-    with runs.writing():
-        runs.database.table("remarks").insert(row, pk="run", replace=True)
+    check(len(made.tags) <= MOST_TAGS, "tags", "are too many", str(len(made.tags)), f"at most {MOST_TAGS}")
     return made
 
 

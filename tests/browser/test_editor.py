@@ -8,6 +8,7 @@ import yaml
 from playwright.sync_api import expect
 
 from tests.browser.browser import browser, drawn, watched
+from tests.patience import until
 from tests.server.server import served
 
 SIZE = {"width": 1280, "height": 800}
@@ -107,6 +108,7 @@ def done(page, name, chosen=None):
     expect(page.get_by_role("button", name=f"Undo: {name}")).to_be_enabled()
     if chosen:
         expect(row(page, chosen, pressed=True)).to_be_visible()
+        drawn(page)  # the list of what happens may have become longer, and the plan lower
 
 
 def document(path):
@@ -306,6 +308,78 @@ def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
     done(page, "Reshape area")
     after = document(path)["script"]["area"]["when"]["area"]["corners"]
     assert after[1][0] > reshaped[1][0] + 5 and after[0] == reshaped[0] and after[2] == reshaped[2]
+
+
+def knob(page, name):
+    """A point of a shape, for the keyboard; its middle is where the plan draws it."""
+    return page.get_by_role("button", name=name, exact=True)
+
+
+def middle_of(found):
+    box = found.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def shaped(path):
+    """The corners of the area that a test has made."""
+    return document(path)["script"]["area"]["when"]["area"]["corners"]
+
+
+def test_corners_are_put_on_an_edge_and_taken_out(page, path):
+    add(page, "Area with a trigger")
+    x, y = spot(page, "vehicles.first")
+    for east, south in ((60, -60), (200, -60), (200, 40)):
+        page.mouse.click(x + east, y + south)
+    page.keyboard.press("Enter")
+    done(page, "Add area", "area")
+    before = shaped(path)
+    new = knob(page, "New corner of area behind corner 1")
+    start = middle_of(new)
+    drag(page, start, (start[0], start[1] - 60))
+    expect(knob(page, "Corner 4 of area")).to_be_attached()
+    after = shaped(path)
+    assert [after[0], *after[2:]] == before and after[1][1] > before[0][1] + 2  # to the north
+    # The keyboard: half a metre to the east, and out of it.
+    knob(page, "Corner 2 of area").focus()
+    page.keyboard.press("ArrowRight")
+    expect(page.get_by_role("button", name="Undo: Reshape area")).to_be_enabled()
+    until(lambda: shaped(path)[1] != after[1], "the corner to be moved")
+    assert shaped(path)[1] == [pytest.approx(after[1][0] + 0.5), after[1][1]]
+    page.keyboard.press("Delete")
+    expect(knob(page, "Corner 4 of area")).to_have_count(0)
+    assert shaped(path) == before
+    page.mouse.dblclick(*middle_of(knob(page, "Corner 1 of area")))  # three are the fewest
+    expect(page.get_by_role("alert").filter(has_text="The corner stays")).to_be_visible()
+    knob(page, "New corner of area behind corner 3").focus()
+    page.keyboard.press("Enter")
+    expect(knob(page, "Corner 4 of area")).to_be_attached()
+    last = shaped(path)[3]
+    assert last == [pytest.approx((before[2][axis] + before[0][axis]) / 2, abs=0.01) for axis in (0, 1)]
+    page.mouse.dblclick(*middle_of(knob(page, "Corner 4 of area")))
+    expect(knob(page, "Corner 4 of area")).to_have_count(0)
+    assert shaped(path) == before
+
+
+def test_walls_go_from_corner_to_corner_and_each_by_its_ends(page, path):
+    add(page, "Wall from corner to corner")
+    x, y = spot(page, "vehicles.first")
+    for east, south in ((60, -60), (140, -60), (140, 20)):
+        page.mouse.click(x + east, y + south)
+    page.keyboard.press("Enter")
+    done(page, "Add 2 things", "wall_2")
+    first, second = (document(path)["script"][name]["do"] for name in ("wall", "wall_2"))
+    assert first["heading"] == 0 and second["heading"] == pytest.approx(-1.571, abs=0.01)
+    # Where the one ends, the other begins.
+    assert first["x"] + first["length"] / 2 == pytest.approx(second["x"], abs=0.02)
+    assert second["y"] + second["length"] / 2 == pytest.approx(first["y"], abs=0.02)
+    row(page, "wall").click()
+    expect(row(page, "wall_2", pressed=False)).to_be_visible()
+    end = middle_of(knob(page, "End 1 of wall"))
+    drag(page, end, (end[0] - 40, end[1]))
+    done(page, "Reshape wall")
+    longer = document(path)["script"]["wall"]["do"]
+    assert longer["length"] > first["length"] + 2
+    assert longer["x"] + longer["length"] / 2 == pytest.approx(first["x"] + first["length"] / 2, abs=0.02)  # the other end stays
 
 
 def test_a_trigger_is_made_of_what_the_kinds_offer(page, path):

@@ -111,5 +111,26 @@ def test_5_the_kinds_are_listed(page):
         expect(own).to_contain_text(words)
 
 
+def test_the_source_follows_the_file_and_tells_what_python_cannot_read(page, studio, place):
+    file = place / "kinds" / "flawless.py"
+    page.goto(f"{studio[2].base_url}/kinds")
+    entry = page.get_by_test_id("kind-sensor.flawless")
+    entry.locator("summary").first.click()
+    entry.get_by_role("button", name="Source").click()
+    source = entry.get_by_role("region", name="Source of flawless")
+    expect(source).to_contain_text(str(file))
+    expect(source.get_by_role("status")).to_have_count(0)
+    try:
+        file.write_text("# mine\n" + FLAWLESS)
+        expect(source).to_contain_text("# mine")
+        expect(source.get_by_role("status")).to_contain_text("has changed since the studio was started")
+        file.write_text("def measure(:\n")
+        expect(source.get_by_role("status")).to_contain_text("Line 1:")
+        expect(source.locator("[data-wrong]")).to_have_count(1)
+    finally:
+        file.write_text(FLAWLESS)
+    expect(source.get_by_role("status")).to_have_count(0)
+
+
 def test_the_console_is_clean(studio):
     assert studio[1] == []

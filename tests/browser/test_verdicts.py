@@ -89,5 +89,52 @@ def test_4_the_table_shows_only_what_is_wanted(page, studio):
     expect(page.locator("tr[data-run]")).to_have_count(1)
 
 
+def heads(page):
+    return [each.get_attribute("data-heap") for each in page.locator("tr[data-heap]").all()]
+
+
+def test_5_the_runs_are_grouped_and_folded(page, studio):
+    page.goto(f"{studio[2].base_url}/runs")
+    page.get_by_role("combobox", name="Group by").click()
+    page.get_by_role("option", name="Verdict").click()
+    expect(page.locator("tr[data-heap]")).to_have_count(2)
+    assert heads(page) == ["Verdict open", "Verdict discarded"]
+    opened = page.locator("tr[data-heap='Verdict open']")
+    expect(opened).to_contain_text("2 runs")
+    expect(opened).to_contain_text("±")
+    opened.get_by_role("button", expanded=True).click()
+    expect(page.locator("tr[data-run]")).to_have_count(1)
+    page.reload()  # how they are grouped stands in the address
+    expect(page.locator("tr[data-heap]")).to_have_count(2)
+    expect(page.locator("tr[data-run]")).to_have_count(3)
+
+
+def test_6_many_runs_are_tagged_and_decided_about_at_once(page, studio):
+    client = studio[2]
+    page.get_by_role("checkbox", name="Select the runs of Verdict open").check()
+    bar = page.get_by_role("toolbar", name="Chosen runs")
+    expect(bar).to_contain_text("2 runs chosen")
+    bar.get_by_role("button", name="Tags").click()
+    page.get_by_role("dialog").get_by_role("combobox", name="Put on").fill("dry, slow,")
+    page.get_by_role("button", name="Change the tags of 2 runs").click()
+    expect(page.get_by_text("The tags of 2 runs are changed.")).to_be_visible()
+    assert [client.get(f"/api/runs/{run}").json()["tags"] for run in (1, 3)] == [["dry", "slow"]] * 2
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_text("The tags of 2 runs are as they were.")).to_be_visible()
+    assert [client.get(f"/api/runs/{run}").json()["tags"] for run in (1, 2, 3)] == [[], ["wet", "night"], []]
+    page.get_by_role("checkbox", name="Select all shown runs").check()
+    bar.get_by_role("button", name="Verdict").click()
+    dialog = page.get_by_role("dialog", name="Verdict on 3 runs")
+    dialog.get_by_label("Reason").fill("the idea does not work")
+    dialog.get_by_role("button", name="Decide about 3 runs").click()
+    expect(page.get_by_text("3 runs are discarded.")).to_be_visible()
+    assert [verdicts(client, run)[-1] for run in (1, 2, 3)] == [("discarded", "the idea does not work")] * 3
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_text("The verdict on 3 runs is taken back.")).to_be_visible()
+    assert [verdicts(client, run)[-1][0] for run in (1, 2, 3)] == ["open", "discarded", "open"]
+    page.get_by_role("button", name="Choose none").click()
+    expect(bar).to_be_hidden()
+
+
 def test_the_console_is_clean(studio):
     assert studio[1] == []

@@ -98,13 +98,25 @@ FIELDS = {
     "/api/scenarios/{scenario}/copy": {"name": "x"},
     "/api/runs/{run}/verdicts": {"verdict": "open", "reason": "none", "who": "nobody"},
     "/api/runs/{run}/remark": {"name": "x", "tags": ["y"], "note": "z"},
+    "/api/verdicts": {"verdicts": [{"run": 1, "verdict": "open", "reason": "none"}], "who": "nobody"},
+    "/api/tags": {"tags": [{"run": 1, "add": ["x"], "remove": ["y"]}]},
+    "/api/stages": {"wanted": 1},
     "/api/scene/time": {"run": 1, "time": 0.1},
     "/api/maps/download": {"place": "Nowhere", "bbox": None, "name": "x", "replace": False},
     "/api/maps/{map}/corrections": {"element": "way 20", "tags": {"lanes": "2"}, "remove": ["name"]},
 }
 WITHOUT_BODY = ("GET", "DELETE")
 LOST = {"scenario": "none"}  # what is deleted would be missing afterwards
-USUAL = {"run": "1", "scenario": "patched", "map": "motorway.xodr", "job": "1", "element": "way%2020", "entry": "1"}
+USUAL = {
+    "run": "1",
+    "scenario": "patched",
+    "map": "motorway.xodr",
+    "job": "1",
+    "element": "way%2020",
+    "entry": "1",
+    "sort": "application",
+    "name": "acc",
+}
 QUERY = {
     "limit": "10",
     "scenario": "patched",

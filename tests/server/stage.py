@@ -17,7 +17,7 @@ from tests.patience import PATIENCE, until
 def served(door: Callable[[], tuple[int, dict[str, str]]]) -> Iterator[int]:
     """Serves the scene whose viser server is behind door(); gives our own port."""
     app = FastAPI()
-    app.include_router(relay.router(door))
+    app.include_router(relay.router(lambda stage: door()))
     app.add_middleware(SameOrigin)
     listener = socket.create_server(("127.0.0.1", 0))
     config = uvicorn.Config(app, log_level="error", ws_per_message_deflate=False, ws_max_size=2**28)

@@ -386,3 +386,18 @@ def test_a_plan_and_a_way_over_rest(client):
     assert way.status_code == 200 and way.json()["roads"] == [lane["road"]]
     nowhere = client.post("/api/scenarios/motorway_platoon/way", json={"points": [[90000, 90000]]})
     assert nowhere.status_code == 200 and nowhere.json()["problem"]["problems"][0]["where"] == "point 1" and nowhere.json()["roads"] == []
+
+
+def test_the_history_of_a_deleted_file_comes_back_with_it_and_is_nobody_elses(desk, path):
+    edit(desk, path, "Move leader", 0, set=lead(path, 362))
+    text, scenario = path.read_text(), path.stem
+    gone = desk.scenario_files.delete(path, None)
+    desk.editing.follow(scenario, gone.id)
+    path.write_text(text)  # somebody makes a file of that name
+    assert desk.editing.history.changes(scenario) == []
+    path.unlink()
+    back = desk.scenario_files.restore(gone.id, "again")
+    desk.editing.follow(gone.id, back.stem)
+    assert [each.name for each in desk.editing.history.changes("again")] == ["Move leader"]
+    desk.editing.undo(back, NewTurn(base=1))
+    assert back.read_text() != text

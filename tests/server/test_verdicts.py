@@ -38,6 +38,20 @@ def test_a_remark_is_told_with_its_run(studio):
     assert {key: told[key] for key in said} == said and (row["name"], row["tags"]) == ("short gap", ["wet"])
 
 
+def test_many_are_decided_about_and_tagged_at_once(studio):
+    client, run = studio
+    given = {"verdicts": [{"run": run, "verdict": "open", "reason": "anew"}], "who": "Ada"}
+    client.put(f"/api/runs/{run}/remark", json={"tags": ["wet"]})
+    (verdict,) = client.post("/api/verdicts", json=given).json()
+    assert client.get(f"/api/runs/{run}").json()["verdicts"][-1] == verdict
+    made = client.post("/api/tags", json={"tags": [{"run": run, "add": ["far"], "remove": ["wet"]}]}).json()
+    had = client.get(f"/api/runs/{run}").json()
+    assert made == {"tags": [{"run": run, "add": ["far"], "remove": ["wet"]}]} and had["tags"] == ["far"]
+    both = [{"run": run, "verdict": "open", "reason": "x"}, {"run": 999, "verdict": "open", "reason": "x"}]
+    assert client.post("/api/verdicts", json={"verdicts": both}).status_code == 404
+    assert client.get(f"/api/runs/{run}").json()["verdicts"][-1] == verdict
+
+
 @pytest.mark.parametrize(
     ("body", "where"),
     [

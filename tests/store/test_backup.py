@@ -13,8 +13,9 @@ import pytest
 
 from studio.errors import StoreError, UnknownError
 from studio.provenance import Provenance
+from studio.server.editing.history import History
 from studio.store import backup, waiting
-from studio.store.backup import back_up, restore
+from studio.store.backup import back_up, edits_of, restore
 from studio.store.runs import KILLED, open_runs, read_runs
 from studio.store.tables import LAYOUT
 from tests.patience import PATIENCE
@@ -77,6 +78,22 @@ def test_a_backup_holds_everything_and_is_one_file(tmp_path):
     assert (copied.file, copied.runs, copied.newest, copied.going) == (target, 3, 3, []) and copied.size == target.stat().st_size
     assert content(target) == content(db)
     assert sorted(each.name for each in tmp_path.iterdir()) == ["copy.db", "runs.db"]
+
+
+def test_the_history_of_edits_goes_along(tmp_path):
+    db, target, other = database(tmp_path / "runs.db"), tmp_path / "copy.db", tmp_path / "other.db"
+    History(edits_of(db)).add("stern", "edit", "Move leader", "Ada", before="a: 1", after="a: 2")
+    back_up(db, target)
+    (change,) = History(edits_of(target)).changes("stern")
+    assert change.name == "Move leader" and History(edits_of(target)).text(change.after) == "a: 2"
+    with pytest.raises(StoreError, match=r"copy.edits.db|copy.db"):
+        back_up(db, target)
+    database(other)
+    History(edits_of(other)).add("stern", "edit", "Delete leader", "Ada", before="a: 2", after="")
+    restore(target, other, replace=True)
+    assert [each.name for each in History(edits_of(other)).changes("stern")] == ["Move leader"]
+    (before,) = tmp_path.glob("other.edits.db.before-*")
+    assert [each.name for each in History(before).changes("stern")] == ["Delete leader"]
 
 
 def test_it_is_of_one_moment_whoever_writes(tmp_path, monkeypatch):

@@ -8,6 +8,7 @@ import pytest
 
 from studio.cli import main
 from studio.errors import StudioError, UnknownError
+from studio.store.many import Given, Retag, judge_all, retag
 from studio.store.runs import open_runs, read_runs
 from studio.store.verdict import LONGEST_LINE, MOST_TAGS, VERDICTS, Remark, judge, remark, remark_of, verdicts
 from tests.store.test_backup import begun, database
@@ -137,3 +138,33 @@ def test_the_command_line_decides(db, capsys):
     rows = {each["run"]: each for each in json.loads(said(capsys, "runs", "--json", *place))}
     assert (rows[1]["verdict"], rows[1]["name"], rows[1]["tags"]) == ("candidate", "short gap", ["wet", "night"])
     assert "candidate" in said(capsys, "runs", *place)
+
+
+def test_many_runs_are_decided_about_together_or_not_at_all(db):
+    runs = open_runs(db)
+    made = judge_all(runs, [Given(1, "candidate", "near"), Given(2, "discarded", "far")], "Ada")
+    assert [verdicts(read_runs(db), run) for run in (1, 2)] == [[each] for each in made]
+    with pytest.raises(StudioError, match="run 3 did not come to its end"):
+        judge_all(runs, [Given(1, "open", "anew"), Given(3, "candidate", "it failed")])
+    assert read_runs(db).find(1).verdict == "candidate"
+
+
+def test_tags_are_put_on_and_taken_off_many_runs_and_the_opposite_takes_it_back(db):
+    runs = open_runs(db)
+    remark(runs, 1, name="first", tags=["wet", "night"], note="See 12 s.")
+    made = retag(runs, [Retag(run, add=("dry", "night"), remove=("wet",)) for run in (1, 2)])
+    assert made == [Retag(1, add=("dry",), remove=("wet",)), Retag(2, add=("dry", "night"))]
+    assert remark_of(read_runs(db), 1) == Remark("first", ("night", "dry"), "See 12 s.")
+    retag(runs, [Retag(each.run, add=each.remove, remove=each.add) for each in made])
+    assert [set(remark_of(read_runs(db), run).tags) for run in (1, 2)] == [{"wet", "night"}, set()]
+    assert retag(runs, [Retag(1, add=("wet",), remove=("dry",))]) == []  # nothing was changed
+
+
+def test_one_run_with_too_many_tags_keeps_all_from_being_tagged(db):
+    runs = open_runs(db)
+    remark(runs, 2, name="", tags=[str(i) for i in range(MOST_TAGS)], note="")
+    with pytest.raises(StudioError, match="at most 20"):
+        retag(runs, [Retag(1, add=("wet",)), Retag(2, add=("wet",))])
+    with pytest.raises(UnknownError, match="There is no run 99"):
+        retag(runs, [Retag(1, add=("wet",)), Retag(99, add=("wet",))])
+    assert remark_of(read_runs(db), 1) == Remark()

@@ -7,12 +7,13 @@ nothing is lost. What others do to the file, as text or with another program, co
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from studio import job
-from studio.errors import ConflictError, Problem, ScenarioError, SealedError, StudioError
+from studio.errors import ConflictError, Problem, ScenarioError, SealedError, StoreError, StudioError
 from studio.job import Loaded
 from studio.scenario import setup
 from studio.scenario.schema import Scenario
@@ -97,6 +98,13 @@ class Editing:
                 self.first.pop(each, None)
                 self.seen.pop(each, None)
             self.history.rename(scenario, name)
+
+    def follow(self, scenario: str, name: str) -> None:
+        """The history of a file that was put into the trash, or out of it, goes with it where there is one; that it cannot is no reason
+        to lose the file."""
+        with suppress(StoreError):
+            if self.history.changes(scenario):
+                self.rename(scenario, name)
 
     def why_sealed(self, path: Path) -> str:
         """Why a file cannot be changed; empty when it can."""

@@ -76,7 +76,9 @@ def rename_scenario(scenario: str, new: answer.NewName, desk: AtOwnDesk, if_matc
 @router.delete("/scenarios/{scenario}")
 def delete_scenario(scenario: str, desk: AtOwnDesk, if_match: IfMatch = None) -> answer.DeletedScenario:
     """Moves the file to the trash, from where it can be brought back; its runs stay."""
-    return deleted(desk.scenario_files.delete(desk.file(scenario), expected(if_match)))
+    found = desk.scenario_files.delete(desk.file(scenario), expected(if_match))
+    desk.editing.follow(scenario, found.id)
+    return deleted(found)
 
 
 # -- as text -----------------------------------------------------------------------------------------
@@ -149,8 +151,10 @@ def trash(desk: AtDesk) -> list[answer.DeletedScenario]:
 
 @router.post("/trash/{entry}/restore")
 def restore(entry: str, how: answer.Return, desk: AtOwnDesk) -> answer.KeptScenario:
-    """Brings a deleted scenario back, under its name or another one."""
-    return kept(desk.scenario_files.restore(entry, how.name))
+    """Brings a deleted scenario back with the history of its edits, under its name or another one."""
+    path = desk.scenario_files.restore(entry, how.name)
+    desk.editing.follow(entry, path.stem)
+    return kept(path)
 
 
 def fresh(desk: Desk, path: Path) -> answer.KeptScenario:

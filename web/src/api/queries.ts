@@ -4,6 +4,7 @@ import { keepPreviousData, type QueryClient, queryOptions, useMutation, useQuery
 import { type Changes, EXPLAINED, type Filled, isLive, type ListedRun, type Queued, type RunDetail, type Server } from "../model/run";
 import { answer, client } from "./client";
 import { numbersOf, type SideBySide } from "../model/beside";
+import { stage } from "./stage";
 import type { Check, Kinds, Pace, Scenario } from "./types";
 
 export const scenarios = queryOptions({
@@ -24,6 +25,16 @@ export const kinds = queryOptions({
   queryFn: () => answer(client.GET("/api/kinds")) as Promise<Kinds>,
   staleTime: Number.POSITIVE_INFINITY,
 });
+
+export type Manuscript = Server["Manuscript"];
+
+/** The file of a kind, which somebody may be writing in: asked again while it is looked at. */
+export const manuscript = (sort: string, name: string) =>
+  queryOptions({
+    queryKey: ["manuscript", sort, name],
+    queryFn: () => answer(client.GET("/api/kinds/{sort}/{name}/source", { params: { path: { sort, name } } })),
+    refetchInterval: 2000,
+  });
 
 /** What channels and metrics are called, and what they mean; it stays for as long as the server runs. */
 export const glossary = queryOptions({
@@ -133,6 +144,29 @@ export function useRemark() {
   });
 }
 
+/** Decide about many runs, about all of them or none. */
+export function useJudgeMany() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: (verdicts: Server["GivenVerdict"][]) => answer(client.POST("/api/verdicts", { body: { verdicts, who: "" } })),
+    onSettled: () => saidOfMany(kept),
+  });
+}
+
+export type Retag = Server["Retag"];
+
+/** Put tags on many runs and take them off; what was changed by that. */
+export function useRetag() {
+  const kept = useQueryClient();
+  return useMutation({
+    mutationFn: async (tags: Retag[]) => (await answer(client.POST("/api/tags", { body: { tags } }))).tags,
+    onSettled: () => saidOfMany(kept),
+  });
+}
+
+const saidOfMany = (kept: QueryClient) =>
+  Promise.all([["runs"], ["run"]].map((queryKey) => kept.invalidateQueries({ queryKey })));
+
 /** Something was said of a run: it and the table are asked anew. */
 const said = (kept: QueryClient, number: number) =>
   Promise.all([["runs"], ["run", number]].map((queryKey) => kept.invalidateQueries({ queryKey })));
@@ -207,8 +241,10 @@ const haunted = ({ run, ghosts, align }: { run: number; ghosts: string; align: s
 export const scene = (what: { scenario: string; set?: Changes } | { run: number; over: boolean; ghosts: string; align: string }) =>
   queryOptions({
     queryKey: ["scene", what],
-    queryFn: () =>
-      answer(client.POST("/api/scene", { body: "run" in what ? { set: {}, run: what.run, ...haunted(what) } : { set: {}, ghosts: [], align: "", ...what } })),
+    queryFn: async () => {
+      const shown = "run" in what ? { set: {}, run: what.run, ...haunted(what) } : { set: {}, ghosts: [], align: "", ...what };
+      return answer(client.POST("/api/scene", { body: { stage: await stage(), ...shown } }));
+    },
     // Showing is an act, not a fact: coming back to an earlier choice must ask again.
     gcTime: 0,
     staleTime: Infinity,

@@ -52,10 +52,11 @@ export const studioRoute = createRoute({
 const runsRoute = createRoute({
   getParentRoute: () => root,
   path: "/runs",
-  validateSearch: ({ scenario, q, sort, varying, only, as, base, draw, axes }: Record<string, unknown>): RunsView => ({
+  validateSearch: ({ scenario, q, sort, by, varying, only, as, base, draw, axes }: Record<string, unknown>): RunsView => ({
     scenario: text(scenario),
     q: text(q),
     sort: text(sort),
+    by: text(by),
     varying: varying === false ? false : undefined,
     only: text(only),
     as: as === "space" || as === "lineage" || as === "board" ? as : undefined,

@@ -116,6 +116,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/kinds/{sort}/{name}/source": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Kind Source
+         * @description The file of a kind as it stands now, with what Python cannot read in it.
+         */
+        get: operations["kind_source_api_kinds__sort___name__source_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/glossary": {
         parameters: {
             query?: never;
@@ -254,6 +274,46 @@ export interface paths {
          * @description Decides about a run that is over: a verdict stands behind those before it, and counts from now on.
          */
         post: operations["judge_run_api_runs__run__verdicts_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verdicts": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Judge Runs
+         * @description Decides about many runs: about all of them or, when about one of them it cannot be decided, about none.
+         */
+        post: operations["judge_runs_api_verdicts_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Tag Runs
+         * @description Puts tags on runs and takes them off; what was changed by that, whose opposite takes it back. All of it is done, or nothing.
+         */
+        post: operations["tag_runs_api_tags_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -624,6 +684,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/stages": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stage
+         * @description Gives a page a stage to itself, whose scene is at `/scene/{stage}/`; the wanted one if nobody has it.
+         */
+        post: operations["stage_api_stages_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/scene": {
         parameters: {
             query?: never;
@@ -635,7 +715,7 @@ export interface paths {
         put?: never;
         /**
          * Scene
-         * @description Chooses what the scene shows.
+         * @description Chooses what a scene shows.
          */
         post: operations["scene_api_scene_post"];
         delete?: never;
@@ -654,7 +734,7 @@ export interface paths {
         get?: never;
         /**
          * Scene Time
-         * @description Another time of the run that the scene plays back.
+         * @description Another time of the run that a scene plays back.
          */
         put: operations["scene_time_api_scene_time_put"];
         post?: never;
@@ -1031,7 +1111,7 @@ export interface paths {
         put?: never;
         /**
          * Restore
-         * @description Brings a deleted scenario back, under its name or another one.
+         * @description Brings a deleted scenario back with the history of its edits, under its name or another one.
          */
         post: operations["restore_api_trash__entry__restore_post"];
         delete?: never;
@@ -1445,6 +1525,14 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * AllottedStage
+         * @description The stage that a page has to itself while its scene is connected.
+         */
+        AllottedStage: {
+            /** Stage */
+            stage: number;
+        };
         /**
          * Beside
          * @description What differs between several runs: a value of each, in their order, null where a run has none.
@@ -2082,6 +2170,24 @@ export interface components {
             size: number;
             /** Meaning */
             meaning: string;
+        };
+        /**
+         * GivenVerdict
+         * @description A verdict on one of many runs.
+         */
+        GivenVerdict: {
+            /** Run */
+            run: number;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "open" | "candidate" | "discarded";
+            /**
+             * Reason
+             * @description why, in one line
+             */
+            reason: string;
         };
         /**
          * Glossary
@@ -2737,6 +2843,53 @@ export interface components {
             judged: string[];
         };
         /**
+         * Manuscript
+         * @description The file of a kind, as it stands on the disk now. It is only read: what a browser sends is never run.
+         */
+        Manuscript: {
+            /**
+             * File
+             * @description where it lies on the server's machine; empty of a kind in no file
+             */
+            file: string;
+            /** Text */
+            text: string;
+            /**
+             * Loaded
+             * @description whether that is the text that the studio has loaded
+             */
+            loaded: boolean;
+            /**
+             * Missing
+             * @description why the file cannot be read, and the text is what was loaded; empty when it can
+             */
+            missing: string;
+            /** Slips */
+            slips: components["schemas"]["Slip"][];
+        };
+        /**
+         * ManyTags
+         * @description Changes of the tags of many runs.
+         */
+        ManyTags: {
+            /** Tags */
+            tags: components["schemas"]["Retag"][];
+        };
+        /**
+         * ManyVerdicts
+         * @description What somebody decides about many runs at once.
+         */
+        ManyVerdicts: {
+            /** Verdicts */
+            verdicts: components["schemas"]["GivenVerdict"][];
+            /**
+             * Who
+             * @description empty for the user of the machine that the server runs on
+             * @default
+             */
+            who: string;
+        };
+        /**
          * MapCorrected
          * @description A correction that was applied; `before` are the values of its keys in the map, "" for a tag that was not there.
          */
@@ -3223,6 +3376,12 @@ export interface components {
          * @description A time of a run that the scene plays back.
          */
         Moment: {
+            /**
+             * Stage
+             * @description on which stage; see `/api/stages`
+             * @default 1
+             */
+            stage: number;
             /** Run */
             run: number;
             /**
@@ -3627,6 +3786,12 @@ export interface components {
              * @default []
              */
             ghosts: number[];
+            /**
+             * Stage
+             * @description on which stage; see `/api/stages`
+             * @default 1
+             */
+            stage: number;
             /**
              * Align
              * @description kind of event whose first is at the same time in all of them; empty: by their clocks
@@ -4124,6 +4289,24 @@ export interface components {
              * @default
              */
             note: string;
+        };
+        /**
+         * Retag
+         * @description Tags that are put on a run, and such that are taken off it.
+         */
+        Retag: {
+            /** Run */
+            run: number;
+            /**
+             * Add
+             * @default []
+             */
+            add: string[];
+            /**
+             * Remove
+             * @default []
+             */
+            remove: string[];
         };
         /**
          * Return
@@ -4647,6 +4830,24 @@ export interface components {
             units: string[];
         };
         /**
+         * Slip
+         * @description What Python cannot read in a file.
+         */
+        Slip: {
+            /**
+             * Line
+             * @description from 1 on
+             */
+            line: number;
+            /**
+             * Column
+             * @description from 1 on
+             */
+            column: number;
+            /** What */
+            what: string;
+        };
+        /**
          * SourceBeside
          * @description What a run has used in another form than the first one: a unified diff, or `only` the run that has used it at all.
          */
@@ -4915,6 +5116,14 @@ export interface components {
              * @description UTC (ISO 8601)
              */
             when: string;
+        };
+        /**
+         * WantedStage
+         * @description The stage that a page had before it was loaded again; null for one that has none yet.
+         */
+        WantedStage: {
+            /** Wanted */
+            wanted?: number | null;
         };
         /**
          * Way
@@ -5951,6 +6160,128 @@ export interface operations {
             };
         };
     };
+    kind_source_api_kinds__sort___name__source_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sort: string;
+                name: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Manuscript"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
     glossary_api_glossary_get: {
         parameters: {
             query?: never;
@@ -6827,6 +7158,252 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Verdict"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    judge_runs_api_verdicts_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ManyVerdicts"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Verdict"][];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    tag_runs_api_tags_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ManyTags"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ManyTags"];
                 };
             };
             /** @description The body is no JSON. */
@@ -9275,6 +9852,129 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["News"];
+                };
+            };
+        };
+    };
+    stage_api_stages_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WantedStage"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AllottedStage"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
                 };
             };
         };

@@ -40,3 +40,9 @@ export const LONGEST = 500;
 
 /** Tags as somebody types them, separated by commas. */
 export const tagsOf = (text: string): string[] => [...new Set(text.split(",").map((each) => each.trim()).filter(Boolean))];
+
+/** The runs about which a verdict may be given now, and the others, with the reason why not. */
+export function apart<Some extends Pick<Run, "run" | "status">>(runs: readonly Some[], word: Word): { able: Some[]; unable: { run: Some; why: string }[] } {
+  const told = runs.map((run) => ({ run, why: hindrance(run, word) }));
+  return { able: told.filter(({ why }) => !why).map(({ run }) => run), unable: told.filter(({ why }) => why) };
+}

@@ -21,6 +21,7 @@ export function VerdictBadge({ verdict, reason = "" }: { verdict: Word; reason?:
       tt="none"
       miw={88}
       style={{ overflow: "visible", flexShrink: 0 }}
+      styles={{ label: { overflow: "visible" } }}
       leftSection={icon ? <Icon name={icon} size={11} /> : null}
     >
       {verdict}

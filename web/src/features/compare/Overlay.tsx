@@ -133,6 +133,8 @@ function InScene({ runs: [first, ...others], aligned }: { runs: readonly Run[]; 
       to="/studio/$scenario"
       params={{ scenario: first.scenario }}
       search={{ run: first.run, ghosts: others.map(({ run }) => run).join(","), align: aligned }}
+      className={classes.link}
+      style={{ fontSize: "var(--mantine-font-size-sm)" }}
     >
       Show in the scene
     </Link>

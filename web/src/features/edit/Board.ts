@@ -33,6 +33,8 @@ export interface Picture {
   lines: readonly Line[];
   /** Points to take hold of. */
   handles: readonly Point[];
+  /** Points to make a corner of. */
+  middles: readonly Point[];
   dark: boolean;
 }
 
@@ -139,7 +141,7 @@ interface Drawn {
   hovered: boolean;
 }
 
-function thingLayers({ items, chosen, hovered, ghosts, outlines, lines, handles, dark }: Picture): Layer[] {
+function thingLayers({ items, chosen, hovered, ghosts, outlines, lines, handles, middles, dark }: Picture): Layer[] {
   const ink = dark ? INK.dark : INK.light;
   const colourOf = ({ group }: Item, figure: Figure) =>
     group === "vehicle" ? figure.colour || ink.chosen : (ink as Record<string, string>)[group] ?? ink.object;
@@ -166,6 +168,7 @@ function thingLayers({ items, chosen, hovered, ghosts, outlines, lines, handles,
     new ScatterplotLayer<Ghost>({ id: "ghost dots", data: ghosts as Ghost[], getPosition: ({ x, y }) => [x, y], getRadius: 0.2, radiusUnits: "common", radiusMinPixels: 6, getFillColor: rgba(ink.chosen, 140) }),
     new PathLayer<Line>({ id: "ghost outlines", data: outlines as Line[], getPath: (line) => closed(line) as never, getWidth: 2, widthUnits: "pixels", getColor: rgba(ink.chosen, 200) }),
     new PathLayer<Line>({ id: "lines", data: lines as Line[], getPath: (line) => line as never, getWidth: 3, widthUnits: "pixels", getColor: rgba(ink.line, 230), jointRounded: true, capRounded: true }),
+    new ScatterplotLayer<Point>({ id: "middles", data: middles as Point[], getPosition: ({ x, y }) => [x, y], getRadius: 4, radiusUnits: "pixels", getFillColor: rgba(ink.rim, 150), stroked: true, lineWidthUnits: "pixels", getLineWidth: 1.5, getLineColor: rgba(ink.chosen, 190) }),
     new ScatterplotLayer<Point>({ id: "handles", data: handles as Point[], getPosition: ({ x, y }) => [x, y], getRadius: 6, radiusUnits: "pixels", getFillColor: rgba(ink.rim), stroked: true, lineWidthUnits: "pixels", getLineWidth: 2.5, getLineColor: rgba(ink.chosen) }),
   ];
 }

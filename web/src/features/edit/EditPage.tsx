@@ -7,6 +7,7 @@ import { useCallback, useMemo, useRef, useState } from "react";
 import { findWay, type Made, type Make, useEdited, useEditing, useNews } from "../../api/editing";
 import * as deeds from "../../model/editing/deed";
 import { type Deed, type Editing, type Item, named, OPEN, owner, present, toggled, type Veil } from "../../model/editing/item";
+import { cornerRemoved, LONGEST_WALL, type Knob, pulled, walls } from "../../model/editing/shape";
 import { type Lane, onLane } from "../../model/editing/snap";
 import type { Plan } from "../../model/map";
 import { strips } from "../../model/picking";
@@ -114,7 +115,8 @@ function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing;
           onMove={editor.move}
           onTurn={editor.turn}
           onPoint={editor.point}
-          onCorner={editor.corner}
+          onPull={editor.pull}
+          onTakeOut={editor.takeOut}
           onHandle={editor.handle}
           onEnough={editor.enough}
           onMenu={(screen, ground, item) => {
@@ -236,7 +238,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
 
   const point = (to: Point) => {
     if (tool.is === "measure") return setTool({ ...tool, points: [...tool.points, to] });
-    if (tool.is === "area") return setTool({ ...tool, corners: [...tool.corners, to] });
+    if (tool.is === "area" || tool.is === "walls") return setTool({ ...tool, corners: [...tool.corners, to] });
     if (tool.is === "route") return extend(tool.route, to);
     if (tool.is !== "add") return;
     if (tool.what === "vehicle") return addVehicle(to);
@@ -301,10 +303,15 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     }).then(() => way && setTool({ is: "route", route: way.route }), notifyError);
   };
 
-  const corner = (item: Item, number: number, to: Point) => {
-    const name = `Reshape ${named([item.path])}`;
-    const path = `/${item.path.split(".").join("/")}/corners/${number}`;
-    perform({ name, patch: [{ op: "replace", path, value: [Number(to.x.toFixed(2)), Number(to.y.toFixed(2))] }] as Deed["patch"] & object });
+  /** A point of a shape somewhere else; where that cannot be, it is told why. */
+  const pull = (item: Item, knob: Knob, to: Point) => {
+    if (pulled(state, item, knob, to)) return perform((now) => ofItem(now, item, (it) => pulled(now, it, knob, to)));
+    notify("It stays as it is.", knob.is === "end" ? `A piece of wall is at most ${LONGEST_WALL} m long.` : "That would be no shape.", "yellow");
+  };
+  const takeOut = (item: Item, knob: Knob) => {
+    if (knob.is !== "corner") return;
+    if (cornerRemoved(state, item, knob.number)) return perform((now) => ofItem(now, item, (it) => cornerRemoved(now, it, knob.number)));
+    notify("The corner stays.", "With fewer corners it would be no shape: delete the whole of it instead.", "yellow");
   };
 
   const enough = () => {
@@ -312,12 +319,13 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
       const corners = tool.corners.filter((each, at, all) => at === 0 || Math.hypot(each.x - (all[at - 1]?.x ?? 0), each.y - (all[at - 1]?.y ?? 0)) > 0.2);
       perform((now) => one(deeds.area(now, corners)));
     }
+    if (tool.is === "walls" && tool.corners.length > 1) perform((now) => walls(now, tool.corners));
     if (tool.is !== "select") setTool(SELECT);
   };
 
   /** Takes the last point back, or leaves the tool. */
   const back = () => {
-    if (tool.is === "area" && tool.corners.length > 0) return setTool({ ...tool, corners: tool.corners.slice(0, -1) });
+    if ((tool.is === "area" || tool.is === "walls") && tool.corners.length > 0) return setTool({ ...tool, corners: tool.corners.slice(0, -1) });
     if (tool.is === "measure" && tool.points.length > 0) return setTool({ ...tool, points: tool.points.slice(0, -1) });
     setTool(SELECT);
   };
@@ -334,7 +342,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     perform({ name: `Delete ${named(paths)}`, remove: paths });
   };
   const turning = (way: "undo" | "redo") => () => {
-    if (tool.is === "area" && tool.corners.length > 0 && way === "undo") return back();
+    if ((tool.is === "area" || tool.is === "walls") && tool.corners.length > 0 && way === "undo") return back();
     if ((way === "undo" ? state.done : state.undone).length === 0) return;
     (way === "undo" ? undo : redo).mutate(undefined, { onError: notifyError });
   };
@@ -350,7 +358,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
   return {
     looker, lanes, veil, setVeil, chosen, choose, tool, setTool, items, routeOf, attempt, event,
     move, turn: (item: Item, heading: number) => perform((now) => ofItem(now, item, (it) => deeds.turnedTo(now, it, heading))),
-    point, handle, anew, corner, enough, back, copy, paste, duplicate, remove, nudge,
+    point, handle, anew, pull, takeOut, enough, back, copy, paste, duplicate, remove, nudge,
     undo: turning("undo"), redo: turning("redo"), isEmpty: chosen.length === 0, canPaste: () => clipboard.length > 0,
   };
 }

@@ -1,22 +1,25 @@
 /** The plan of the editor: what is looked at, what the pointer does, and what is drawn of that. */
 
 import { type MouseEvent, type PointerEvent, type RefObject, useCallback, useEffect, useImperativeHandle, useMemo, useRef, useState, type WheelEvent } from "react";
-import { type Addition, type Drag, at, ghostOf, isTurnable } from "../../model/editing/deed";
+import { type Addition, type Drag, ghostOf, isTurnable } from "../../model/editing/deed";
 import { boundsOfItems, hit, placeOf, within } from "../../model/editing/hit";
 import type { Editing, Handle, Item } from "../../model/editing/item";
 import type { Line } from "../../model/editing/line";
+import { type Knob, knobsOf, preview } from "../../model/editing/shape";
 import { type Lane, onLane } from "../../model/editing/snap";
 import type { Plan } from "../../model/map";
 import { type Bounds, dragged, fitted, type Point, scaleBar, type Size, toGround, toScreen, type View, zoomed } from "../../model/view";
 import { useDark } from "../../ui/dark";
 import type { Board, Ghost, Picture } from "./Board";
 import classes from "./Edit.module.css";
+import { Knobs } from "./Knobs";
 
 /** What a click on the plan does. */
 export type Tool =
   | { is: "select" }
   | { is: "add"; what: Addition }
   | { is: "area"; corners: Point[] }
+  | { is: "walls"; corners: Point[] }
   | { is: "measure"; points: Point[] }
   | { is: "route"; route: string };
 
@@ -42,7 +45,9 @@ interface Props {
   onMove: (items: Item[], drag: Drag) => void;
   onTurn: (item: Item, heading: number) => void;
   onPoint: (point: Point) => void;
-  onCorner: (item: Item, corner: number, to: Point) => void;
+  /** A point of a shape is where it is dragged to, or taken out. */
+  onPull: (item: Item, knob: Knob, to: Point) => void;
+  onTakeOut: (item: Item, knob: Knob) => void;
   onHandle: (handle: number, to: Point | undefined) => void;
   onMenu: (at: Point, ground: Point, item: Item | undefined) => void;
   onEnough: () => void;
@@ -52,10 +57,13 @@ interface Props {
 const STILL = 4;
 /** The pointer reaches so far around thin things [px]. */
 const REACH = 7;
+/** And a finger so far around what it takes hold of [px]. */
+const FINGER = 20;
+const HOLD = 9;
 /** How far before its middle the handle to turn something by lies [px]. */
 const ARM = 34;
 
-type Grip = { is: "turn"; item: Item } | { is: "corner"; item: Item; corner: number } | { is: "handle"; handle: number };
+type Grip = { is: "turn"; item: Item } | { is: "knob"; item: Item; knob: Knob } | { is: "handle"; handle: number };
 
 type Press =
   | { is: "pan"; last: Point; moved: boolean }
@@ -122,8 +130,11 @@ export function PlanView(props: Props) {
     const on = toGround(view, size, screen);
     setPointer(screen);
     if (event.button === 1 || event.button === 2) return setPress({ is: "pan", last: screen, moved: false });
-    const grip = grips.find(({ point }) => distance(toScreen(view, size, point), screen) <= 9);
-    if (grip) return setPress({ is: "grip", grip: grip.grip, moved: false, start: screen });
+    const held = nearest(grips, (point) => distance(toScreen(view, size, point), screen), event.pointerType === "touch" ? FINGER : HOLD);
+    if (held) {
+      focusKnob(place.current, held.grip);
+      return setPress({ is: "grip", grip: held.grip, moved: false, start: screen });
+    }
     if (tool.is !== "select") return setPress({ is: "point", start: screen });
     const found = hit(pickable, on, reach);
     const add = event.shiftKey || event.ctrlKey || event.metaKey;
@@ -131,8 +142,8 @@ export function PlanView(props: Props) {
     const already = chosen.includes(found.path);
     const next = add ? (already ? chosen.filter((path) => path !== found.path) : [...chosen, found.path]) : [found.path];
     if (!already) props.onChoose(next);
-    const held = already ? chosen : next;
-    setPress({ is: "things", items: pickable.filter(({ path }) => held.includes(path)), from: on, start: screen, moved: false, click: next });
+    const taken = already ? chosen : next;
+    setPress({ is: "things", items: pickable.filter(({ path }) => taken.includes(path)), from: on, start: screen, moved: false, click: next });
   };
 
   const move = (event: PointerEvent) => {
@@ -177,7 +188,7 @@ export function PlanView(props: Props) {
   const letGo = (grip: Grip, moved: boolean, on: Point) => {
     if (grip.is === "handle") return props.onHandle(grip.handle, moved ? on : undefined);
     if (!moved) return;
-    if (grip.is === "corner") return props.onCorner(grip.item, grip.corner, on);
+    if (grip.is === "knob") return props.onPull(grip.item, grip.knob, on);
     const middle = placeOf(grip.item);
     if (middle) props.onTurn(grip.item, Math.atan2(on.y - middle.y, on.x - middle.x));
   };
@@ -203,11 +214,17 @@ export function PlanView(props: Props) {
       onPointerCancel={() => setPress(undefined)}
       onPointerLeave={() => setPointer(undefined)}
       onWheel={wheel}
-      onDoubleClick={() => tool.is !== "select" && props.onEnough()}
+      onDoubleClick={(event) => {
+        if (tool.is !== "select") return props.onEnough();
+        const grip = view && nearest(grips, (point) => distance(toScreen(view, size, point), local(event)), FINGER)?.grip;
+        if (grip?.is === "knob" && grip.knob.is === "corner") props.onTakeOut(grip.item, grip.knob);
+        if (grip?.is === "knob" && grip.knob.is === "edge") props.onPull(grip.item, grip.knob, grip.knob);
+      }}
       onContextMenu={(event: MouseEvent) => event.preventDefault()}
     >
       <canvas ref={canvas} className={classes.canvas} aria-hidden="true" />
       {view ? <Names items={items} chosen={chosen} hovered={hovered?.path} view={view} size={size} all={names} /> : null}
+      {view ? <Knobs held={knobbed(grips)} place={(point) => toScreen(view, size, point)} onPull={props.onPull} onTakeOut={props.onTakeOut} /> : null}
       {view && tool.is === "route" ? <Numbers points={grips.map(({ point }) => point)} view={view} size={size} /> : null}
       {press?.is === "rectangle" && press.moved && pointer ? <Rectangle from={press.from} to={pointer} /> : null}
       {view && tool.is === "measure" ? <Tape points={tool.points} to={ground} view={view} size={size} /> : null}
@@ -220,6 +237,20 @@ export function PlanView(props: Props) {
       <span className={classes.attribution}>{plan.attribution}</span>
     </div>
   );
+}
+
+/** Of what can be taken hold of the nearest within reach; the first of those that are as near. */
+function nearest(grips: readonly Held[], away: (point: Point) => number, reach: number): Held | undefined {
+  const near = grips.map((held) => ({ held, by: away(held.point) })).filter(({ by }) => by <= reach);
+  return near.sort((one, other) => one.by - other.by)[0]?.held;
+}
+
+/** The points of shapes among what can be taken hold of. */
+const knobbed = (grips: readonly Held[]) => grips.flatMap(({ grip }) => (grip.is === "knob" ? [{ item: grip.item, knob: grip.knob }] : []));
+
+/** What was taken hold of by the pointer is what the keys then move and take out. */
+function focusKnob(place: HTMLElement | null, grip: Grip): void {
+  if (grip.is === "knob") place?.querySelector<HTMLElement>(`[data-knob="${grip.knob.is} ${grip.knob.number}"]`)?.focus({ preventScroll: true });
 }
 
 /** Where on the screen a press began. */
@@ -264,16 +295,16 @@ function gripsOf(state: Editing, mine: readonly Item[], locked: readonly string[
   }
   const [item] = mine;
   if (!item || mine.length !== 1 || locked.includes(item.path) || tool.is !== "select") return [];
-  const corners = at(state.document, `${item.path}.corners`);
-  if ((item.group === "area" || item.group === "radio") && Array.isArray(corners))
-    return corners.map((corner, number) => ({ grip: { is: "corner", item, corner: number }, point: pointOf(corner as [number, number]) }));
+  const knobs = knobsOf(state, item).map((knob): Held => ({ grip: { is: "knob", item, knob }, point: { x: knob.x, y: knob.y } }));
   const middle = placeOf(item);
-  if (!middle || !isTurnable(state, item)) return [];
-  const [heading, arm] = [item.figures[0]?.heading ?? 0, ARM / view.scale];
-  return [{ grip: { is: "turn", item }, point: { x: middle.x + arm * Math.cos(heading), y: middle.y + arm * Math.sin(heading) } }];
+  if (!middle || !isTurnable(state, item)) return knobs;
+  const { heading = 0, length = 0 } = item.figures[0] ?? {};
+  const arm = armOf((length / 2) * view.scale) / view.scale;
+  return [...knobs, { grip: { is: "turn", item }, point: { x: middle.x + arm * Math.cos(heading), y: middle.y + arm * Math.sin(heading) } }];
 }
 
-const pointOf = ([x, y]: readonly [number, number]): Point => ({ x, y });
+/** How far the handle to turn by lies from the middle [px]: not where the end is, which has a handle of its own. */
+const armOf = (end: number): number => (Math.abs(end - ARM) < 2 * HOLD ? end + ARM : ARM);
 
 interface Scene {
   plan: Plan;
@@ -291,10 +322,15 @@ interface Scene {
 }
 
 function pictureOf({ plan, items, chosen, dark, hovered, tool, ground, lanes, state, drag, press, grips }: Scene): Picture {
-  const base: Picture = { plan, items, chosen, dark, hovered, ghosts: [], outlines: [], lines: [], handles: grips.map(({ point }) => point) };
+  const isMiddle = ({ grip }: Held) => grip.is === "knob" && grip.knob.is === "edge";
+  const base: Picture = {
+    plan, items, chosen, dark, hovered, ghosts: [], outlines: [], lines: [],
+    handles: grips.filter((each) => !isMiddle(each)).map(({ point }) => point),
+    middles: grips.filter(isMiddle).map(({ point }) => point),
+  };
   if (drag && press?.is === "things") return { ...base, ...draggedThings(state, press.items, drag, lanes) };
   if (press?.is === "grip" && press.moved && ground) return { ...base, ...grippedThing(press.grip, ground, state) };
-  if (tool.is === "measure" || tool.is === "area") {
+  if (tool.is === "measure" || tool.is === "area" || tool.is === "walls") {
     const made = tool.is === "measure" ? tool.points : tool.corners;
     const line = [...made, ...(ground ? [ground] : [])].map(({ x, y }) => [x, y] as [number, number]);
     return { ...base, lines: line.length > 1 ? [line] : [], outlines: tool.is === "area" && line.length > 2 ? [line] : [], handles: made };
@@ -321,9 +357,9 @@ function draggedThings(state: Editing, held: readonly Item[], drag: Drag, lanes:
 
 function grippedThing(grip: Grip, to: Point, state: Editing): Partial<Picture> {
   if (grip.is === "handle") return { ghosts: [{ ...to, heading: 0, length: 1.5, width: 1.5 }] };
-  if (grip.is === "corner") {
-    const corners = at(state.document, `${grip.item.path}.corners`) as [number, number][];
-    return { outlines: [corners.map((corner, number) => (number === grip.corner ? [to.x, to.y] : corner))] };
+  if (grip.is === "knob") {
+    const found = preview(state, grip.item, grip.knob, to);
+    return found?.closed ? { outlines: [found.corners] } : { lines: found ? [found.corners] : [] };
   }
   const [figure, middle] = [grip.item.figures[0], placeOf(grip.item)];
   if (!figure || !middle) return {};

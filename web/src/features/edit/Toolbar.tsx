@@ -97,6 +97,7 @@ function AddMenu({ onTool, onEvent }: Pick<Props, "onTool" | "onEvent">) {
                 {label}
               </Menu.Item>
             ))}
+            {title === "Objects" ? <Menu.Item onClick={() => onTool({ is: "walls", corners: [] })}>Wall from corner to corner</Menu.Item> : null}
           </div>
         ))}
         <Menu.Label>What happens</Menu.Label>
@@ -121,6 +122,8 @@ function hintOf(tool: Tool, state: Editing): string {
       return `Click where the ${tool.what} is to be.`;
     case "area":
       return tool.corners.length < 3 ? "Click the corners of the area." : "Click further corners; Enter or a double click closes it.";
+    case "walls":
+      return tool.corners.length < 2 ? "Click where the wall begins, and its corners." : "Click further corners; Enter or a double click ends it.";
     case "measure":
       return "Click from point to point.";
     case "route": {

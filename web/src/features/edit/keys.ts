@@ -24,9 +24,9 @@ const WITH_CTRL: Record<string, keyof Keys> = { z: "undo", y: "redo", c: "copy",
 const PLAIN: Record<string, keyof Keys> = {
   Delete: "delete", Backspace: "delete", f: "focus", m: "measure", n: "names", r: "route", Escape: "escape",
 };
-const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+export const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 /** How far a stroke of an arrow key moves what is chosen, and with Shift [m]. */
-const STEP = { fine: 0.5, coarse: 5 };
+export const STEP = { fine: 0.5, coarse: 5 };
 
 /** A field takes its own keys, and a list or a menu its arrows. */
 function isTyped({ target, key }: KeyboardEvent): boolean {

@@ -11,6 +11,7 @@ import { Icon } from "../../ui/Icon";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import classes from "./Kinds.module.css";
+import { SourceView } from "./SourceView";
 
 export function KindsPage() {
   const { data, error, refetch } = useQuery(kinds);
@@ -88,8 +89,22 @@ function Entry({ kind }: { kind: KnownKind }) {
         <p className={classes.description}>{description}</p>
         <Settings kind={kind} />
         <Gives kind={kind} />
+        <Source kind={kind} />
       </div>
     </details>
+  );
+}
+
+/** Its file, asked for when it is opened. */
+function Source({ kind }: { kind: KnownKind }) {
+  const [open, setOpen] = useState(false);
+  return (
+    <>
+      <button type="button" className={classes.opener} aria-expanded={open} onClick={() => setOpen(!open)}>
+        <Icon name={open ? "down" : "right"} size={12} /> Source
+      </button>
+      {open ? <SourceView kind={kind} /> : null}
+    </>
   );
 }
 

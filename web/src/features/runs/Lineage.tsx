@@ -15,7 +15,7 @@ const ROW_HEIGHT = 34;
 
 interface Props {
   runs: readonly ListedRun[];
-  selected: readonly number[];
+  selected: ReadonlySet<number>;
   onToggle: (run: number) => void;
 }
 
@@ -39,11 +39,11 @@ export function Lineage({ runs, selected, onToggle }: Props) {
               role="treeitem"
               aria-level={branch.open.length + 1}
               data-run={branch.run.run}
-              aria-selected={selected.includes(branch.run.run)}
+              aria-selected={selected.has(branch.run.run)}
               className={classes.row}
               style={{ transform: `translateY(${start}px)`, height: ROW_HEIGHT }}
             >
-              <Row branch={branch} selected={selected.includes(branch.run.run)} onToggle={() => onToggle(branch.run.run)} />
+              <Row branch={branch} selected={selected.has(branch.run.run)} onToggle={() => onToggle(branch.run.run)} />
             </li>
           );
         })}

@@ -1,6 +1,6 @@
 /** All runs in one table: what was set, what came out, and which to compare. */
 
-import { Badge, Button, Group, Modal, SegmentedControl, Switch, Text, Title } from "@mantine/core";
+import { Badge, Button, Group, Modal, SegmentedControl, Select, Switch, Text, Title } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useNavigate } from "@tanstack/react-router";
 import { useMemo, useState } from "react";
@@ -9,7 +9,9 @@ import { arranged } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
 import { filterOf } from "../../model/filter";
-import { textOf } from "../../model/table";
+import { groupable } from "../../model/grouping";
+import { type Column, textOf } from "../../model/table";
+import { withUnit } from "../../model/units";
 import type { Word } from "../../model/verdict";
 import { Icon } from "../../ui/Icon";
 import { Empty, Failure, Loading } from "../../ui/State";
@@ -20,6 +22,7 @@ import { useColumns } from "./columns";
 import { ExportMenu } from "./ExportMenu";
 import { FilterField } from "./FilterField";
 import { Lineage } from "./Lineage";
+import { Many } from "./Many";
 import classes from "./Runs.module.css";
 import { RunsTable } from "./RunsTable";
 import { Space, type SpaceView } from "./Space";
@@ -30,6 +33,8 @@ export interface RunsView extends SpaceView {
   scenario?: string | undefined;
   q?: string | undefined;
   sort?: string | undefined;
+  /** The column by which they are grouped. */
+  by?: string | undefined;
   varying?: boolean | undefined;
   /** A status or verdict that is shown alone. */
   only?: string | undefined;
@@ -112,7 +117,7 @@ interface ListedProps extends Props {
 
 function Listed({ runs: all, isPart, view, onView }: ListedProps) {
   const { q = "", scenario, only, as = "table" } = view;
-  const [selected, setSelected] = useState<number[]>([]);
+  const [selected, setSelected] = useState<ReadonlySet<number>>(new Set());
   const every = useColumns(all);
   const { arrangement, arrange } = useArrangement();
   const columns = useMemo(() => arranged(every, arrangement), [every, arrangement]);
@@ -122,14 +127,17 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
     return new Set(all.filter((run) => passes(run) && (!only || run.status === only || run.verdict === only)).map(({ run }) => run));
   }, [all, filter, only]);
   // A run chosen for comparison stays in the table whatever the filter says.
-  const shown = useMemo(() => all.filter(({ run }) => hits.has(run) || selected.includes(run)), [all, hits, selected]);
+  const shown = useMemo(() => all.filter(({ run }) => hits.has(run) || selected.has(run)), [all, hits, selected]);
   const [judged, setJudged] = useState<Judged>();
   const [hovered, setHovered] = useState<number>();
   const onJudge = (run: ListedRun, word: Word) => setJudged({ run, word });
-  const toggle = (run: number) =>
-    setSelected((before) =>
-      before.includes(run) ? before.filter((other) => other !== run) : [...before, run].slice(-MOST),
-    );
+  const pick = (runs: readonly { run: number }[], isPicked: boolean) =>
+    setSelected((before) => {
+      const after = new Set(before);
+      for (const { run } of runs) isPicked ? after.add(run) : after.delete(run);
+      return after;
+    });
+  const toggle = (run: number) => pick([{ run }], !selected.has(run));
 
   return (
     <div className={classes.page}>
@@ -173,12 +181,14 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
               }
             />
           ) : null}
+          {as === "table" || as === "space" ? <GroupSelect columns={every} by={view.by} onBy={(by) => onView({ ...view, by })} /> : null}
           {as === "table" || as === "space" ? <ColumnMenu columns={every} arrangement={arrangement} onArrange={arrange} /> : null}
           <FilterField text={q} wrong={filter.wrong} columns={columns} onText={(next) => onView({ ...view, q: next || undefined })} />
           <Exports shown={shown} isAll={shown.length === all.length} scenario={scenario} />
           <CompareButton selected={selected} />
         </Group>
       </Group>
+      <Many runs={all} selected={selected} onClear={() => setSelected(new Set())} />
       {as === "space" ? (
         <Space
           runs={all}
@@ -222,6 +232,7 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
           selected={selected}
           onView={onView}
           onToggle={toggle}
+          onPick={pick}
           onJudge={onJudge}
           onBase={(run) => onView({ ...view, base: run === view.base ? undefined : run })}
         />
@@ -232,9 +243,9 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
 }
 
 /** The way to the comparison; the oldest of the selected runs is what the others are compared with. */
-function CompareButton({ selected }: { selected: readonly number[] }) {
+function CompareButton({ selected }: { selected: ReadonlySet<number> }) {
   const navigate = useNavigate();
-  const enough = selected.length > 1;
+  const enough = selected.size > 1 && selected.size <= MOST;
   const sorted = [...selected].sort((one, other) => one - other);
   const open = () => navigate({ to: "/compare", search: { runs: sorted.join(",") } });
   useShortcuts(enough ? { X: open } : {});
@@ -247,8 +258,28 @@ function CompareButton({ selected }: { selected: readonly number[] }) {
       title={`Select two to ${MOST} rows (x), then compare them (Shift+X)`}
       onClick={open}
     >
-      {enough ? `Compare ${sorted.map((run) => `#${run}`).join(", ")}` : "Select runs to compare"}
+      {enough ? `Compare ${sorted.map((run) => `#${run}`).join(", ")}` : selected.size > MOST ? `Compare at most ${MOST}` : "Select runs to compare"}
     </Button>
+  );
+}
+
+/** By what the runs are grouped. */
+function GroupSelect({ columns, by, onBy }: { columns: readonly Column[]; by: string | undefined; onBy: (by: string | undefined) => void }) {
+  const data = useMemo(() => groupable(columns).map(({ id, title, unit }) => ({ value: id, label: withUnit(title, unit) })), [columns]);
+  return (
+    <Select
+      size="xs"
+      w={150}
+      aria-label="Group by"
+      placeholder="Group by"
+      clearable
+      searchable
+      clearButtonProps={{ "aria-label": "Not grouped" }}
+      data={data}
+      value={data.some(({ value }) => value === by) ? (by ?? null) : null}
+      onChange={(next) => onBy(next ?? undefined)}
+      comboboxProps={{ width: 240, position: "bottom-start" }}
+    />
   );
 }
 

@@ -11,8 +11,10 @@ import { RUN_COLUMNS } from "../../model/table";
 import { RunsTable } from "./RunsTable";
 
 const ROW = 33; // [px]
-const RUNS = Array.from({ length: 200 }, (_, number) => finished({ run: number }));
+const RUNS = Array.from({ length: 200 }, (_, number) => finished({ run: number, scenario: number % 2 ? "odd" : "even" }));
 
+const picked: [number, boolean][] = [];
+let by: string | undefined;
 const judged: [number, string][] = [];
 let host: HTMLElement;
 let root: Root;
@@ -27,10 +29,11 @@ function Table() {
       hidden={[]}
       base={undefined}
       hovered={undefined}
-      view={{}}
-      selected={[]}
+      view={{ by }}
+      selected={new Set()}
       onView={() => {}}
       onToggle={() => {}}
+      onPick={(runs, isPicked) => picked.push([runs.length, isPicked])}
       onJudge={(run, word) => judged.push([run.run, word])}
       onBase={() => {}}
     />
@@ -38,6 +41,11 @@ function Table() {
 }
 
 beforeEach(async () => {
+  by = undefined;
+  await shown();
+});
+
+async function shown() {
   sight = new Sight(ROW * (RUNS.length + 2));
   host = document.body.appendChild(document.createElement("div"));
   root = createRoot(host);
@@ -58,7 +66,7 @@ beforeEach(async () => {
       </QueryClientProvider>,
     ),
   );
-});
+}
 afterEach(() => {
   act(() => root.unmount());
   host.remove();
@@ -99,5 +107,30 @@ describe("the keys in the table of runs", () => {
     ]);
     press("g", "c");
     expect(judged).toHaveLength(2);
+  });
+});
+
+describe("groups in the table of runs", () => {
+  const heads = () => [...host.querySelectorAll<HTMLElement>("tr[data-heap]")].map(({ dataset }) => dataset.heap);
+  const again = async () => {
+    act(() => root.unmount());
+    host.remove();
+    by = "scenario";
+    await shown();
+  };
+
+  it("have heads with how many there are, which the keys fold and choose", async () => {
+    await again();
+    expect(heads()).toEqual(["Scenario even"]);
+    expect(host.textContent).toContain("100 runs");
+    press("ArrowLeft");
+    expect(heads()).toEqual(["Scenario even", "Scenario odd"]);
+    expect(host.querySelectorAll("tr[data-run]")[0]?.getAttribute("data-run")).toBe("1");
+    press("x");
+    expect(picked).toEqual([[100, true]]);
+    press("ArrowDown", "ArrowDown");
+    expect(focused()).toBe("1");
+    press("Home", "Enter");
+    expect(heads()).toEqual(["Scenario even"]);
   });
 });

@@ -11,8 +11,9 @@ import {
   useTable,
 } from "@tanstack/react-table";
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useMemo, useRef } from "react";
+import { type KeyboardEvent, useEffect, useMemo, useRef, useState } from "react";
 import { useGlossary } from "../../api/glossary";
+import { type Entry, entriesOf, groupsOf, type RunGroup, said } from "../../model/grouping";
 import type { Json, ListedRun } from "../../model/run";
 import { standing } from "../../model/standing";
 import { type Column, isUnranked, sorted, varies } from "../../model/table";
@@ -49,15 +50,18 @@ interface Props {
   onBase: (run: number) => void;
   view: RunsView;
   onView: (view: RunsView) => void;
-  selected: readonly number[];
+  selected: ReadonlySet<number>;
   onToggle: (run: number) => void;
+  /** Many are chosen at once, or given up. */
+  onPick: (runs: readonly ListedRun[], isPicked: boolean) => void;
   /** Somebody wants to decide about a run. */
   onJudge: (run: ListedRun, word: Word) => void;
 }
 
-export function RunsTable({ runs, all, columns, hidden, base, hovered, view, selected, onView, onToggle, onJudge, onBase }: Props) {
+export function RunsTable({ runs, all, columns, hidden, base, hovered, view, selected, onView, onToggle, onPick, onJudge, onBase }: Props) {
   const sorting = readSort(view.sort);
   const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0], base), [runs, columns, view.sort, base]);
+  const { entries, fold, folded } = useEntries(data, columns, view);
   const table = useTable({
     features,
     data,
@@ -70,9 +74,9 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
       onView({ ...view, sort: writeSort(typeof next === "function" ? next(sorting) : next) }),
   });
   const scroller = useRef<HTMLDivElement>(null);
-  const rows = table.getRowModel().rows;
+  const { rowsById } = table.getRowModel();
   const virtual = useVirtualizer({
-    count: rows.length,
+    count: entries.length,
     getScrollElement: () => scroller.current,
     estimateSize: () => ROW_HEIGHT,
     overscan: 12,
@@ -81,7 +85,8 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
   const above = items[0]?.start ?? 0;
   const below = virtual.getTotalSize() - (items.at(-1)?.end ?? 0);
   const width = table.getVisibleLeafColumns().length + 1;
-  const keys = useMemo(() => rows.map(({ id }) => id), [rows]);
+  const keys = useMemo(() => entries.map(({ run, group }) => (run ? String(run.run) : groupKey(group))), [entries]);
+  const shown = table.getVisibleLeafColumns().map(({ id }) => byId(columns, id));
   const { enter, step } = useRowFocus(scroller, keys, (index) => virtual.scrollToIndex(index));
   useRowKeys(() => enter(virtual.range?.startIndex ?? 0), items.length > 0);
   const withFocused = (act: (run: ListedRun) => void) => () => {
@@ -99,12 +104,12 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
 
   return (
     <div ref={scroller} className={classes.scroller}>
-      <table className={classes.table} data-testid="runs-table" aria-rowcount={rows.length + 2}>
+      <table className={classes.table} data-testid="runs-table" aria-rowcount={entries.length + 2}>
         <thead>
           {table.getHeaderGroups().map((group, level) => (
             <tr key={group.id}>
               <th className={classes.pick}>
-                <VisuallyHidden>{level === 0 ? "Selection" : "Select to compare"}</VisuallyHidden>
+                {level === 0 ? <VisuallyHidden>Selection</VisuallyHidden> : <PickAll runs={runs} selected={selected} what="all shown runs" onPick={onPick} />}
               </th>
               {group.headers.map((header) =>
                 level === 0 ? (
@@ -132,7 +137,21 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
         <tbody onKeyDown={step}>
           <Gap height={above} width={width} />
           {items.map(({ index }) => {
-            const row = rows[index];
+            const { run, group } = entries[index] ?? {};
+            if (group)
+              return (
+                <GroupRow
+                  key={groupKey(group)}
+                  group={group}
+                  index={index}
+                  columns={shown}
+                  isOpen={!folded.has(group.key)}
+                  selected={selected}
+                  onFold={() => fold(group.key)}
+                  onPick={onPick}
+                />
+              );
+            const row = run && rowsById[String(run.run)];
             return row ? (
               <RunRow
                 key={row.id}
@@ -141,7 +160,7 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
                 columns={row.getVisibleCells().map((cell) => byId(columns, cell.column.id))}
                 base={base}
                 hovered={row.original.run === hovered}
-                selected={selected.includes(row.original.run)}
+                selected={selected.has(row.original.run)}
                 onToggle={() => onToggle(row.original.run)}
               />
             ) : null;
@@ -152,6 +171,24 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
     </div>
   );
 }
+
+/** The lines of the table: runs or, grouped, heads with the runs that belong to them, which can be folded. */
+function useEntries(data: readonly ListedRun[], columns: readonly Column[], { by, sort }: RunsView) {
+  const [folded, setFolded] = useState<ReadonlySet<string>>(new Set());
+  const entries = useMemo((): Entry[] => {
+    const column = columns.find(({ id }) => id === by);
+    if (!column) return data.map((run) => ({ run }));
+    const [first] = readSort(sort);
+    const ranking = columns.find(({ id }) => id === first?.id);
+    return entriesOf(groupsOf(data, column, ranking && first ? { column: ranking, desc: first.desc } : undefined), folded);
+  }, [data, columns, by, sort, folded]);
+  // What was folded by another column is nothing in this one.
+  useEffect(() => setFolded(new Set()), [by]);
+  const fold = (key: string) => setFolded((before) => new Set(before.has(key) ? [...before].filter((each) => each !== key) : [...before, key]));
+  return { entries, fold, folded };
+}
+
+const groupKey = ({ key }: RunGroup): string => `group ${key}`;
 
 /** The keyboard works at once: the first row in sight has the focus, and gets it back from nowhere. */
 function useRowKeys(first: () => void, filled: boolean) {
@@ -249,6 +286,80 @@ function SortHeader({ column, sorted: direction, onSort }: HeaderProps) {
     </th>
   );
 }
+
+interface PickProps {
+  runs: readonly ListedRun[];
+  selected: ReadonlySet<number>;
+  what: string;
+  onPick: Props["onPick"];
+}
+
+/** Chooses many runs at once; when all of them are chosen, gives them up. */
+function PickAll({ runs, selected, what, onPick }: PickProps) {
+  const count = runs.reduce((sum, { run }) => sum + Number(selected.has(run)), 0);
+  const isAll = count === runs.length && count > 0;
+  return (
+    <Checkbox
+      size="xs"
+      checked={isAll}
+      indeterminate={count > 0 && !isAll}
+      onChange={() => onPick(runs, !isAll)}
+      aria-label={`Select ${what}`}
+      title={`Select ${what}`}
+    />
+  );
+}
+
+interface GroupProps {
+  group: RunGroup;
+  index: number;
+  columns: readonly Column[];
+  isOpen: boolean;
+  selected: ReadonlySet<number>;
+  onFold: () => void;
+  onPick: Props["onPick"];
+}
+
+/** The head of a group: how many there are, and how what is shown of them spreads. */
+function GroupRow({ group: { title, runs }, index, columns, isOpen, selected, onFold, onPick }: GroupProps) {
+  const onKey = (event: KeyboardEvent) => {
+    if (event.target !== event.currentTarget) return;
+    const isWay = (event.key === "ArrowLeft" && isOpen) || (event.key === "ArrowRight" && !isOpen);
+    if (event.key === "Enter" || isWay) onFold();
+    if (event.key === "x") onPick(runs, !runs.every(({ run }) => selected.has(run)));
+  };
+  return (
+    <tr tabIndex={0} data-index={index} data-heap={title} onKeyDown={onKey}>
+      <td className={classes.pick}>
+        <PickAll runs={runs} selected={selected} what={`the runs of ${title}`} onPick={onPick} />
+      </td>
+      {columns.map((column) =>
+        column.id === "run" ? (
+          <td key={column.id} data-sticky>
+            <button type="button" tabIndex={-1} className={classes.fold} aria-expanded={isOpen} onClick={onFold}>
+              <Icon name={isOpen ? "down" : "right"} size={12} />
+              {title} <small>{runs.length === 1 ? "1 run" : `${runs.length} runs`}</small>
+            </button>
+          </td>
+        ) : (
+          <GroupCell key={column.id} column={column} runs={runs} />
+        ),
+      )}
+    </tr>
+  );
+}
+
+function GroupCell({ column, runs }: { column: Column; runs: readonly ListedRun[] }) {
+  const found = useMemo(() => (UNSAID.has(column.id) ? undefined : said(runs, column)), [column, runs]);
+  return (
+    <td data-numeric={column.numeric || undefined} title={found?.full}>
+      {found?.text}
+    </td>
+  );
+}
+
+/** Of these every run has its own, and seeds are no quantity. */
+const UNSAID = new Set(["created", "parent", "seed"]);
 
 interface RowProps {
   run: ListedRun;

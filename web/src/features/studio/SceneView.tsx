@@ -1,7 +1,9 @@
 /** The 3D scene in its frame, with the controls that belong to looking. */
 
 import { NativeSelect, SegmentedControl } from "@mantine/core";
+import { useQuery } from "@tanstack/react-query";
 import { memo, useCallback, useEffect, useRef, useState } from "react";
+import { scenePlace } from "../../api/stage";
 import type { Scene, SceneVehicle } from "../../api/types";
 import { isTraffic } from "../../model/channel";
 import { formatDifference, words } from "../../model/units";
@@ -52,6 +54,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     setFollowed(vehicle);
     setView((before) => (vehicle === null ? "overview" : before === "overview" ? "chase" : before));
   }, []);
+  const place = useQuery(scenePlace);
   const there = useMap(frame, map ?? "");
   const { ready, send } = useBridge(frame, follow, onEmptied);
 
@@ -87,13 +90,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
 
   return (
     <div className={classes.scene}>
-      <iframe
-        ref={frame}
-        title="3D scene"
-        src="/scene/"
-        data-testid="scene-frame"
-        className={classes.frame}
-      />
+      {place.data ? <iframe ref={frame} title="3D scene" src={place.data} data-testid="scene-frame" className={classes.frame} /> : null}
       {active ? (
         <div className={classes.look}>
           <NativeSelect
@@ -115,7 +112,7 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
           <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
         </div>
       ) : null}
-      {waits || !there ? <Cover key={title} title={title} what={waits || (ready ? "The browser loads the map" : "The 3D view comes up")} /> : null}
+      {waits || !there ? <Cover key={title} title={title} what={place.error?.message || waits || (ready ? "The browser loads the map" : "The 3D view comes up")} /> : null}
       {active && ghosts?.length ? <Ghosts ghosts={ghosts} /> : null}
       <span className={classes.attribution} data-testid="attribution" hidden={attribution === ""}>
         {attribution}

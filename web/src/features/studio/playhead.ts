@@ -2,6 +2,7 @@
 
 import { useEffect, useMemo, useSyncExternalStore } from "react";
 import { answer, client, Unreachable } from "../../api/client";
+import { stage } from "../../api/stage";
 import type { Scene } from "../../api/types";
 import type { Layers } from "../../model/layer";
 import type { Server } from "../../model/run";
@@ -170,7 +171,8 @@ export class Playhead {
  * told `again` what this one wants.
  */
 export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<Layers | null> {
-  const ask = () => answer(client.PUT("/api/scene/time", { body: { run, time, layers: true } })) as Promise<Server["Shown"]>;
+  const ask = async () =>
+    (await answer(client.PUT("/api/scene/time", { body: { stage: await stage(), run, time, layers: true } }))) as Server["Shown"];
   const first = await ask();
   if (first.shown) return first.layers ?? null;
   await again();

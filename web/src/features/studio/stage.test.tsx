@@ -6,6 +6,7 @@ import type { Changes } from "../../model/run";
 import { useScene } from "./stage";
 
 interface Asked {
+  stage: number;
   set: Changes;
   run?: number;
 }
@@ -17,6 +18,7 @@ beforeEach(() => {
   vi.useFakeTimers();
   asked.length = 0;
   vi.stubGlobal("fetch", async (request: Request) => {
+    if (request.url.endsWith("/api/stages")) return new Response(JSON.stringify({ stage: 2 }));
     asked.push(await request.json());
     return new Response(JSON.stringify({ vehicles: [], attribution: "", begin: null, end: null, step: null, notes: [] }));
   });
@@ -63,6 +65,11 @@ describe("the scene", () => {
     await after(320, { range: 3, ok: false }, better); // the server is asked about it after 300 ms
     expect(await after(50, { range: 3, ok: true }, better)).toEqual([1]);
     expect(await after(500, { range: 3, ok: true }, better)).toEqual([1, 3]);
+  });
+
+  it("is of the stage that this page has to itself", async () => {
+    await after(500, { range: 8, ok: true });
+    expect(asked.map(({ stage }) => stage)).toEqual([2]);
   });
 
   it("goes to a run at once", async () => {

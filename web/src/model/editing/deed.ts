@@ -215,7 +215,8 @@ export function area(state: Editing, corners: readonly Point[]): { deed: Deed; p
   return { deed, path: `${path}.when.area` };
 }
 
-const entry = (state: Editing, base: string, value: Tree) =>
+/** A new entry of the script, called after what it is. */
+export const entry = (state: Editing, base: string, value: Tree) =>
   fresh(state, "script", freshName(base, [...namesIn(state, "script"), ...namesIn(state, "vehicles")]), value);
 
 /** A new thing in a part of the document, which need not be there yet. */

@@ -5,8 +5,9 @@ import { area, copied, ghostOf, isAbsolute, isTurnable, moved, nudged, pasted, p
 import { fitted, outside, sectionAt, stepName } from "./form";
 import { settingsFor } from "./fresh";
 import { boundsOfItems, hit, within } from "./hit";
+import { cornerAdded, cornerMoved, cornerRemoved, endMoved, endsOf, knobsOf, LONGEST_WALL, walls } from "./shape";
 import { type Editing, freshName, grouped, type Item, named, present, toggled } from "./item";
-import { corners, foot, inside, pointAt } from "./line";
+import { corners, foot, inside, pointAt, rounded } from "./line";
 
 // A street of two lanes to the east, and a car 40 m from its beginning.
 const lane = (road: string, index: number, y: number) => ({
@@ -44,6 +45,55 @@ const given = {
 };
 const state = { scenario: "s", revision: 0, document: given, given, duration: 30, items: [car, tree, walker, zone, route], turns: [], done: [], undone: [] } as unknown as Editing;
 const values = (patch: unknown) => Object.fromEntries((patch as { path: string; value: unknown }[]).map(({ path, value }) => [path, value]));
+
+const wall: Item = {
+  path: "script.wall", group: "object", name: "wall", told: "a wall stands there", vehicles: [],
+  figures: [{ path: "script.wall", shape: "body", looks: "wall", x: 20, y: 10, heading: Math.PI / 2, length: 4, width: 0.25, anchor: [20, 10], line: [], colour: "", handles: [] }],
+} as unknown as Item;
+const built = {
+  ...state,
+  document: { ...given, script: { ...given.script, wall: { do: { kind: "object", shape: "wall", x: 20, y: 10, heading: Math.PI / 2, length: null } } } },
+} as unknown as Editing;
+
+describe("shapes, corner by corner", () => {
+  const ring = [[90, -5], [110, -5], [110, 5], [90, 5]];
+  const cornersOf = (deed: ReturnType<typeof cornerMoved>) => values(deed?.patch)["/script/mark/when/area/corners"];
+
+  it("have a corner moved, put on an edge, and taken out", () => {
+    expect(cornersOf(cornerMoved(state, zone, 1, { x: 120, y: -7.123 }))).toEqual([ring[0], [120, -7.12], ring[2], ring[3]]);
+    expect(cornersOf(cornerAdded(state, zone, 0))).toEqual([ring[0], [100, -5], ring[1], ring[2], ring[3]]);
+    expect(cornersOf(cornerAdded(state, zone, 3, { x: 80, y: 0 }))).toEqual([...ring, [80, 0]]);
+    expect(cornersOf(cornerRemoved(state, zone, 0))).toEqual(ring.slice(1));
+  });
+
+  it("keep as many corners as a shape needs", () => {
+    const three = { ...state, document: { ...given, script: { ...given.script, mark: { when: { area: { corners: ring.slice(1) } } } } } } as unknown as Editing;
+    expect(cornerRemoved(three, zone, 0)).toBeUndefined();
+    expect(cornerMoved(three, zone, 3, { x: 0, y: 0 })).toBeUndefined(); // somebody else has taken it out
+  });
+
+  it("are open where somebody walks, and none along a route", () => {
+    expect(values(cornerAdded(state, walker, 0)?.patch)["/script/child/do/line"]).toEqual([[80, -6], [80, 0], [80, 6]]);
+    expect(knobsOf(state, walker).map(({ is }) => is)).toEqual(["corner", "corner", "edge"]);
+    expect(knobsOf(state, { ...walker, path: "script.ahead" })).toEqual([]);
+    expect(values(cornerRemoved(state, walker, 1)?.patch)["/script/child/do/line"]).toEqual([[80, -6]]);
+  });
+
+  it("of a wall are its two ends, of which one stays", () => {
+    expect(endsOf(built, wall)?.flat().map((each) => rounded(each))).toEqual([20, 8, 20, 12]);
+    const { set = {} } = endMoved(built, wall, 1, { x: 26, y: 16 }) ?? {};
+    expect(set).toEqual({ "script.wall.do.x": 23, "script.wall.do.y": 12, "script.wall.do.heading": 0.927, "script.wall.do.length": 10 });
+    expect(endMoved(built, wall, 1, { x: 20, y: 8 + LONGEST_WALL + 1 })).toBeUndefined();
+  });
+
+  it("of walls make a piece a side, and several of a long one", () => {
+    const made = walls(built, [{ x: 0, y: 0 }, { x: 120, y: 0 }, { x: 120, y: 10 }, { x: 120, y: 10 }]);
+    expect(made?.paths).toEqual(["script.wall", "script.wall_2", "script.wall_3", "script.wall_4"]);
+    const pieces = Object.values(values(made?.deed.patch)).map((each) => (each as { do: { x: number; length: number } }).do);
+    expect(pieces.map(({ x, length }) => [x, length])).toEqual([[20, 40], [60, 40], [100, 40], [120, 10]]);
+    expect(walls(built, [{ x: 0, y: 0 }])).toBeUndefined();
+  });
+});
 
 describe("lines on the ground", () => {
   it("tell where a point lies along and beside them", () => {
