@@ -304,7 +304,8 @@ def test_a_wall_is_turned_by_its_handle_and_an_area_by_its_corners(page, path):
     page.keyboard.press("Enter")
     done(page, "Add area", "area")
     reshaped = document(path)["script"]["area"]["when"]["area"]["corners"]
-    drag(page, corners[1], (x + 120, y + 30))
+    start = middle_of(knob(page, "Corner 2 of area"))
+    drag(page, start, (start[0] + 60, start[1]))
     done(page, "Reshape area")
     after = document(path)["script"]["area"]["when"]["area"]["corners"]
     assert after[1][0] > reshaped[1][0] + 5 and after[0] == reshaped[0] and after[2] == reshaped[2]
@@ -316,7 +317,10 @@ def knob(page, name):
 
 
 def middle_of(found):
-    box = found.bounding_box()
+    """Where something is on the screen, once it stays there."""
+    box = None
+    while box != (box := found.bounding_box()):
+        drawn(found.page)
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 

@@ -1,6 +1,7 @@
 /** The plan of the editor: what is looked at, what the pointer does, and what is drawn of that. */
 
 import { type MouseEvent, type PointerEvent, type RefObject, useCallback, useEffect, useImperativeHandle, useMemo, useRef, useState, type WheelEvent } from "react";
+import { flushSync } from "react-dom";
 import { type Addition, type Drag, ghostOf, isTurnable } from "../../model/editing/deed";
 import { boundsOfItems, hit, placeOf, within } from "../../model/editing/hit";
 import type { Editing, Handle, Item } from "../../model/editing/item";
@@ -84,7 +85,8 @@ export function PlanView(props: Props) {
   const board = useBoard(canvas, size);
 
   useEffect(() => {
-    const watcher = new ResizeObserver(([entry]) => entry && setSize({ width: entry.contentRect.width, height: entry.contentRect.height }));
+    // Within the frame in which the place changes: nothing on the plan is ever drawn where it was before.
+    const watcher = new ResizeObserver(([entry]) => entry && flushSync(() => setSize({ width: entry.contentRect.width, height: entry.contentRect.height })));
     watcher.observe(place.current as HTMLElement);
     return () => watcher.disconnect();
   }, []);
