@@ -26,7 +26,7 @@ OMEGA = 0.9  # [1/m]
 TURNING = 0.7  # [m/s] in turns and backward
 DECELERATION = 0.5  # [m/s²]
 TIGHT = 0.15  # [1/m] what is bent more is a turn of a maneuver
-PREVIEW = 0.15  # [s] by which the wheels are late
+PREVIEW = 0.4  # [s] half of the time in which the wheels turn for a maneuver, at 0.6 rad/s
 THERE = 0.04  # [m] from the end of a stretch
 LIMIT = 0.62  # [rad] of the road wheels
 

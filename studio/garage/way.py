@@ -10,6 +10,7 @@ backward (curvature kappa, road wheels at atan(L kappa)).
 """
 
 from functools import cache
+from itertools import pairwise
 from math import cos, sin
 from typing import NamedTuple
 
@@ -22,9 +23,10 @@ from studio.garage.plan import WHOLE, Pose, box
 STEP = 0.05  # [m]
 CLEARANCE = 0.3  # [m] that a planned way keeps: 0.15 in the end, and 0.15 for what is not followed exactly
 CHANGE = 4.0  # [m] that a change of direction is worth
+PIECE = 0.5  # [m] that another piece is worth: at each the wheels turn while the car drives
 CHECKED = 4  # every so many steps it is looked whether something is near
 TRIED = np.arange(2.0, 9.0, 0.125)  # [m] beyond the space from where it is driven in
-LEAVES = WHOLE + 12.0  # [m] station at which a car is outside
+LEAVES = WHOLE + 4.0  # [m] station at which the driver has a car back
 
 
 class Car(NamedTuple):
@@ -102,6 +104,11 @@ def goal(number: int, car: Car) -> Pose:
     return Pose(it.x - car.middle * cos(it.heading), it.y - car.middle * sin(it.heading), it.heading)
 
 
+def swings(word: reeds_shepp.Word) -> bool:
+    """Whether the wheels would have to turn from one side to the other without a stop between."""
+    return any(a.turn * b.turn < 0 and a.length * b.length > 0.0 for a, b in pairwise(word))
+
+
 def candidates(number: int, car: Car):
     """Ways in: cost [m], station from which the aisle is left, and the word."""
     to = goal(number, car)
@@ -112,9 +119,9 @@ def candidates(number: int, car: Car):
         local = ((dx * c + dy * d) / car.radius, (dy * c - dx * d) / car.radius, reeds_shepp.wrapped(to.heading - start.heading))
         for word in reeds_shepp.words(*local):
             word = tuple(piece for piece in word if abs(piece.length) * car.radius > 1e-3)
-            if word:
+            if word and not swings(word):
                 turns = reeds_shepp.changes(word) + 2 * (word[0].length > 0.0)  # who begins forward turns back once more on its way out
-                yield past + car.radius * reeds_shepp.length(word) + CHANGE * turns, s, word
+                yield past + car.radius * reeds_shepp.length(word) + CHANGE * turns + PIECE * len(word), s, word
 
 
 @cache

@@ -30,7 +30,7 @@ from studio.application.contract import (
 )
 from studio.garage import plan, tracker
 from studio.garage.plan import GATE, RADIUS, Pose
-from studio.garage.way import Car, Way, nearest
+from studio.garage.way import LEAVES, Car, Way, nearest
 from studio.kind.settings import Part, number
 from studio.kinds.message.parking_order import COME_BACK, DRIVE_IN, MOST
 from studio.kinds.message.parking_status import COMING_BACK, DRIVING_IN, GIVEN_BACK, OUTSIDE, PARKED, Payload
@@ -92,11 +92,11 @@ class Log(NamedTuple):
 
     phase: Annotated[float, "1"] = 0.0  # 0 outside, 1 drives in, 2 parked, 3 comes back, 4 given back
     space: Annotated[float, "1"] = -1.0
-    x: Annotated[float, "m"] = float("nan")  # where it takes the middle of its rear axle to be
-    y: Annotated[float, "m"] = float("nan")
-    heading: Annotated[float, "rad"] = float("nan")
-    aside: Annotated[float, "m"] = float("nan")  # to the left of its way, as it takes it
-    shortest: Annotated[float, "m"] = float("nan")  # length of the way that it is on
+    x: Annotated[float, "m"] = 0.0  # where it takes the middle of its rear axle to be
+    y: Annotated[float, "m"] = 0.0
+    heading: Annotated[float, "rad"] = 0.0
+    aside: Annotated[float, "m"] = 0.0  # to the left of its way, as it takes it
+    shortest: Annotated[float, "m"] = 0.0  # length of the way that it is on
 
 
 class Does(NamedTuple):
@@ -226,7 +226,7 @@ def decide(parameters, memory, sees):
     m = m if m.ticket else m._replace(ticket=ticket_of(time, sees.own))
     i = place_of(m, sees)
     m = ordered(located(p, m, sees, i), sees, i)
-    command, log = leave(), Log(m.phase, m.space, float("nan"), float("nan"), float("nan"), float("nan"), float("nan"))
+    command, log = leave(), Log(m.phase, m.space, 0.0, 0.0, 0.0, 0.0, 0.0)
     if m.phase in (DRIVING_IN, COMING_BACK):
         m, command, way, aside = driven(p, m, sees)
         m = arrived(m, way, sees)
@@ -235,6 +235,7 @@ def decide(parameters, memory, sees):
         command = waiting(sees)
     if m.phase == PARKED:
         command = also(accelerate(-1.0), steer(0.0))
-    says = m.phase != GIVEN_BACK and time - m.sent >= p.repetition - EARLY
+    is_near = m.phase != GIVEN_BACK or plan.station(m.x, m.y) < LEAVES + 15.0
+    says = is_near and time - m.sent >= p.repetition - EARLY
     m = m._replace(sent=time if says else m.sent)
     return m, Does(command, Outbox(1 if says else 0, (status(p, m, sees),)), log)
