@@ -30,6 +30,7 @@ from studio.kinds.message.parking_status import Payload as Status
 
 KIND = "application"
 TITLE = "Garage that parks cars (PACE)"
+FIRST_COME = 1  # place of this allocation in its list
 TILE, BEFORE = 2.5, 10.0  # [m] of the aisle; [m] before the gate at which the first one begins
 COMING, PARKED, CALLED, LEAVING = 1.0, 2.0, 3.0, 4.0  # states of a car; 0 the place is free
 NEAR = 1.6  # [m] between where a car takes itself to be and where the cameras see it
@@ -49,6 +50,7 @@ class Parameters(Part):
         "optimal", title="Allocation", description="the queue so that nobody waits for who turns in before him, or each the nearest space"
     )
     spaces: int = number(60, unit="1", title="Spaces", description="that it gives away, the lowest numbers first", ge=1, le=60)
+    zones: int = number(3, unit="1", title="Zones", description="in which cars turn in side by side, by the optimal allocation", ge=1, le=6)
     stay: float = number(60.0, unit="s", title="Stay", description="from parked until called back", ge=0, le=36_000)
     patience: float = number(15.0, unit="s", title="Patience", description="of who wants to pull out", ge=0, le=600)
     period: float = number(0.06, unit="s", title="Period", description="of its orders", ge=0.02, le=1)
@@ -190,16 +192,16 @@ def queue_of(told: dict[float, Status], guests: list[Guest]) -> list[Status]:
     return sorted(waits, key=lambda each: abs(each.x + GATE) + abs(each.y + RADIUS))
 
 
-def choose(p: Parameters, queue: list[Status], free: list[int]) -> int:
+def choose(p: Parameters, queue: list[Status], free: list[int], first: int) -> int:
     """The space of the first in the queue."""
     depth = np.array([plan.spaces()[each].station for each in free])
-    if p.allocation == "first_come" or str(p.allocation) in ("1", "1.0"):
+    if int(p.allocation) == FIRST_COME:
         return free[int(np.argmin(depth))]
     cars = min(len(queue), len(free))
-    return free[int(allocation.optimal(allocation.queued(cars, depth))[0])]
+    return free[int(allocation.optimal(allocation.queued(cars, depth, first, int(p.zones)))[0])]
 
 
-def take_in(p: Parameters, time: float, guests: list[Guest], queue: list[Status], targets: list) -> None:
+def take_in(p: Parameters, m: Memory, time: float, guests: list[Guest], queue: list[Status], targets: list) -> None:
     """The first of the queue, when the cameras see it at the gate and there is room."""
     free = sorted(set(range(int(p.spaces))) - taken(guests, targets))
     own = [each.target for each in guests if each.target is not None]
@@ -213,7 +215,7 @@ def take_in(p: Parameters, time: float, guests: list[Guest], queue: list[Status]
     status = min(queue, key=lambda each: away(first, each))
     under = frozenset(range(tile(-1e3), tile(first.x + GATE + 0.5 * status.length + 0.5) + 1))
     if away(first, status) < QUEUE and not any(under & each.holds for each in guests):
-        guest = Guest(status.ticket, COMING, choose(p, queue, free), time, min(under), max(under))
+        guest = Guest(status.ticket, COMING, choose(p, queue, free, int(m.served) + len(guests)), time, min(under), max(under))
         guest.status, guest.target = status, first
         guests.append(guest)
 
@@ -305,7 +307,7 @@ def decide(parameters, memory, sees):
     find(guests, told, targets)
     served = move_on(p, time, guests)
     queue = queue_of(told, guests)
-    take_in(p, time, guests, queue, targets)
+    take_in(p, m, time, guests, queue, targets)
     grant(p, time, guests)
     payload = orders(sees, guests, targets)
     log = Log(float(len(guests)), float(len(queue)), m.served + served, payload.persons)

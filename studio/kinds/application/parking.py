@@ -92,11 +92,11 @@ class Log(NamedTuple):
 
     phase: Annotated[float, "1"] = 0.0  # 0 outside, 1 drives in, 2 parked, 3 comes back, 4 given back
     space: Annotated[float, "1"] = -1.0
-    x: Annotated[float, "m"] = 0.0  # where it takes the middle of its rear axle to be
+    x: Annotated[float, "m"] = 0.0  # where it takes the middle of its outline to be
     y: Annotated[float, "m"] = 0.0
     heading: Annotated[float, "rad"] = 0.0
     aside: Annotated[float, "m"] = 0.0  # to the left of its way, as it takes it
-    shortest: Annotated[float, "m"] = 0.0  # length of the way that it is on
+    left: Annotated[float, "m"] = 0.0  # of the way that it is on
 
 
 class Does(NamedTuple):
@@ -185,6 +185,7 @@ def driven(p: Parameters, m: Memory, sees: Sees) -> tuple[Memory, Command, Way, 
         k = end + 1
         end = int(last[k])
         left = tracker.left_of(way, k, end, at)
+    left = 1e3 if m.phase == COMING_BACK and end + 1 == way.x.size else left  # the driver goes on from there
     free = min(tracker.permitted(way, k, car, m.permit), tracker.before_persons(way, k, end, car, persons(sees), p.margin))
     knows = time - m.fixed < p.blind and time - m.ordered < p.blind
     g, v = float(way.direction[k]), float(way.direction[k]) * own.speed
@@ -210,10 +211,16 @@ def arrived(m: Memory, way: Way, sees: Sees) -> Memory:
     return m._replace(phase=GIVEN_BACK) if m.phase == COMING_BACK and is_at_end else m
 
 
+def middle(p: Parameters, m: Memory) -> tuple[float, float]:
+    """Where it takes the middle of its outline to be [m]."""
+    ahead = car_of(p).middle
+    return m.x + ahead * cos(m.heading), m.y + ahead * sin(m.heading)
+
+
 def status(p: Parameters, m: Memory, sees: Sees) -> Payload:
     """What the garage is told."""
     car, is_outside = car_of(p), m.phase in (OUTSIDE, GIVEN_BACK) and m.fixes < 1.0
-    x, y = m.x + car.middle * cos(m.heading), m.y + car.middle * sin(m.heading)
+    x, y = middle(p, m)
     if is_outside:
         x, y = sees.own.gps_x, sees.own.gps_y
     rear = plan.station(m.x, m.y) - car.rear if m.fixes > 0.0 else -1e3
@@ -230,7 +237,8 @@ def decide(parameters, memory, sees):
     if m.phase in (DRIVING_IN, COMING_BACK):
         m, command, way, aside = driven(p, m, sees)
         m = arrived(m, way, sees)
-        log = Log(m.phase, m.space, m.x, m.y, atan2(sin(m.heading), cos(m.heading)), aside, way.length)
+        x, y = middle(p, m)
+        log = Log(m.phase, m.space, x, y, atan2(sin(m.heading), cos(m.heading)), aside, way.length - float(way.driven[int(m.point)]))
     elif m.phase == OUTSIDE:
         command = waiting(sees)
     if m.phase == PARKED:
