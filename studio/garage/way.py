@@ -137,7 +137,7 @@ def turning_in(number: int, car: Car) -> tuple[float, reeds_shepp.Word]:
 
 
 @cache
-def into(number: int, car: Car, first: float = -8.0) -> Way:
+def into(number: int, car: Car, first: float = -14.0) -> Way:
     """From the gate, or a station [m] before it, into a space."""
     s, word = turning_in(number, car)
     return joined([straightened(first, s), drawn(plan.along(s), word, car.radius)])

@@ -288,6 +288,7 @@ def orders(sees: Sees, guests: list[Guest], targets: list) -> Payload:
 
 def remembered(m: Memory, time: float, guests: list[Guest], served: float) -> Memory:
     """What is kept."""
+
     def row(of):
         values = [float(of(each)) for each in guests]
         return tuple(values + [0.0] * (MOST - len(values)))
