@@ -6,7 +6,7 @@ the deck a car is: the station s [m] along this way, 0 at the gate in the west w
 
 from functools import cache
 from math import cos, pi, sin
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -93,7 +93,7 @@ def standing(number: int) -> shapely.Polygon:
 
 
 @cache
-def structure() -> shapely.Geometry:
+def structure() -> Any:
     """Pillars and outer walls, the gates open."""
     half = PILLAR / 2.0
     middles = [
@@ -107,6 +107,6 @@ def structure() -> shapely.Geometry:
     return shapely.union_all(pillars + [wall - shapely.union_all(gates)])
 
 
-def full(but: int) -> shapely.Geometry:
+def full(but: int) -> Any:
     """The deck with a car in every space but one."""
     return shapely.union_all([structure(), *(standing(number) for number in range(SPACES) if number != but)])

@@ -1,8 +1,9 @@
 """Shortest ways of a car that can drive forward and backward, and turns no tighter than a circle of radius r.
 
-words(goal)      →  Word, ...    every candidate of the families of J. A. Reeds, L. A. Shepp, Optimal paths for a car that goes both forwards
-                                 and backwards, Pacific J. Math. 145 (1990) 367, Sect. 8, that ends at the goal, for r = 1
-shortest(x, y, phi, r)           the shortest of them
+words(x, y, phi)     →  Word, ...      every candidate that ends at a goal, for r = 1
+shortest(x, y, phi, r)  →  Word        the shortest of them
+
+J. A. Reeds, L. A. Shepp, Optimal paths for a car that goes both forwards and backwards, Pacific J. Math. 145 (1990) 367, Sect. 8.
 
 A word is a list of pieces: turn +1 left, 0 straight, -1 right, and signed length [r], negative backward. Only one of the symmetric forms of
 each family is written down: driven the other way in time (x, phi change signs), mirrored (y, phi change signs), from the goal to the start.
@@ -10,6 +11,7 @@ Every candidate is driven to its end before it is believed, so that a wrong bran
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 from math import acos, asin, atan2, cos, hypot, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -57,7 +59,7 @@ def length(word: Word) -> float:
 def changes(word: Word) -> int:
     """How often a way changes its direction."""
     signs = [piece.length > 0.0 for piece in word]
-    return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+    return sum(a != b for a, b in pairwise(signs))
 
 
 # -- the families, in the form that the paper gives each ---------------------------------------------

@@ -1,11 +1,12 @@
 """A car along its way: where it takes itself to be, which way its wheels point, how fast it goes.
 
-Where: dead reckoning of the rear axle's middle, x' = v cos(psi), y' = v sin(psi), psi' = r, and what the garage's cameras have seen, brought
-to now by the same motion: a share GAIN of the difference is taken over (the first ones 1/n), a fix older than LATEST counts for nothing.
+Where: dead reckoning of the rear axle's middle, x' = v cos(psi), y' = v sin(psi), psi' = r, and what the garage's cameras have seen,
+brought to now by the same motion: a share GAIN of the difference is taken over (the first ones 1/n), a fix older than LATEST counts for
+nothing.
 
-Steering: e [m] to the left of the way, theta [rad] turned to its left; g = 1 forward, -1 backward; sigma the distance driven. For the rear
-axle de/dsigma = g theta and dtheta/dsigma = g (kappa - kappa_w), so that kappa = kappa_w - 2 w g theta - w² e gives e'' + 2 w e' + w² e = 0:
-both errors fade over 1/w metres, forward and backward alike. Road wheels: atan(L kappa).
+Steering: e [m] to the left of the way, theta [rad] turned to its left; g = 1 forward, -1 backward; sigma the distance driven. For the
+rear axle de/dsigma = g theta and dtheta/dsigma = g (kappa - kappa_w), so that kappa = kappa_w - 2 w g theta - w² e gives e'' + 2 w e' +
+w² e = 0: both errors fade over 1/w metres, forward and backward alike. Road wheels: atan(L kappa).
 
 Speed: v² = v_next² + 2 DECELERATION ds backward from every stop, at most the speed of the aisle or of a turn.
 """
@@ -29,6 +30,7 @@ TIGHT = 0.15  # [1/m] what is bent more is a turn of a maneuver
 PREVIEW = 0.4  # [s] half of the time in which the wheels turn for a maneuver, at 0.6 rad/s
 THERE = 0.04  # [m] from the end of a stretch
 LIMIT = 0.62  # [rad] of the road wheels
+ROOM = 0.8  # [m] beside the car in which a person counts as on its way
 
 
 def reckoned(at: Pose, v: float, yaw_rate: float, dt: float) -> Pose:
@@ -96,13 +98,8 @@ def before_persons(way: Way, k: int, last: int, car: Car, persons: list[tuple[fl
     psi = way.heading[ahead]
     shift = way.direction[k] * reach
     x, y = way.x[ahead] + shift * np.cos(psi), way.y[ahead] + shift * np.sin(psi)
-    away = 1e3
-    for px, py in persons:
-        near = np.flatnonzero(np.hypot(x - px, y - py) < car.width / 2.0 + 0.8)
-        body = np.flatnonzero(np.hypot(way.x[ahead[:1]] + car.middle * np.cos(psi[:1]) - px, way.y[ahead[:1]] - py) < 0.0)
-        if near.size or body.size:
-            away = min(away, float(way.driven[ahead[near[0]]] - way.driven[k]) - margin)
-    return away
+    near = np.flatnonzero([any(np.hypot(a - px, b - py) < car.width / 2.0 + ROOM for px, py in persons) for a, b in zip(x, y, strict=True)])
+    return float(way.driven[ahead[near[0]]] - way.driven[k]) - margin if near.size else 1e3
 
 
 def allowed(v: float, left: float) -> float:

@@ -75,17 +75,22 @@ OUTAGE = {"kind": "sensor_fault", "unit": "garage", "sensor": "cameras"}
 NEAREST = {"allocation": "first_come"}
 
 
+def between(begin, end, do):
+    """An entry of the script."""
+    return {"when": {"kind": "time", "at": begin}, "until": {"kind": "time", "at": end}, "do": do}
+
+
 @pytest.fixture(scope="module")
 def trouble():
     """One run for each thing that gets in the way."""
     cases = {
         "full": deck(2, duration=190.0, stay=20.0, garage={"spaces": 1}),
-        "person": deck(1, duration=100.0, garage=NEAREST, script={"person": {"when": {"kind": "time", "at": 10}, "until": {"kind": "time", "at": 45}, "do": PERSON}}),
+        "person": deck(1, duration=100.0, garage=NEAREST, script={"person": between(10.0, 45.0, PERSON)}),
         "stranger": deck(1, duration=70.0, garage=NEAREST, script={"box": {"do": STRANGER}}),
-        "short": deck(1, duration=70.0, garage=NEAREST, script={"dark": {"when": {"kind": "time", "at": 14}, "until": {"kind": "time", "at": 15.6}, "do": OUTAGE}}),
-        "long": deck(1, duration=90.0, garage=NEAREST, script={"dark": {"when": {"kind": "time", "at": 14}, "until": {"kind": "time", "at": 34}, "do": OUTAGE}}),
+        "short": deck(1, duration=70.0, garage=NEAREST, script={"dark": between(14.0, 15.6, OUTAGE)}),
+        "long": deck(1, duration=90.0, garage=NEAREST, script={"dark": between(14.0, 34.0, OUTAGE)}),
         "lossy": deck(2, duration=90.0, garage=NEAREST, loss=0.5),
-    }  # fmt: skip
+    }
     return dict(zip(cases, run(list(cases.values())), strict=True))
 
 

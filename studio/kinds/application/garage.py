@@ -13,7 +13,7 @@ All aisles are one-way and every car asks for tiles ahead of those that it holds
 alone excludes a circle of cars that wait for each other. The banker's check holds for any other plan, too.
 """
 
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -27,6 +27,7 @@ from studio.kinds.message.parking_order import COME_BACK, DRIVE_IN, MOST, NONE, 
 from studio.kinds.message.parking_status import GIVEN_BACK, OUTSIDE
 from studio.kinds.message.parking_status import PARKED as IS_PARKED
 from studio.kinds.message.parking_status import Payload as Status
+from studio.kinds.sensor.deck_cameras import Reading as Target
 
 KIND = "application"
 TITLE = "Garage that parks cars (PACE)"
@@ -101,7 +102,7 @@ class Guest:
         self.ticket, self.state, self.space, self.since = ticket, state, int(space), since
         self.low, self.high = int(low), int(high)
         self.status: Status | None = None
-        self.target = None
+        self.target: Any = None
 
     @property
     def holds(self) -> frozenset[int]:
@@ -201,14 +202,16 @@ def choose(p: Parameters, queue: list[Status], free: list[int], first: int) -> i
     return free[int(allocation.optimal(allocation.queued(cars, depth, first, int(p.zones)))[0])]
 
 
+def is_at_gate(target) -> bool:
+    """Whether somebody is before the gate, or in it."""
+    return -GATE - 11.0 < target.x < -GATE + 1.0 and abs(target.y + RADIUS) < 2.0
+
+
 def take_in(p: Parameters, m: Memory, time: float, guests: list[Guest], queue: list[Status], targets: list) -> None:
     """The first of the queue, when the cameras see it at the gate and there is room."""
     free = sorted(set(range(int(p.spaces))) - taken(guests, targets))
-    own = [each.target for each in guests if each.target is not None]
-    there = [
-        each for each in targets
-        if each.length >= SHORT and -GATE - 11.0 < each.x < -GATE + 1.0 and abs(each.y + RADIUS) < 2.0 and not any(each is one for one in own)
-    ]  # fmt: skip
+    own = [id(each.target) for each in guests]
+    there = [each for each in targets if each.length >= SHORT and is_at_gate(each) and id(each) not in own]
     if not queue or not free or not there or len(guests) == MOST:
         return
     first = max(there, key=lambda each: each.x)
@@ -253,8 +256,8 @@ def grant(p: Parameters, time: float, guests: list[Guest]) -> None:
     claims = [(each, frozenset(range(each.turn()[0], each.turn()[1] + 1))) for each in called]
     kept = frozenset().union(*(tiles for each, tiles in claims if time - each.since > p.patience))
     for guest in moving:
-        barred = kept if not guest.holds & kept else frozenset()
-        while guest.high < min(guest.goal(), tile(guest.front + AHEAD)) and guest.high + 1 not in barred and may(guest, moving):
+        barred, goal = (kept if not guest.holds & kept else frozenset()), min(guest.goal(), tile(guest.front + AHEAD))
+        while guest.high < goal and guest.high + 1 not in barred and may(guest, moving):
             guest.high += 1
     for guest, tiles in claims:
         others = [each for each in guests if each.state in (COMING, LEAVING)]
@@ -269,34 +272,37 @@ def may(guest: Guest, moving: list[Guest]) -> bool:
     return reservation.grants(ways, [0] * len(moving), moving.index(guest))
 
 
+def padded(values: list[float], size: int) -> Any:
+    """A tuple of so many numbers, the rest 0."""
+    return tuple([float(each) for each in values] + [0.0] * (size - len(values)))
+
+
 def orders(sees: Sees, guests: list[Guest], targets: list) -> Payload:
     """What is told."""
-    blank = [0.0] * MOST
-    ticket, x, y, heading, is_seen, order, space, permit = (list(blank) for _ in range(8))
-    for i, guest in enumerate(guests):
-        at = guest.target
-        ticket[i], space[i] = guest.ticket, float(guest.space)
-        order[i] = {COMING: DRIVE_IN, LEAVING: COME_BACK}.get(guest.state, 0.0)
-        permit[i] = (guest.high + 1) * TILE - BEFORE - SLACK
-        if at is not None:
-            x[i], y[i], heading[i], is_seen[i] = at.x, at.y, at.heading, 1.0
+    blind = Target(0.0, 0.0, 0.0, 0.0)
+    at = [guest.target or blind for guest in guests]
     short = [each for each in targets if each.length < SHORT][:PERSONS]
-    places = [[getattr(each, axis) for each in short] + [0.0] * (PERSONS - len(short)) for axis in ("x", "y")]
-    lists = [tuple(each) for each in (ticket, x, y, heading, is_seen, order, space, permit)]
-    return Payload(float(len(guests)), sees.deck.age, *lists, float(len(short)), tuple(places[0]), tuple(places[1]))
+    return Payload(
+        count=float(len(guests)),
+        age=sees.deck.age,
+        ticket=padded([guest.ticket for guest in guests], MOST),
+        x=padded([each.x for each in at], MOST),
+        y=padded([each.y for each in at], MOST),
+        heading=padded([each.heading for each in at], MOST),
+        is_seen=padded([guest.target is not None for guest in guests], MOST),
+        order=padded([{COMING: DRIVE_IN, LEAVING: COME_BACK}.get(guest.state, 0.0) for guest in guests], MOST),
+        space=padded([guest.space for guest in guests], MOST),
+        permit=padded([(guest.high + 1) * TILE - BEFORE - SLACK for guest in guests], MOST),
+        persons=float(len(short)),
+        person_x=padded([each.x for each in short], PERSONS),
+        person_y=padded([each.y for each in short], PERSONS),
+    )
 
 
 def remembered(m: Memory, time: float, guests: list[Guest], served: float) -> Memory:
     """What is kept."""
-
-    def row(of):
-        values = [float(of(each)) for each in guests]
-        return tuple(values + [0.0] * (MOST - len(values)))
-
-    return Memory(
-        time, row(lambda g: g.ticket), row(lambda g: g.state), row(lambda g: g.space), row(lambda g: g.since),
-        row(lambda g: g.low), row(lambda g: g.high), m.served + served,
-    )  # fmt: skip
+    rows = {name: padded([getattr(guest, name) for guest in guests], MOST) for name in ("ticket", "state", "space", "since", "low", "high")}
+    return Memory(sent=time, served=m.served + served, **rows)
 
 
 def decide(parameters, memory, sees):

@@ -1,10 +1,9 @@
 """Parking by itself: a car that is handed over at the gate of a garage drives to the space that it is given, and comes back on call.
 
-Outside its driver drives, and stops before the gate while the garage has no space for it. With the first order it is the application's: along
-the aisle as far as its permit reaches, backward into the space, and on call out again and through the other gate, where the driver has it
-back. Where it is it knows from the garage's cameras, by message, and from its own speed and yaw rate between (studio/garage/tracker.py).
-When no fix has come for `blind` seconds, no order for as long, or somebody walks on its way, it stands.
-"""
+Outside its driver drives, and stops before the gate while the garage has no space for it. With the first order it is the application's:
+along the aisle as far as its permit reaches, backward into the space, and on call out again and through the other gate, where the driver
+has it back. Where it is it knows from the garage's cameras, by message, and from its own speed and yaw rate between
+(studio/garage/tracker.py). When no fix has come for `blind` seconds, no order for as long, or somebody walks on its way, it stands."""
 
 from math import atan2, cos, floor, sin
 from typing import Annotated, NamedTuple
