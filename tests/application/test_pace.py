@@ -91,7 +91,7 @@ def trouble():
         "long": deck(1, duration=90.0, garage=NEAREST, script={"dark": between(14.0, 34.0, OUTAGE)}),
         "lossy": deck(2, duration=90.0, garage=NEAREST, loss=0.5),
     }
-    return dict(zip(cases, run(list(cases.values())), strict=True))
+    return {name: run([case])[0] for name, case in cases.items()}
 
 
 def test_when_all_spaces_are_taken_the_next_waits_at_the_gate(trouble):

@@ -7,7 +7,8 @@ J. Ploeg, N. van de Wouw, H. Nijmeijer, Lp string stability of cascaded systems,
 with the measured one a CAM carries, no headway below 1 s is string stable even without delay.
 
 What is told counts only while its sender is the car that the radar sees: the way to where the message says that it is must be the radar's
-range and a car's length, within `match`. Of a stranger who has cut in between nothing is known but what the radar sees.
+range and a car's length, within `match`. Of several who are listened to it is the one that fits best, so that a platoon closes up behind
+whoever is ahead when one leaves it or joins. Of a stranger who has cut in between nothing is known but what the radar sees.
 
 When the link is silent for longer than `timeout`, or a stranger is ahead, the acceleration ahead is estimated from the radar
 (studio/model/singer.py), and the headway rises to `degraded_headway`: degraded, with grace (J. Ploeg et al., IEEE Trans. ITS 16 (2015)
@@ -83,12 +84,12 @@ class Memory(NamedTuple):
 
 
 class Sees(NamedTuple):
-    """What it sees: the radar's target, and the car that it listens to."""
+    """What it sees: the radar's target, and the cars that it listens to."""
 
     clock: Clock
     own: Own
     front: Annotated[Targets, "front_radar", 1]
-    heard: Annotated[Inbox, "awareness", 1]
+    heard: Annotated[Inbox, "awareness", 4]
 
 
 class Log(NamedTuple):
@@ -126,11 +127,30 @@ def lagged(p, h, u, u_ahead, own, front, T):
 
 
 @compiled
-def is_sender(p, own, front, message):
-    """Whether the car that the radar sees is the one that has sent the message."""
+def mismatch(own, front, message):
+    """By how much [m] the car that the radar sees is farther or nearer than the sender of a message says that it is."""
     east, north = message.payload.x - own.gps_x, message.payload.y - own.gps_y
     told = sqrt(east * east + north * north) + message.payload.speed * message.age
-    return abs(told - front.range - CAR) <= p.match
+    return abs(told - front.range - CAR)
+
+
+@compiled
+def is_sender(p, own, front, message):
+    """Whether the car that the radar sees is the one that has sent the message."""
+    return mismatch(own, front, message) <= p.match
+
+
+@compiled
+def sender_of(p, own, front, is_behind, heard):
+    """Which of those heard lately the radar sees: the one that fits best; with nobody ahead the first; -1 for none."""
+    best, least = -1, p.match
+    for i in range(heard.count):
+        message = heard.message[i]
+        if message.received and message.age <= p.timeout:
+            off = mismatch(own, front, message) if is_behind else 0.0
+            if off < least or (off <= least and best < 0):
+                best, least = i, off
+    return best
 
 
 @compiled
@@ -142,11 +162,11 @@ def calmed(u, asked, calm):
 @compiled
 def decide(parameters, memory, sees):
     """One tick."""
-    p, own, message, front, T = parameters, sees.own, sees.heard.message[0], sees.front.target[0], sees.clock.tick
+    p, own, front, T = parameters, sees.own, sees.front.target[0], sees.clock.tick
     is_behind = sees.front.count > 0
     ahead = singer.followed(memory.ahead, front.range, front.rate, own.acceleration, T) if is_behind else singer.NOBODY
-    is_fresh = message.received and message.age <= p.timeout
-    linked = is_fresh and (not is_behind or is_sender(p, own, front, message))
+    i = sender_of(p, own, front, is_behind, sees.heard)
+    linked, message = i >= 0, sees.heard.message[max(i, 0)]
     wanted = p.headway if linked else p.degraded_headway if p.estimates else p.fallback_headway
     h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * T)
     u_ahead = message.payload.intention if linked else ahead[2] if p.estimates else 0.0
