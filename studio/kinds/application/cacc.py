@@ -23,10 +23,11 @@ Noise of the radar must not make the car change between drive and brakes: a requ
 from math import sqrt
 from typing import Annotated, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
 from studio.compiled import compiled
+from studio.kind.settings import Part, number
 from studio.model import singer
 
 KIND = "application"
@@ -34,41 +35,32 @@ TITLE = "Cooperative adaptive cruise control (Ploeg)"
 COMMANDS = ACCELERATION
 
 
-class Parameters(BaseModel):
+class Following(Part):
+    """What every law of a platoon has, besides its own gains: when it trusts what it hears, and how it drives with nobody ahead."""
+
+    timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
+    match: float = number(
+        8.0, unit="m", title="Match", description="between where the sender is and where the radar sees the car ahead", gt=0, le=1000
+    )
+    cruise_gain: float = number(0.5, unit="1/s", title="Cruise gain", description="on the set speed, road free", gt=0, le=3)
+    acceleration_max: float = number(2.0, unit="m/s²", title="Strongest acceleration", gt=0, le=5)
+    deceleration_max: float = number(8.0, unit="m/s²", title="Strongest deceleration", gt=0, le=10)
+
+
+class Parameters(Following):
     """What is tuned."""
 
-    model_config = ConfigDict(extra="forbid")
-
-    headway: float = Field(0.6, ge=0.1, le=5.0, title="Time headway", description="h", json_schema_extra={"unit": "s"})
-    standstill: float = Field(2.5, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"})
-    k_p: float = Field(0.2, ge=0.0, le=5.0, title="Gain on the gap", description="k_p", json_schema_extra={"unit": "1/s²"})
-    k_d: float = Field(0.7, ge=0.0, le=5.0, title="Gain on its change", description="k_d", json_schema_extra={"unit": "1/s"})
-    timeout: float = Field(
-        0.5,
-        gt=0.0,
-        le=5.0,
-        title="Link time-out",
-        description="age of a message after which it is not trusted",
-        json_schema_extra={"unit": "s"},
-    )
+    headway: float = number(0.6, unit="s", title="Time headway", description="h", ge=0.1, le=5)
+    standstill: float = number(2.5, unit="m", title="Standstill distance", description="r", ge=0, le=20)
+    k_p: float = number(0.2, unit="1/s²", title="Gain on the gap", description="k_p", ge=0, le=5)
+    k_d: float = number(0.7, unit="1/s", title="Gain on its change", description="k_d", ge=0, le=5)
     estimates: bool = Field(True, title="Estimates", description="the acceleration ahead by radar, where no message tells it")
-    degraded_headway: float = Field(
-        1.6, ge=0.1, le=5.0, title="Headway without link", description="while the acceleration ahead is estimated",
-        json_schema_extra={"unit": "s"},
-    )  # fmt: skip
-    fallback_headway: float = Field(
-        3.2, ge=0.1, le=5.0, title="Headway of the radar alone", description="without link and without estimate",
-        json_schema_extra={"unit": "s"},
-    )  # fmt: skip
-    match: float = Field(
-        8.0, gt=0.0, le=1000.0, title="Match", description="between where the sender is and where the radar sees the car ahead",
-        json_schema_extra={"unit": "m"},
-    )  # fmt: skip
-    cruise_gain: float = Field(
-        0.5, gt=0.0, le=3.0, title="Cruise gain", description="on the set speed, road free", json_schema_extra={"unit": "1/s"}
+    degraded_headway: float = number(
+        1.6, unit="s", title="Headway without link", description="while the acceleration ahead is estimated", ge=0.1, le=5
     )
-    acceleration_max: float = Field(2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"})
-    deceleration_max: float = Field(8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"})
+    fallback_headway: float = number(
+        3.2, unit="s", title="Headway of the radar alone", description="without link and without estimate", ge=0.1, le=5
+    )
 
 
 Estimate = tuple[float, float, float, float, float, float, float, float, float]
