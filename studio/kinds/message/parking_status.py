@@ -19,8 +19,8 @@ class Payload(NamedTuple):
     x: Annotated[float, "m", "east, of the middle of its outline as it takes it; outside by satellite"] = 0.0
     y: Annotated[float, "m", "north, likewise"] = 0.0
     rear: Annotated[float, "m", "station on the deck of its rear end"] = -1e3
-    wheelbase: Annotated[float, "m", ""] = 0.0
-    length: Annotated[float, "m", ""] = 0.0
-    width: Annotated[float, "m", ""] = 0.0
+    wheelbase: Annotated[float, "m", "of the car"] = 0.0
+    length: Annotated[float, "m", "of its outline"] = 0.0
+    width: Annotated[float, "m", "likewise"] = 0.0
     front: Annotated[float, "m", "front overhang"] = 0.0
     radius: Annotated[float, "m", "that its rear axle turns with"] = 0.0
