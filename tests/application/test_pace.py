@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from docs.figures.pace import deck, gone, run, touched
+from studio import job
 from studio.assess.parking import clearance, detours, errors, middle, parking_times, stays
 from studio.garage import plan, way
 from studio.garage.reeds_shepp import wrapped
@@ -143,3 +144,8 @@ def test_half_of_the_messages_are_enough(trouble):
     assert len(list(parking_times(record))) == 2 and touched(record) == 0
     for name in ("car_1", "car_2"):
         assert trace(record, name, "phase").max() >= 2.0
+
+
+def test_the_sample_meets_its_goals(root):
+    outcome = job.run(job.load(root / "scenarios" / "parking_pace.yaml"))
+    assert outcome.status == "done" and not outcome.unmet, outcome.unmet
