@@ -12,6 +12,7 @@ FLOORS = [
     {"application"},
     {"kind"},
     {"road"},
+    {"garage"},
     {"scenario"},
     {"vehicle"},
     {"world"},

@@ -7,7 +7,8 @@ J. Ploeg, N. van de Wouw, H. Nijmeijer, Lp string stability of cascaded systems,
 with the measured one a CAM carries, no headway below 1 s is string stable even without delay.
 
 What is told counts only while its sender is the car that the radar sees: the way to where the message says that it is must be the radar's
-range and a car's length, within `match`. Of a stranger who has cut in between nothing is known but what the radar sees.
+range and a car's length, within `match`. Of several who are listened to it is the one that fits best, so that a platoon closes up behind
+whoever is ahead when one leaves it or joins. Of a stranger who has cut in between nothing is known but what the radar sees.
 
 When the link is silent for longer than `timeout`, or a stranger is ahead, the acceleration ahead is estimated from the radar
 (studio/model/singer.py), and the headway rises to `degraded_headway`: degraded, with grace (J. Ploeg et al., IEEE Trans. ITS 16 (2015)
@@ -22,10 +23,11 @@ Noise of the radar must not make the car change between drive and brakes: a requ
 from math import sqrt
 from typing import Annotated, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
 from studio.compiled import compiled
+from studio.kind.settings import Part, number
 from studio.model import singer
 
 KIND = "application"
@@ -33,41 +35,32 @@ TITLE = "Cooperative adaptive cruise control (Ploeg)"
 COMMANDS = ACCELERATION
 
 
-class Parameters(BaseModel):
+class Following(Part):
+    """What every law of a platoon has, besides its own gains: when it trusts what it hears, and how it drives with nobody ahead."""
+
+    timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
+    match: float = number(
+        8.0, unit="m", title="Match", description="between where the sender is and where the radar sees the car ahead", gt=0, le=1000
+    )
+    cruise_gain: float = number(0.5, unit="1/s", title="Cruise gain", description="on the set speed, road free", gt=0, le=3)
+    acceleration_max: float = number(2.0, unit="m/s²", title="Strongest acceleration", gt=0, le=5)
+    deceleration_max: float = number(8.0, unit="m/s²", title="Strongest deceleration", gt=0, le=10)
+
+
+class Parameters(Following):
     """What is tuned."""
 
-    model_config = ConfigDict(extra="forbid")
-
-    headway: float = Field(0.6, ge=0.1, le=5.0, title="Time headway", description="h", json_schema_extra={"unit": "s"})
-    standstill: float = Field(2.5, ge=0.0, le=20.0, title="Standstill distance", description="r", json_schema_extra={"unit": "m"})
-    k_p: float = Field(0.2, ge=0.0, le=5.0, title="Gain on the gap", description="k_p", json_schema_extra={"unit": "1/s²"})
-    k_d: float = Field(0.7, ge=0.0, le=5.0, title="Gain on its change", description="k_d", json_schema_extra={"unit": "1/s"})
-    timeout: float = Field(
-        0.5,
-        gt=0.0,
-        le=5.0,
-        title="Link time-out",
-        description="age of a message after which it is not trusted",
-        json_schema_extra={"unit": "s"},
-    )
+    headway: float = number(0.6, unit="s", title="Time headway", description="h", ge=0.1, le=5)
+    standstill: float = number(2.5, unit="m", title="Standstill distance", description="r", ge=0, le=20)
+    k_p: float = number(0.2, unit="1/s²", title="Gain on the gap", description="k_p", ge=0, le=5)
+    k_d: float = number(0.7, unit="1/s", title="Gain on its change", description="k_d", ge=0, le=5)
     estimates: bool = Field(True, title="Estimates", description="the acceleration ahead by radar, where no message tells it")
-    degraded_headway: float = Field(
-        1.6, ge=0.1, le=5.0, title="Headway without link", description="while the acceleration ahead is estimated",
-        json_schema_extra={"unit": "s"},
-    )  # fmt: skip
-    fallback_headway: float = Field(
-        3.2, ge=0.1, le=5.0, title="Headway of the radar alone", description="without link and without estimate",
-        json_schema_extra={"unit": "s"},
-    )  # fmt: skip
-    match: float = Field(
-        8.0, gt=0.0, le=1000.0, title="Match", description="between where the sender is and where the radar sees the car ahead",
-        json_schema_extra={"unit": "m"},
-    )  # fmt: skip
-    cruise_gain: float = Field(
-        0.5, gt=0.0, le=3.0, title="Cruise gain", description="on the set speed, road free", json_schema_extra={"unit": "1/s"}
+    degraded_headway: float = number(
+        1.6, unit="s", title="Headway without link", description="while the acceleration ahead is estimated", ge=0.1, le=5
     )
-    acceleration_max: float = Field(2.0, gt=0.0, le=5.0, title="Strongest acceleration", json_schema_extra={"unit": "m/s²"})
-    deceleration_max: float = Field(8.0, gt=0.0, le=10.0, title="Strongest deceleration", json_schema_extra={"unit": "m/s²"})
+    fallback_headway: float = number(
+        3.2, unit="s", title="Headway of the radar alone", description="without link and without estimate", ge=0.1, le=5
+    )
 
 
 Estimate = tuple[float, float, float, float, float, float, float, float, float]
@@ -83,12 +76,12 @@ class Memory(NamedTuple):
 
 
 class Sees(NamedTuple):
-    """What it sees: the radar's target, and the car that it listens to."""
+    """What it sees: the radar's target, and the cars that it listens to."""
 
     clock: Clock
     own: Own
     front: Annotated[Targets, "front_radar", 1]
-    heard: Annotated[Inbox, "awareness", 1]
+    heard: Annotated[Inbox, "awareness", 4]
 
 
 class Log(NamedTuple):
@@ -126,11 +119,30 @@ def lagged(p, h, u, u_ahead, own, front, T):
 
 
 @compiled
-def is_sender(p, own, front, message):
-    """Whether the car that the radar sees is the one that has sent the message."""
+def mismatch(own, front, message):
+    """By how much [m] the car that the radar sees is farther or nearer than the sender of a message says that it is."""
     east, north = message.payload.x - own.gps_x, message.payload.y - own.gps_y
     told = sqrt(east * east + north * north) + message.payload.speed * message.age
-    return abs(told - front.range - CAR) <= p.match
+    return abs(told - front.range - CAR)
+
+
+@compiled
+def is_sender(p, own, front, message):
+    """Whether the car that the radar sees is the one that has sent the message."""
+    return mismatch(own, front, message) <= p.match
+
+
+@compiled
+def sender_of(p, own, front, is_behind, heard):
+    """Which of those heard lately the radar sees: the one that fits best; with nobody ahead the first; -1 for none."""
+    best, least = -1, p.match
+    for i in range(heard.count):
+        message = heard.message[i]
+        if message.received and message.age <= p.timeout:
+            off = mismatch(own, front, message) if is_behind else 0.0
+            if off < least or (off <= least and best < 0):
+                best, least = i, off
+    return best
 
 
 @compiled
@@ -142,11 +154,11 @@ def calmed(u, asked, calm):
 @compiled
 def decide(parameters, memory, sees):
     """One tick."""
-    p, own, message, front, T = parameters, sees.own, sees.heard.message[0], sees.front.target[0], sees.clock.tick
+    p, own, front, T = parameters, sees.own, sees.front.target[0], sees.clock.tick
     is_behind = sees.front.count > 0
     ahead = singer.followed(memory.ahead, front.range, front.rate, own.acceleration, T) if is_behind else singer.NOBODY
-    is_fresh = message.received and message.age <= p.timeout
-    linked = is_fresh and (not is_behind or is_sender(p, own, front, message))
+    i = sender_of(p, own, front, is_behind, sees.heard)
+    linked, message = i >= 0, sees.heard.message[max(i, 0)]
     wanted = p.headway if linked else p.degraded_headway if p.estimates else p.fallback_headway
     h = p.headway if memory.headway < 0.0 else approach(memory.headway, wanted, HEADWAY_RATE * T)
     u_ahead = message.payload.intention if linked else ahead[2] if p.estimates else 0.0

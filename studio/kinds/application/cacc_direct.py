@@ -22,8 +22,8 @@ from typing import Annotated, NamedTuple
 
 from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
 from studio.compiled import compiled
-from studio.kind.settings import Part, number
-from studio.kinds.application.cacc import HEADWAY_RATE, Estimate, approach, calmed, is_sender
+from studio.kind.settings import number
+from studio.kinds.application.cacc import HEADWAY_RATE, Estimate, Following, approach, calmed, is_sender
 from studio.model import singer
 
 KIND = "application"
@@ -32,7 +32,7 @@ COMMANDS = ACCELERATION
 CALM = 0.1  # [m/s²] four times what the noise of a radar makes of the request
 
 
-class Parameters(Part):
+class Parameters(Following):
     """What is tuned."""
 
     headway: float = number(0.5, unit="s", title="Time headway", description="h", ge=0.1, le=5)
@@ -40,14 +40,7 @@ class Parameters(Part):
     k_a: float = number(1.0, unit="1", title="Feed-forward", description="k_a, share of the request of the car ahead", ge=0, le=1)
     k_v: float = number(0.58, unit="1/s", title="Gain on the speed difference", description="k_v", ge=0, le=5)
     k_d: float = number(0.1, unit="1/s²", title="Gain on the gap", description="k_d", ge=0, le=5)
-    timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
     fallback_headway: float = number(1.6, unit="s", title="Headway without link", ge=0.1, le=5)
-    match: float = number(
-        8.0, unit="m", title="Match", description="between where the sender is and where the radar sees the car ahead", gt=0, le=1000
-    )
-    cruise_gain: float = number(0.5, unit="1/s", title="Cruise gain", description="on the set speed, road free", gt=0, le=3)
-    acceleration_max: float = number(2.0, unit="m/s²", title="Strongest acceleration", gt=0, le=5)
-    deceleration_max: float = number(8.0, unit="m/s²", title="Strongest deceleration", gt=0, le=10)
 
 
 class Memory(NamedTuple):

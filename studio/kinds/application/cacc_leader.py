@@ -19,8 +19,8 @@ from typing import Annotated, NamedTuple
 
 from studio.application.contract import ACCELERATION, Clock, Command, Inbox, Own, Targets, accelerate
 from studio.compiled import compiled
-from studio.kind.settings import Part, number
-from studio.kinds.application.cacc import HEADWAY_RATE, Estimate, approach, calmed, is_sender
+from studio.kind.settings import number
+from studio.kinds.application.cacc import HEADWAY_RATE, Estimate, Following, approach, calmed, is_sender
 from studio.model import singer
 
 KIND = "application"
@@ -30,21 +30,14 @@ CALM = 0.05  # [m/s²] four times what the noise of a radar makes of the request
 K_V, K_D = 0.58, 0.1  # [1/s], [1/s²] without a link
 
 
-class Parameters(Part):
+class Parameters(Following):
     """What is tuned."""
 
     distance: float = number(5.0, unit="m", title="Distance", description="D, the same at every speed", ge=1, le=50)
     leadership: float = number(0.5, unit="1", title="Weight of the leader", description="C_1", ge=0, le=0.99)
     damping: float = number(1.0, unit="1", title="Damping", description="xi", ge=1, le=5)
     bandwidth: float = number(0.2, unit="1/s", title="Bandwidth", description="omega", gt=0, le=5)
-    timeout: float = number(0.5, unit="s", title="Link time-out", description="age after which a message is not trusted", gt=0, le=5)
     fallback_headway: float = number(1.6, unit="s", title="Headway without link", ge=0, le=5)
-    match: float = number(
-        8.0, unit="m", title="Match", description="between where the sender is and where the radar sees the car ahead", gt=0, le=1000
-    )
-    cruise_gain: float = number(0.5, unit="1/s", title="Cruise gain", description="on the set speed, road free", gt=0, le=3)
-    acceleration_max: float = number(2.0, unit="m/s²", title="Strongest acceleration", gt=0, le=5)
-    deceleration_max: float = number(8.0, unit="m/s²", title="Strongest deceleration", gt=0, le=10)
 
 
 class Memory(NamedTuple):

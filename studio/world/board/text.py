@@ -6,6 +6,7 @@ checked(module)        →  the names of what is looked at, as faults count them
 """
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from math import isfinite
 from types import ModuleType
 from typing import Any
@@ -106,10 +107,33 @@ def shaped(answer: Any, module: ModuleType) -> tuple[Any, Any]:
     for name, given, of in (("memory", remembered, module.Memory), ("does", does, module.Does)):
         if not isinstance(given, of):
             raise TypeError(f"decide() returned {short(given)} as its {name}, not a {of.__name__}")
-    for each in port.done(module):
+    for each in outlets(module):
         check_port(getattr(does, each.name), each)
     check_values(remembered, "memory", module.Memory)
     return remembered, does
+
+
+# An application in plain Python is looked at in every tick; what its file declares stays the same until a kind comes in.
+@cache
+def outlets(module: ModuleType) -> list[Port]:
+    """What an application does."""
+    return port.done(module)
+
+
+@cache
+def payload_of(message: str) -> type:
+    """The payload of a kind of message."""
+    return registry.find("message", message).module.Payload
+
+
+@cache
+def declared(of: type) -> list[Any]:
+    """The quantities of a NamedTuple."""
+    return quantities(of)
+
+
+for kept in (outlets, payload_of, declared):
+    registry.listen(kept.cache_clear)
 
 
 def check_port(given: Any, each: Port) -> None:
@@ -118,7 +142,7 @@ def check_port(given: Any, each: Port) -> None:
     if not isinstance(given, of):
         raise TypeError(f"decide() returned {short(given)} at {each.name}, not a {of.__name__}")
     if isinstance(given, Outbox):
-        payload = registry.find("message", each.kind).module.Payload
+        payload = payload_of(each.kind)
         if not isinstance(given.message, tuple) or len(given.message) < each.most:
             raise TypeError(f"{each.name}.message holds {short(given.message)}; a tuple of {each.most} payloads is meant")
         for one in given.message[: each.most]:
@@ -131,7 +155,7 @@ def check_port(given: Any, each: Port) -> None:
 
 def check_values(given: Any, where: str, of: type) -> None:
     """Plain numbers, and tuples of as many as are declared."""
-    for each in quantities(of):
+    for each in declared(of):
         value = getattr(given, each.name)
         some = value if each.size > 1 else (value,)
         if not isinstance(some, tuple) or len(some) != each.size or not all(isinstance(one, NUMBER) for one in some):
