@@ -78,8 +78,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
-    smooth = aligned(raw)
-    narrow.tell(smooth, lambda each: end_of(raw, each, ways, box), found.notes)
+    smooth = narrow.drivable(aligned(raw), lambda each: end_of(raw, each, ways, box), found.notes)
     net = of_ways(elevation.raised(smooth, found, cut, box), ways)
     return Plan(
         net=net,

@@ -14,6 +14,7 @@ from studio.errors import RouteError
 from studio.portable import arctan2
 from studio.road import kept
 from studio.road.network import Lane, Network, curve
+from studio.road.ways import swing
 from studio.road.ways.route import LanePath
 
 PATH_SPACING = 1.0  # [m]
@@ -26,8 +27,11 @@ WAVELENGTH = 12.0  # [m] shorter waves are corners where lanes meet
 HEIGHT_WAVELENGTH = 60.0  # [m] the same of its height
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
-ROOM = (0.3, 0.6, 1.3, 2.5)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next
+ROOM = (0.3, 0.6)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next; then one swings
 ROOM_REACH = 10.0  # [m] before and behind the bend
+TIGHTER = (1.0, 0.93, 0.87)  # [1] times the lock, for which a swing is made, from one attempt to the next
+NEARLY_SHARP = 0.9  # [1] times the lock: where one swings, one does so in bends as sharp as this
+SWING_WAVELENGTH = 5.0  # [m] shorter waves of a swing are where its arcs meet
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
 
@@ -196,20 +200,39 @@ def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 # -- the smooth line -------------------------------------------------------------------------------
 
 
-def smooth(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
-    """The fine curve of a draft, a point every `GRAIN` metres, and its height [m]; where it would be too sharp to drive, it gets room."""
+def smooth(draft: Draft, lock: float = curve.LOCK) -> tuple[np.ndarray, np.ndarray]:
+    """The fine curve of a draft, a point every `GRAIN` metres, and its height [m]; where it would be sharper than the lock [1/m], it gets
+    a little room, and where that is not enough, it swings."""
     rough, height, corridor = joined(draft)
     own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
     s = np.linspace(0.0, own[-1], fine.shape[1])
-    corridor = np.interp(s, own, corridor)
-    height = np.interp(s, own, height)
-    for room in (*ROOM, np.inf):
-        line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
-        sharp = np.abs(curvature_of(line)) > curve.LOCK
+    corridor, height = np.interp(s, own, corridor), np.interp(s, own, height)
+    tight = line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
+    for room in ROOM:
+        sharp = np.abs(curvature_of(line)) > lock
         if not sharp.any():
-            break
+            return line, height
         corridor = np.where(curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor)
-    return line, height
+        line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
+    return (line, height) if is_within(line, lock) else swinging(tight, height, lock)
+
+
+def swinging(line: np.ndarray, height: np.ndarray, lock: float) -> tuple[np.ndarray, np.ndarray]:
+    """A fine curve with swings in its bends, and its height [m]; a little gentler where smoothing has sharpened them."""
+    sharp = np.abs(curvature_of(line)) > NEARLY_SHARP * lock
+    for tighter in TIGHTER:
+        rough, at = swing.swung(line, heading_of(line), sharp, tighter * lock)
+        own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
+        s = np.linspace(0.0, own[-1], fine.shape[1])
+        made = curve.smoothed(fine, spacing=s[1], wavelength=SWING_WAVELENGTH, corridor=np.full(s.size, CORRIDOR))
+        if is_within(made, lock):
+            break
+    return made, np.interp(np.interp(s, own, at), np.arange(height.size), height)
+
+
+def is_within(line: np.ndarray, lock: float) -> bool:
+    """Whether a line is nowhere sharper than a lock [1/m]."""
+    return bool(np.abs(curvature_of(line)).max() <= lock)
 
 
 def without_kinks(height: np.ndarray) -> np.ndarray:
