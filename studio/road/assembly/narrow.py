@@ -17,9 +17,10 @@ SEEN = 0.3  # [m] aside is worth a word
 
 def drivable(net: Net, spot: Callable[[Connection], Spot], notes: Notes) -> Net:
     """The network without the turns that no car can drive; what is driven in narrow ones, and what is left out, is told."""
+    net = replace(net, connections=tuple(replace(each, sharpest=sharpest(net, each)) for each in net.connections))
     approaches, gone = Approaches(net), set()
     for each in net.connections:
-        drawn = sharpest(net, each)
+        drawn = each.sharpest
         if each.direction == "turn" or drawn <= curve.LOCK:
             continue
         bend = bend_over(approaches, each, curve.LOCK)

@@ -11,7 +11,8 @@ left of both ends, d from one centre to the other, and the same mirrored:
 Of the ways from some places before to some places behind, that one is taken which stays nearest to the line.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from itertools import product
 from math import acos, asin, atan2, cos, hypot, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -20,10 +21,14 @@ import numpy as np
 from studio.road.network import curve
 
 FULL = 2.0 * pi
-STEPS = (0.0, 4.0, 8.0, 12.0, 16.0, 20.0)  # [m] before and behind a bend a swing begins and ends
+STEPS = (0.0, 8.0, 16.0)  # [m] before and behind a bend a swing begins and ends
+FINER = (4.0, 2.0)  # [m] steps by which that is shifted afterwards, if it helps
+ALL = (0.0, 4.0, 8.0, 12.0, 16.0, 20.0)  # [m] instead, where the first ones lead far aside
+FAR = 0.8  # [m] aside
 TOGETHER = 10.0  # [m] between bends over which one swings in one
 EASED = 1.07  # [1] times the least radius of the vehicle, so that smoothing may sharpen it a little
 LONGER = 1.6  # [1] times its line a swing is no longer than that: no loops
+MARGIN = 4.0  # [m] of the line before and behind a swing it may come near to
 SPARSE = 4  # of so many points one is looked at
 
 
@@ -63,17 +68,34 @@ def stretches(sharp: np.ndarray, reach: int) -> list[tuple[int, int]]:
 
 def best_swing(line: np.ndarray, heading: np.ndarray, low: int, high: int, first: int, R: float, spacing: float):
     """From and to which point of a line one swings over the bend between two of its points, and how; None where there is no way."""
-    steps = [round(each / spacing) for each in STEPS]
-    starts = sorted({max(first, low - each) for each in steps})
-    ends = sorted({min(line.shape[1] - 1, high + each) for each in steps})
-    found, least = None, np.inf
-    for i in starts:
-        for j in ends:
-            along = line[:, max(first, i - steps[1]) : j + steps[1] : SPARSE]
-            for made in swings(pose(line, heading, i), pose(line, heading, j), R, LONGER * (j - i) * spacing + R, spacing):
-                off = float(curve.distances(made[:, ::SPARSE], along).max())
-                if off < least - 1e-6:
-                    found, least = (i, j, made), off
+    tried: dict[tuple[int, int], tuple[float, list[Part]]] = {}
+
+    def tries(starts: Iterable[float], ends: Iterable[float]) -> tuple[int, int]:
+        """The best pair of points so far, these tried too."""
+        for i, j in product((max(first, low - round(each / spacing)) for each in starts), ends):
+            j = min(line.shape[1] - 1, high + round(j / spacing))
+            if (i, j) not in tried:
+                tried[i, j] = nearest_swing(line, heading, i, j, first, R, spacing)
+        return min(tried, key=lambda pair: tried[pair][0])
+
+    best = tries(STEPS, STEPS)
+    best = tries(ALL, ALL) if tried[best][0] > FAR else best
+    for step in FINER:
+        before, behind = ((low - best[0]) * spacing, (best[1] - high) * spacing)
+        best = tries((before - step, before, before + step), (behind - step, behind, behind + step))
+    parts = tried[best][1]
+    return (*best, drawn(pose(line, heading, best[0]), parts, R, spacing)) if parts else None
+
+
+def nearest_swing(line: np.ndarray, heading: np.ndarray, i: int, j: int, first: int, R: float, spacing: float) -> tuple[float, list[Part]]:
+    """Of the ways between two points of a line the one that stays nearest to it: how far it leaves it [m], and its parts."""
+    margin = round(MARGIN / spacing)
+    along, start = line[:, max(first, i - margin) : j + margin : SPARSE], pose(line, heading, i)
+    found: tuple[float, list[Part]] = np.inf, []
+    for parts in swings(start, pose(line, heading, j), R, LONGER * (j - i) * spacing + R) if i < j else ():
+        off = float(curve.distances(drawn(start, parts, R, SPARSE * spacing), along).max())
+        if off < found[0] - 1e-6:
+            found = off, parts
     return found
 
 
@@ -82,12 +104,12 @@ def pose(line: np.ndarray, heading: np.ndarray, i: int) -> Pose:
     return Pose(float(line[0, i]), float(line[1, i]), float(heading[i]))
 
 
-def swings(start: Pose, end: Pose, R: float, longest: float, spacing: float) -> Iterator[np.ndarray]:
-    """The lines of all ways between two poses with arcs of radius R [m] that are no longer than so much [m]."""
+def swings(start: Pose, end: Pose, R: float, longest: float) -> Iterator[list[Part]]:
+    """All ways between two poses with arcs of radius R [m] that are no longer than so much [m]."""
     for side in (1.0, -1.0):
         for parts in words(mirrored(start, side), mirrored(end, side), R):
             if sum(length for _, length in parts) <= longest:
-                yield drawn(start, [(side * bend, length) for bend, length in parts], R, spacing)
+                yield [(side * bend, length) for bend, length in parts]
 
 
 def mirrored(at: Pose, side: float) -> Pose:
@@ -121,13 +143,14 @@ def between(start: Pose, end: Pose, R: float, apart: tuple[float, float], beside
 
 def drawn(start: Pose, parts: list[Part], R: float, spacing: float) -> np.ndarray:
     """The points of a way, float64[2, n], by the middles of its steps."""
-    lengths = np.array([length for _, length in parts])
-    ends = np.cumsum(lengths)
+    ends = np.cumsum([length for _, length in parts])
     count = max(2, round(float(ends[-1]) / spacing))
     step = float(ends[-1]) / count
-    middle = (np.arange(count) + 0.5) * step
     bends = np.array([bend / R for bend, _ in parts])
-    turned = np.array([np.clip(middle - (end - length), 0.0, length) for end, length in zip(ends, lengths, strict=True)])
-    heading = start.heading + bends @ turned
-    x, y = np.cumsum(np.cos(heading)) * step, np.cumsum(np.sin(heading)) * step
-    return np.array([np.append(0.0, x) + start.x, np.append(0.0, y) + start.y])
+    at = np.append(0.0, ends)
+    heading = start.heading + np.interp((np.arange(count) + 0.5) * step, at, np.append(0.0, np.cumsum(bends * np.diff(at))))
+    points = np.empty((2, count + 1))
+    points[:, 0] = start.x, start.y
+    points[0, 1:], points[1, 1:] = np.cos(heading), np.sin(heading)
+    points[:, 1:] *= step
+    return np.cumsum(points, axis=1)
