@@ -32,6 +32,7 @@ ROOM_REACH = 10.0  # [m] before and behind the bend
 TIGHTER = (1.0, 0.93, 0.87)  # [1] times the lock, for which a swing is made, from one attempt to the next
 NEARLY_SHARP = 0.9  # [1] times the lock: where one swings, one does so in bends as sharp as this
 SWING_WAVELENGTH = 5.0  # [m] shorter waves of a swing are where its arcs meet
+HAND = 0.15  # [1/(m s)] how fast the curvature that is driven may change: wheels that turn by 0.4 rad/s, 2.7 m apart
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
 
@@ -93,7 +94,7 @@ class Draft:
         self.s += curve.length(piece)
 
 
-def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, deceleration=1.5) -> Path:
+def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, deceleration=1.5, lock=curve.LOCK) -> Path:
     """The driving line along a lane path; kept on disk.
 
     Args:
@@ -101,20 +102,19 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
         lane_path: from `studio.road.ways.route.connect`.
         lateral_acceleration: what PATH_SPEED allows in bends [m/s²].
         deceleration: what PATH_SPEED needs before slower places [m/s²].
+        lock: the sharpest curve that the vehicle can drive [1/m]; where the lanes are sharper, it swings out.
 
     Raises:
         RouteError: the line is too short to be driven.
     """
-    parts = lane_path.lanes, lateral_acceleration, deceleration
-    return kept.of_map(
-        network.digest, "paths", Path, lambda: made(network, lane_path, lateral_acceleration, deceleration), *parts, maker=__file__
-    )
+    parts = lane_path, lateral_acceleration, deceleration, lock
+    return kept.of_map(network.digest, "paths", Path, lambda: made(network, *parts), lane_path.lanes, *parts[1:], maker=__file__)
 
 
-def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float) -> Path:
+def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float, lock: float) -> Path:
     """The same, made anew."""
     draft = drafted(network, lane_path)
-    points = sampled(*smooth(draft))
+    points = sampled(*smooth(draft, lock))
     if points.shape[1] < 2:
         raise RouteError(f"{network.name}: the route is too short to be driven, less than {PATH_SPACING:g} m")
     limit = limits(draft, points)
@@ -295,9 +295,11 @@ def limits(draft: Draft, points: np.ndarray) -> np.ndarray:
 
 
 def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float) -> np.ndarray:
-    """The speed for every point: the limit, what the bend allows, and what can be slowed down from in time [m/s]."""
+    """The speed for every point: the limit, what the bend and the turning of the wheels allow, and what can be slowed down from in
+    time [m/s]."""
     bend = np.sqrt(lateral_acceleration / np.maximum(np.abs(curvature), 1e-6))
-    speed = np.maximum(np.minimum(limit, bend), LOWEST_SPEED)
+    turning = HAND / np.maximum(np.abs(np.gradient(curvature, PATH_SPACING)), 1e-6)
+    speed = np.maximum(np.minimum(np.minimum(limit, bend), turning), LOWEST_SPEED)
     for i in range(len(speed) - 2, -1, -1):
         speed[i] = min(speed[i], np.sqrt(speed[i + 1] ** 2 + 2.0 * deceleration * PATH_SPACING))
     return speed
