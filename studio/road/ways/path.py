@@ -29,7 +29,7 @@ CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is l
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
 ROOM = (0.3, 0.6)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next; then one swings
 ROOM_REACH = 10.0  # [m] before and behind the bend
-TIGHTER = (1.0, 0.93, 0.87)  # [1] times the lock, for which a swing is made, from one attempt to the next
+GENTLER = (0.93, 0.87)  # [1] times the lock, for which a swing is made again where smoothing has sharpened it
 NEARLY_SHARP = 0.9  # [1] times the lock: where one swings, one does so in bends as sharp as this
 SWING_WAVELENGTH = 5.0  # [m] shorter waves of a swing are where its arcs meet
 HAND = 0.15  # [1/(m s)] how fast the curvature that is driven may change: wheels that turn by 0.4 rad/s, 2.7 m apart
@@ -220,13 +220,20 @@ def smooth(draft: Draft, lock: float = curve.LOCK) -> tuple[np.ndarray, np.ndarr
 def swinging(line: np.ndarray, height: np.ndarray, lock: float) -> tuple[np.ndarray, np.ndarray]:
     """A fine curve with swings in its bends, and its height [m]; a little gentler where smoothing has sharpened them."""
     sharp = np.abs(curvature_of(line)) > NEARLY_SHARP * lock
-    for tighter in TIGHTER:
-        rough, at = swing.swung(line, heading_of(line), sharp, tighter * lock)
-        own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
-        s = np.linspace(0.0, own[-1], fine.shape[1])
-        made = curve.smoothed(fine, spacing=s[1], wavelength=SWING_WAVELENGTH, corridor=np.full(s.size, CORRIDOR))
-        if is_within(made, lock):
+    made = with_swings(line, height, sharp, lock)
+    for gentler in GENTLER:
+        if is_within(made[0], lock):
             break
+        made = with_swings(line, height, sharp, gentler * lock)
+    return made
+
+
+def with_swings(line: np.ndarray, height: np.ndarray, sharp: np.ndarray, lock: float) -> tuple[np.ndarray, np.ndarray]:
+    """The same with swings for a lock [1/m], smoothed where their arcs meet."""
+    rough, at = swing.swung(line, heading_of(line), sharp, lock)
+    own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
+    s = np.linspace(0.0, own[-1], fine.shape[1])
+    made = curve.smoothed(fine, spacing=s[1], wavelength=SWING_WAVELENGTH, corridor=np.full(s.size, CORRIDOR))
     return made, np.interp(np.interp(s, own, at), np.arange(height.size), height)
 
 
