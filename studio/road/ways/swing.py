@@ -50,7 +50,9 @@ def swung(line: np.ndarray, heading: np.ndarray, sharp: np.ndarray, lock: float)
     own = np.arange(line.shape[1], dtype=float)
     pieces, at, done = [], [], 0
     for low, high in stretches(sharp, round(TOGETHER / spacing)):
-        best = best_swing(line, heading, low, high, done, EASED / lock, spacing)
+        if high <= done:  # the swing before has taken this bend too
+            continue
+        best = best_swing(line, heading, max(low, done), high, done, EASED / lock, spacing)
         if best is not None:
             first, last, made = best
             pieces += [line[:, done:first], made]
