@@ -31,7 +31,7 @@ ROOM = (0.3, 0.6)  # [m] how far a sharper bend may leave the centre line, from 
 ROOM_REACH = 10.0  # [m] before and behind the bend
 GENTLER = (0.93, 0.87)  # [1] times the lock, for which a swing is made again where smoothing has sharpened it
 NEARLY_SHARP = 0.9  # [1] times the lock: where one swings, one does so in bends as sharp as this
-SWING_WAVELENGTH = 5.0  # [m] shorter waves of a swing are where its arcs meet
+SWING_WAVELENGTH = 1.0  # [1] over the lock: shorter waves of a swing are where its arcs meet
 HAND = 0.15  # [1/(m s)] how fast the curvature that is driven may change: wheels that turn by 0.4 rad/s, 2.7 m apart
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
@@ -233,7 +233,7 @@ def with_swings(line: np.ndarray, height: np.ndarray, sharp: np.ndarray, lock: f
     rough, at = swing.swung(line, heading_of(line), sharp, lock)
     own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
     s = np.linspace(0.0, own[-1], fine.shape[1])
-    made = curve.smoothed(fine, spacing=s[1], wavelength=SWING_WAVELENGTH, corridor=np.full(s.size, CORRIDOR))
+    made = curve.smoothed(fine, spacing=s[1], wavelength=SWING_WAVELENGTH / lock, corridor=np.full(s.size, CORRIDOR))
     return made, np.interp(np.interp(s, own, at), np.arange(height.size), height)
 
 

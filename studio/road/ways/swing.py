@@ -84,7 +84,7 @@ def best_swing(line: np.ndarray, heading: np.ndarray, low: int, high: int, first
     best = tries(ALL, ALL) if tried[best][0] > FAR else best
     for step in FINER:
         before, behind = ((low - best[0]) * spacing, (best[1] - high) * spacing)
-        best = tries((before - step, before, before + step), (behind - step, behind, behind + step))
+        best = tries((max(before - step, 0.0), before, before + step), (max(behind - step, 0.0), behind, behind + step))
     parts = tried[best][1]
     return (*best, drawn(pose(line, heading, best[0]), parts, R, spacing)) if parts else None
 
