@@ -30,6 +30,7 @@ from studio.road.network.signals import SIGHT, Signals
 
 LEFT_FIRST = {"Japan", "Thailand"}  # road traffic acts: Japan art. 36, Thailand sec. 71
 EQUAL = {"residential", "living_street", "unclassified", "tertiary"}  # classes whose crossings have no major road
+CLASSES = ("motorway", "trunk", "primary", "secondary", "tertiary", "unclassified", "residential", "living_street", "service")
 SIGN_REACH = 40.0  # [m] a sign stands that near before its junction
 BESIDE = 10.0  # [m] and its node that near to the road
 ONCOMING = np.radians(135.0)  # [rad]
@@ -295,9 +296,27 @@ def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: B
     for way, node, (longitude, latitude) in nodes_of(ways, nodes, set(SIGNS)):
         x, y = box.local(latitude, longitude)
         roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node])]
-        for road in roads:
+        is_for_minor = "minor" in (nodes[node].get("stop"), nodes[node].get("give_way"))
+        for road in (each for each in roads if not is_for_minor or is_minor(net, each)):
             found[road] = "all_way_stop" if nodes[node].get("stop") == "all" else SIGNS[nodes[node]["highway"]]
     return found
+
+
+def is_minor(net: Net, road: str) -> bool:
+    """Whether a road is one of the lesser ones of its junction: of a lesser class than others or, where all are alike, one that does not
+    go straight on while others do."""
+    arms = [each for each in net.roads.values() if not each.internal and each.to_junction == net.roads[road].to_junction]
+    ranks = {each.id: rank(each.kind) for each in arms}
+    if len(set(ranks.values())) > 1:
+        return ranks[road] > min(ranks.values())
+    ahead = {net.lanes[each.from_lane].road for each in net.connections if each.direction == "straight"}
+    return road not in ahead
+
+
+def rank(kind: str) -> int:
+    """The place of a kind of road among all, the greatest first; ramps have that of their road."""
+    name = kind.removesuffix("_link")
+    return CLASSES.index(name) if name in CLASSES else len(CLASSES)
 
 
 def nodes_of(ways: list[Way], nodes: dict[int, dict[str, str]], kinds: set[str]) -> Iterator[tuple[Way, int, tuple[float, float]]]:
