@@ -1,6 +1,7 @@
 """Approaches: what one drives before and behind a way through a junction, straight on over roads of a few metres too."""
 
-from collections.abc import Iterable
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -16,15 +17,32 @@ class Approaches:
 
     def __init__(self, net: Net | Network) -> None:
         self.lanes, self.before, self.behind = net.lanes, {}, {}
+        self.into: dict[int, list[Connection]] = defaultdict(list)
+        self.out: dict[int, list[Connection]] = defaultdict(list)
         for each in sorted((each for each in net.connections if each.direction != "turn"), key=rank):
             self.before.setdefault(each.to_lane, each)
             self.behind.setdefault(each.from_lane, each)
+            self.into[each.to_lane].append(each)
+            self.out[each.from_lane].append(each)
 
-    def draft(self, connection: Connection) -> tuple[Draft, int, int]:
+    def drafts(self, connection: Connection) -> Iterator[tuple[Draft, int, int]]:
+        """Its drafts for all ways of coming to it and of leaving it, the straightest first, where the roads at it are short."""
+        for before in self.into[connection.from_lane] or [None]:
+            for behind in self.out[connection.to_lane] or [None]:
+                yield self.draft(connection, before, behind)
+
+    def draft(self, connection: Connection, before: Connection | None = None, behind: Connection | None = None) -> tuple[Draft, int, int]:
         """The rough line of a connection with the metres before and behind, and which of its pieces begin with the way itself and with
-        what comes behind it."""
+        what comes behind it. One comes to it over the straightest connections, or first over these."""
+        return self.joined(
+            connection,
+            list(self.along(connection.from_lane, self.before | ({before.to_lane: before} if before else {}), backwards)),
+            list(self.along(connection.to_lane, self.behind | ({behind.from_lane: behind} if behind else {}), forwards)),
+        )
+
+    def joined(self, connection: Connection, before: list, behind: list) -> tuple[Draft, int, int]:
+        """The same of lanes."""
         draft = Draft()
-        before, behind = list(self.towards(connection.from_lane)), list(self.onwards(connection.to_lane))
         add(draft, reversed(before), -1)
         first = len(draft.pieces)
         for via in connection.via:
@@ -33,16 +51,8 @@ class Approaches:
         add(draft, behind, 1)
         return draft, first, last
 
-    def towards(self, lane: int) -> Iterable[tuple[Lane, float]]:
-        """The lanes on which one comes to the end of a lane, backwards, and how many metres of each."""
-        return self.along(lane, self.before, lambda each: (*reversed(each.via), each.from_lane))
-
-    def onwards(self, lane: int) -> Iterable[tuple[Lane, float]]:
-        """The lanes on which one drives on from the start of a lane, and how many metres of each."""
-        return self.along(lane, self.behind, lambda each: (*each.via, each.to_lane))
-
     def along(self, lane: int, links: dict[int, Connection], lanes_of) -> Iterable[tuple[Lane, float]]:
-        """The same in one of the directions; each lane once."""
+        """The lanes on which one drives on from a lane in one of the directions, and how many metres of each; each lane once."""
         waiting, seen, left = [lane], set(), REACH
         while waiting and left > 0.0:
             number = waiting.pop(0)
@@ -53,6 +63,16 @@ class Approaches:
             left -= self.lanes[number].length
             if not waiting and number in links:
                 waiting = list(lanes_of(links[number]))
+
+
+def backwards(connection: Connection) -> tuple[int, ...]:
+    """The lanes of a connection against the way one drives, without the one from which one comes there."""
+    return (*reversed(connection.via), connection.from_lane)
+
+
+def forwards(connection: Connection) -> tuple[int, ...]:
+    """The lanes of a connection, without the one from which one comes."""
+    return (*connection.via, connection.to_lane)
 
 
 def rank(connection: Connection) -> int:

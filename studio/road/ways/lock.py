@@ -11,7 +11,7 @@ import numpy as np
 from studio.road.network import Connection, Network, curve
 from studio.road.network.index import once
 from studio.road.ways.approach import Approaches
-from studio.road.ways.path import curvature_of, joined, smooth
+from studio.road.ways.path import Draft, curvature_of, joined, smooth
 
 MOST_ASIDE = 3.0  # [m] beside the middle of its lane a vehicle swings no farther: that is the next lane, or the kerb
 GENTLE = 0.8  # [1] times the lock: what is drawn gentler needs no look
@@ -30,8 +30,27 @@ class Bend(NamedTuple):
 
 
 def bend_over(approaches: Approaches, connection: Connection, lock: float) -> Bend:
-    """What a vehicle of a lock drives over a connection."""
-    draft, _, _ = approaches.draft(connection)
+    """What a vehicle of a lock drives over a connection; of the ways of coming to it and leaving it the first that suits, or the best."""
+    best = None
+    for draft, _, _ in approaches.drafts(connection):
+        bend = bend_of(draft, lock)
+        if bend.is_within(lock):
+            return bend
+        best = bend if best is None or bend.aside < best.aside else best
+    return best or Bend(np.inf, np.inf)
+
+
+def fitting(approaches: Approaches, connection: Connection, lock: float) -> tuple[Draft, int, int]:
+    """The draft of a connection that a vehicle of a lock drives best: as it comes to it straight on, unless that does not suit."""
+    if connection.sharpest > lock:
+        for made in approaches.drafts(connection):
+            if bend_of(made[0], lock).is_within(lock):
+                return made
+    return approaches.draft(connection)
+
+
+def bend_of(draft: Draft, lock: float) -> Bend:
+    """What a vehicle of a lock drives along a draft."""
     line, _ = smooth(draft, lock)
     aside = float(curve.distances(line[:, ::SPARSE], joined(draft)[0]).max())
     return Bend(max(float(np.abs(curvature_of(line)).max()), 1e-6), aside)

@@ -16,6 +16,7 @@ from studio.road import kept
 from studio.road.network import Connection, Lane, Network, curve
 from studio.road.network.index import once
 from studio.road.ways.approach import Approaches, resampled
+from studio.road.ways.lock import fitting
 from studio.road.ways.path import (
     PATH_HEADING,
     PATH_HEIGHT,
@@ -93,7 +94,7 @@ def way_points(approaches: Approaches, connection: Connection) -> np.ndarray:
     """The line of a way through a junction, smoothed with what is driven before and behind; none where there is no way between."""
     if not connection.via:
         return np.zeros((PATH_ROWS, 0))
-    draft, first, last = approaches.draft(connection)
+    draft, first, last = fitting(approaches, connection, curve.LOCK)
     fine, height = smooth(draft)
     begin, end = nearest(fine, draft.starts[first].place), nearest(fine, draft.starts[last].place)
     return spaced(fine[:, begin : end + 1], height[begin : end + 1]) if end > begin else np.zeros((PATH_ROWS, 0))
