@@ -295,8 +295,9 @@ def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: B
     found = {}
     for way, node, (longitude, latitude) in nodes_of(ways, nodes, set(SIGNS)):
         x, y = box.local(latitude, longitude)
-        roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node])]
-        is_for_minor = "minor" in (nodes[node].get("stop"), nodes[node].get("give_way"))
+        whose = {nodes[node].get("stop"), nodes[node].get("give_way")}
+        beside, is_for_minor = SIGN_REACH if whose & {"all", "minor"} else BESIDE, "minor" in whose
+        roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node], beside)]
         for road in (each for each in roads if not is_for_minor or is_minor(net, each)):
             found[road] = "all_way_stop" if nodes[node].get("stop") == "all" else SIGNS[nodes[node]["highway"]]
     return found
@@ -327,8 +328,9 @@ def nodes_of(ways: list[Way], nodes: dict[int, dict[str, str]], kinds: set[str])
                 yield way, node, place
 
 
-def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str]) -> bool:
-    """Whether a sign at a place is meant for a road: it stands by its end, and the tag names its direction or none."""
+def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str], beside: float = BESIDE) -> bool:
+    """Whether a sign at a place is meant for a road: it stands by its end, no farther away than this [m], and the tag names its direction
+    or none. One for several roads stands in the middle of their junction."""
     if road not in net.roads or net.roads[road].internal:
         return False
     wanted = tags.get("direction", tags.get("traffic_sign:direction", ""))
@@ -337,7 +339,7 @@ def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str]) -> bool:
     line = net.lanes[net.roads[road].lanes[0]].centre
     near = curve.distances(at[:, None], line)[0]
     to_end, to_start = np.hypot(*(at - line[:, -1])), np.hypot(*(at - line[:, 0]))
-    return bool(near < BESIDE and to_end < SIGN_REACH and (to_end < to_start or wanted))
+    return bool(near < beside and to_end < SIGN_REACH and (to_end < to_start or wanted))
 
 
 def counts(connections: tuple[Connection, ...]) -> dict[str, int]:
