@@ -19,10 +19,10 @@ from studio.process import Child, Gone
 from tests.campaign.mutation import mutant
 from tests.campaign.table import Row
 
-PATIENCE = 10.0  # [s] of processor time for one input: a machine may be busy
+PATIENCE = 20.0  # [s] of processor time for one input: a machine may be busy
 SLEEP = 300.0  # [s] that a process may take, whatever it does
 READY_PATIENCE = 300.0  # [s] for a process to have its samples
-MEMORY = 1_000_000_000  # [B] that a process may ask for beyond what it has when it begins
+MEMORY = 3_000_000_000  # [B] that a process may ask for beyond what it has when it begins
 LONGEST_REFUSAL = 100_000  # characters
 
 
