@@ -1,7 +1,7 @@
 """Figures that follow from a vehicle's values, by which an engineer sees whether it is plausible."""
 
 from collections.abc import Iterator
-from math import pi, sqrt
+from math import pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +10,7 @@ from studio.conventions import AIR_DENSITY, GRAVITY
 from studio.model.engine import TAPER
 from studio.scenario.vehicle import Engine, Vehicle
 
+RESERVE = 0.92  # [1] of the wheels' lock that a line may ask for
 FASTEST = 120.0  # [m/s] that is looked at
 
 
@@ -97,6 +98,11 @@ def axle_loads(values: Vehicle) -> tuple[float, float]:
     """Masses [kg] that stand on the front and on the rear axle."""
     rear = values.body.mass * values.body.front_distance / values.body.wheelbase
     return values.body.mass - rear, rear
+
+
+def lock(values: Vehicle) -> float:
+    """The sharpest curve [1/m] that the middle of the front axle is driven along, by sin delta/L, with a reserve to steer with."""
+    return RESERVE * sin(min(values.steering.angle_max, 0.5 * pi)) / values.body.wheelbase
 
 
 def roll_gradient(values: Vehicle) -> float:

@@ -28,6 +28,7 @@ from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
 from studio.world.demand.count import Counted, counted
 from studio.world.demand.imported import imported
+from studio.world.demand.lock import Locks
 from studio.world.demand.population import CAR_LENGTH, END_CLEARANCE, traffic
 from studio.world.demand.source import Detour, Source, sources_of, streams
 from studio.world.demand.style import type_problems
@@ -76,14 +77,16 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
     asked = imported(scenario, network, folder, where)
     models = models_of(asked.scenario, folder, where)
-    paths = paths_of(scenario, network, where)
+    locks = Locks(scenario, models)
+    paths = paths_of(scenario, network, locks, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
     found = sites(scenario, network)
     check_starts(cars, found, where)
     works = Works(found)
     check_works(cars, works, where)
-    demand, changed = counted([*streams(scenario), *asked.streams], scenario, network, where)
-    sources, detours = sources_of(demand, network, works, where)
+    locks = Locks(asked.scenario, models)
+    demand, changed = counted([*streams(scenario), *asked.streams], scenario, network, where, locks)
+    sources, detours = sources_of(demand, network, works, where, locks)
     filled = tuple(cars + traffic(asked.scenario, network, models, cars, works, sources))
     stations = spots(scenario, network, where)
     return Setting(scenario, network, filled, found, works, stations, sources, detours, asked.told, asked.digest, changed)
@@ -249,19 +252,20 @@ def untimely(scenario: Scenario, where: str) -> list[Problem]:
     return found
 
 
-def paths_of(scenario: Scenario, network: Network, where: str) -> dict[str, road_path.Path]:
-    """The line of every named vehicle; those that start alike on the same route share one."""
+def paths_of(scenario: Scenario, network: Network, locks: Locks, where: str) -> dict[str, road_path.Path]:
+    """The line of every named vehicle; those that start alike on the same route and turn as sharply share one."""
     made: dict[tuple, road_path.Path] = {}
     found = {}
     for name, vehicle in scenario.vehicles.items():
-        key = vehicle.route, vehicle.position.road, vehicle.position.lane
+        lock = locks.of(vehicle.model)
+        key = vehicle.route, vehicle.position.road, vehicle.position.lane, lock
         if key not in made:
-            made[key] = path_of(name, scenario, network, where)
+            made[key] = path_of(name, scenario, network, lock, where)
         found[name] = made[key]
     return found
 
 
-def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road_path.Path:
+def path_of(name: str, scenario: Scenario, network: Network, lock: float, where: str) -> road_path.Path:
     """The line that a named vehicle drives, with the speeds of its route."""
     vehicle = scenario.vehicles[name]
     route, start = scenario.routes[vehicle.route], vehicle.position.road
@@ -269,7 +273,7 @@ def path_of(name: str, scenario: Scenario, network: Network, where: str) -> road
     if start is not None:
         roads, lane = from_road(name, start, route.roads, where), vehicle.position.lane
     try:
-        path = road_path.path(network, connect(network, roads, start_lane=lane))
+        path = road_path.path(network, connect(network, roads, start_lane=lane, lock=lock), lock=lock)
     except RouteError as error:
         field = f"vehicles.{name}.position" if lane is not None else f"routes.{vehicle.route}.roads"
         raise RouteError(

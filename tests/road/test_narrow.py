@@ -1,13 +1,31 @@
-"""Turns narrower than a car's lock are told, with what is driven."""
+"""Turns narrower than a car's lock are told, with what is driven; those that no car gets round are left out."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from studio.road.assembly.narrow import bend_of, tell
+from studio.errors import RouteError
+from studio.road import load
+from studio.road.assembly.narrow import drivable
 from studio.road.network import Connection, Lane, Net, Road, curve
 from studio.road.network.report import Notes, Spot
+from studio.road.ways.approach import Approaches
+from studio.road.ways.lock import MOST_ASIDE, bend_over
+from studio.road.ways.path import PATH_CURVATURE, PATH_HEADING, path
+from studio.road.ways.route import connect
+from studio.road.ways.strand import strands_of
+from studio.scenario import catalogue, figures
+
+ROOT = Path(__file__).parents[2]
+MAPS = {
+    each.name.split(".")[0]: each
+    for folder in (ROOT / "tests" / "reference" / "maps", ROOT / "scenarios" / "maps")
+    for each in sorted(folder.iterdir())
+    if each.suffix != ".md"
+}
+TRUCK = figures.lock(catalogue.find_vehicle("truck").values)
 
 
 def net_of(radius, turn=90.0, *, others=True):
@@ -31,30 +49,96 @@ def net_of(radius, turn=90.0, *, others=True):
     return Net(lanes, roads, tuple(made), (), frozenset(), {})
 
 
-def told(net):
+def looked_at(net):
     notes = Notes()
-    tell(net, lambda each: Spot("here", 0.0, 0.0), notes)
-    return notes.guesses
+    return drivable(net, lambda each: Spot("here", 0.0, 0.0), notes), notes
 
 
 @pytest.mark.parametrize(("radius", "turn"), [(0.8, 90.0), (2.0, 90.0), (4.5, 90.0), (5.0, 60.0), (1.2, 120.0)])
 def test_a_turn_that_is_driven_wider_is_told(radius, turn):
     """Drawn narrower than the lock's radius of 5.3 m; the line that is driven uses the room beside it."""
     made = net_of(radius, turn)
-    (entry,) = told(made)
+    kept, notes = looked_at(made)
+    (entry,) = notes.guesses
+    assert len(kept.connections) == len(made.connections) and not notes.skipped
     assert "from road in to road up, drawn with a radius of" in entry.what and "driven with" in entry.what
-    assert bend_of(made, made.connections[0]) < 1.0 / radius
+    assert bend_over(Approaches(made), made.connections[0], curve.LOCK).is_within(curve.LOCK)
 
 
-def test_where_short_roads_leave_no_room_cars_leave_their_lane():
-    """Both roads are two metres long: the driven line has their ends, and cannot be wide."""
-    made = net_of(0.5, 150.0)
-    short = {0: np.array([[98.0, 100.0], [0.0, 0.0]]), 2: made.lanes[2].centre[:, :1] + np.array([[0.0, -1.5], [0.0, 1.0]])}
-    lanes = tuple(replace(each, centre=short.get(each.id, each.centre)) for each in made.lanes)
-    (entry,) = told(replace(made, lanes=lanes))
-    assert "cars leave their lane" in entry.source and entry.sure == "low"
+@pytest.mark.parametrize("turn", [172.0, 178.0])
+def test_a_turn_that_no_car_gets_round_is_left_out_and_told(turn):
+    """Back beside the own lane, 2 m apart, where half a circle needs 10.5 m: more than 3 m to each side."""
+    kept, notes = looked_at(net_of(1.0, turn))
+    (entry,) = notes.skipped
+    assert entry.kind == "turn" and "no car gets round" in entry.reason and "from road in to road up" in entry.what
+    assert [(each.from_lane, each.to_lane) for each in kept.connections] == [(0, 3), (5, 2)]
 
 
 @pytest.mark.parametrize("radius", [6.0, 12.0, 40.0])
 def test_of_a_turn_with_room_nobody_speaks(radius):
-    assert not told(net_of(radius))
+    _, notes = looked_at(net_of(radius))
+    assert not notes.guesses and not notes.skipped
+
+
+# -- on maps ---------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module", params=MAPS)
+def place(request):
+    return load(MAPS[request.param])
+
+
+def test_every_way_through_a_junction_is_driven_within_a_cars_lock(place):
+    strands, over = strands_of(place), []
+    for i, connection in enumerate(place.connections):
+        first, count = strands.first[strands.lanes + i], strands.count[strands.lanes + i]
+        if connection.direction != "turn" and count > 2:
+            heading = strands.points[PATH_HEADING, first : first + count]
+            sharpest = float(np.abs(np.diff(heading)).max() / strands.spacing[strands.lanes + i])
+            over += [(connection, sharpest)] if sharpest > curve.LOCK else []
+    assert not over
+
+
+def test_every_turn_that_was_drawn_too_narrow_is_in_the_report(place):
+    narrow = [each for each in place.connections if each.direction != "turn" and each.sharpest > curve.LOCK]
+    told = [each for each in place.report.guesses if each.kind == "wider turn"]
+    assert len(narrow) == len(told)
+    assert all(bend_over(Approaches(place), each, curve.LOCK).aside <= MOST_ASIDE for each in narrow)
+
+
+# -- trucks ----------------------------------------------------------------------------------------
+
+
+def test_the_lock_is_what_the_wheels_allow():
+    """sin(0.75)/5.1 m with a reserve of 8 % for the truck; every car of the catalogue drives what the maps offer."""
+    assert pytest.approx(0.92 * np.sin(0.75) / 5.1) == TRUCK
+    cars = set(catalogue.vehicle_names()) - {"truck"}
+    assert all(figures.lock(catalogue.find_vehicle(name).values) >= curve.LOCK for name in cars)
+
+
+@pytest.fixture(scope="module")
+def mitte():
+    return load(MAPS["berlin_mitte"])
+
+
+def test_a_truck_is_not_sent_over_a_turn_that_only_cars_can_take(mitte):
+    """By 154° onto a road beside the own one: a car swings round, a truck finds no other way, and is told so."""
+    roads = ["24243052#1", "465376243#0"]
+    car = connect(mitte, roads)
+    assert len(car.roads(mitte)) == 2
+    with pytest.raises(RouteError) as refused:
+        connect(mitte, roads, lock=TRUCK)
+    assert "radius of 8.1 m" in str(refused.value) and "too narrow: '24243052#1' to '465376243#0'" in str(refused.value)
+
+
+def test_a_trucks_line_is_wider(mitte):
+    """Where it does get round, its line bends no more than its wheels allow; a car's line over the same lanes does."""
+    roads = ["4611694", "251884680#1", "339201217"]
+    way = connect(mitte, roads, lock=TRUCK)
+    car, truck = (float(np.abs(path(mitte, way, lock=lock).points[PATH_CURVATURE]).max()) for lock in (curve.LOCK, TRUCK))
+    assert truck <= TRUCK < car <= curve.LOCK
+
+
+def test_bends_on_hand_made_maps_need_no_import():
+    net = net_of(2.0)
+    assert bend_over(Approaches(replace(net)), net.connections[0], TRUCK).curvature <= TRUCK

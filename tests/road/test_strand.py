@@ -10,6 +10,7 @@ from studio.road.ways.conflict import ACROSS, ALONG, EQUAL, GIVE, NONE, TAKE
 from studio.road.ways.meeting import meetings, meetings_of
 from studio.road.ways.path import PATH_HEIGHT, PATH_ROWS, PATH_X, PATH_Y
 from studio.road.ways.strand import WIDTH, Strands, driven, strands_of
+from tests.road.conftest import lane, network
 from tests.road.test_priority import BERLIN, arms_of, crossing
 
 OPPOSITE = {GIVE: TAKE, TAKE: GIVE, EQUAL: EQUAL, NONE: NONE}
@@ -106,4 +107,5 @@ def test_on_a_bridge_one_meets_nobody_below(height, count):
     east[PATH_X], north[PATH_Y] = np.arange(41) - 20.0, np.arange(41) - 20.0
     north[PATH_HEIGHT] = height
     two = np.array([0, 41]), np.array([41, 41]), np.ones(2)
-    assert len(list(meetings(None, Strands(np.concatenate([east, north], axis=1), *two, lanes=2), 0, 1))) == count
+    where = network([lane(i, name, 0, each[[PATH_X, PATH_Y]]) for i, (name, each) in enumerate({"east": east, "north": north}.items())])
+    assert len(list(meetings(where, Strands(np.concatenate([east, north], axis=1), *two, lanes=2), 0, 1))) == count

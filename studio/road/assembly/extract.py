@@ -58,7 +58,7 @@ def part(path: Path, wish: Wish) -> Part:
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
     """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road.assembly import audit, elevation, narrow, turn
+    from studio.road.assembly import audit, elevation, level, narrow, turn
     from studio.road.assembly.alignment import aligned
     from studio.road.assembly.priority import mapped_law
     from studio.road.assembly.side import drive_side
@@ -78,9 +78,8 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     ways = tagged(cut, found, country.name, left_hand)
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
-    smooth = aligned(raw)
-    narrow.tell(smooth, lambda each: end_of(raw, each, ways, box), found.notes)
-    net = of_ways(elevation.raised(smooth, found, cut, box), ways)
+    smooth = narrow.drivable(aligned(raw), lambda each: end_of(raw, each, ways, box), found.notes)
+    net = of_ways(level.with_levels(elevation.raised(smooth, found, cut, box), cut, elevation.grid_of(cut, box)), ways)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),

@@ -1,42 +1,45 @@
-"""Turns that are drawn narrower than a car's lock: cars drive a wider line there, as `ways/path.py` draws it, and the report says so."""
+"""Turns that are drawn narrower than a car's lock: cars swing out there, as `ways/path.py` draws it, and the report says so. A turn
+that no car gets round so is left out, and the report says so too: whatever is offered can be driven.
+"""
 
 from collections.abc import Callable
-
-import numpy as np
+from dataclasses import replace
 
 from studio.road.assembly.alignment import sharpest
 from studio.road.network import Connection, Net, curve
 from studio.road.network.report import Notes, Spot
-from studio.road.ways.path import CORRIDOR, Draft, curvature_of, smooth
+from studio.road.ways.approach import Approaches
+from studio.road.ways.lock import MOST_ASIDE, Bend, bend_over
 
-REACH = 40.0  # [m] of the lanes before and behind
+SOURCE = "the map leaves less room than a car's lock needs"
+SEEN = 0.3  # [m] aside is worth a word
 
 
-def tell(net: Net, spot: Callable[[Connection], Spot], notes: Notes) -> None:
-    """Tells every such turn with what is driven; where that is still too sharp, between roads of a few metres, cars leave their lane."""
+def drivable(net: Net, spot: Callable[[Connection], Spot], notes: Notes) -> Net:
+    """The network without the turns that no car can drive; what is driven in narrow ones, and what is left out, is told."""
+    net = replace(net, connections=tuple(replace(each, sharpest=sharpest(net, each)) for each in net.connections))
+    approaches, gone = Approaches(net), set()
     for each in net.connections:
-        drawn = sharpest(net, each)
+        drawn = each.sharpest
         if each.direction == "turn" or drawn <= curve.LOCK:
             continue
+        bend = bend_over(approaches, each, curve.LOCK)
         start, end = (net.lanes[lane].road for lane in (each.from_lane, each.to_lane))
-        bend = bend_of(net, each)
-        what = f"from road {start} to road {end}, drawn with a radius of {1.0 / drawn:.1f} m, driven with {1.0 / bend:.1f} m"
-        source = "the map leaves less room than a car's lock needs" + ("; cars leave their lane" if bend > curve.LOCK else "")
-        notes.guess("wider turn", what, spot(each), source=source, sure="low" if bend > curve.LOCK else "medium")
+        what = f"from road {start} to road {end}, drawn with a radius of {1.0 / drawn:.1f} m"
+        if bend.is_within(curve.LOCK):
+            notes.guess("wider turn", f"{what}, {driven(bend)}", spot(each), source=SOURCE, sure=sure(bend))
+        else:
+            gone.add(id(each))
+            notes.skip("turn", what, spot(each), f"no car gets round with {MOST_ASIDE:g} m beside its lane")
+    return replace(net, connections=tuple(each for each in net.connections if id(each) not in gone)) if gone else net
 
 
-def bend_of(net: Net, connection: Connection) -> float:
-    """The sharpest curvature of the line that is driven over a connection [1/m]."""
-    draft = Draft()
-    before, behind = net.lanes[connection.from_lane], net.lanes[connection.to_lane]
-    lines = [part(before.centre, -1), *(net.lanes[via].centre for via in connection.via), part(behind.centre, 0)]
-    for line in lines:
-        draft.add(line, np.zeros(line.shape[1]), CORRIDOR, before.speed)
-    line, _ = smooth(draft)
-    return max(float(np.abs(curvature_of(line)).max()), 1e-6)
+def driven(bend: Bend) -> str:
+    """What is driven, in words."""
+    aside = f", {bend.aside:.1f} m beside the lane's middle" if bend.aside > SEEN else ""
+    return f"driven with {1.0 / bend.curvature:.1f} m{aside}"
 
 
-def part(line: np.ndarray, end: int) -> np.ndarray:
-    """The metres of a lane at its start (0) or its end (-1)."""
-    own = curve.stations(line)
-    return line[:, own <= REACH] if end == 0 and (own <= REACH).sum() > 1 else line[:, own >= own[-1] - REACH] if end else line
+def sure(bend: Bend) -> str:
+    """A car that leaves its lane by half of it, or more, does so on ground that the map may not have."""
+    return "low" if bend.aside > 0.5 * MOST_ASIDE else "medium"

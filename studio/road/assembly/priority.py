@@ -30,6 +30,7 @@ from studio.road.network.signals import SIGHT, Signals
 
 LEFT_FIRST = {"Japan", "Thailand"}  # road traffic acts: Japan art. 36, Thailand sec. 71
 EQUAL = {"residential", "living_street", "unclassified", "tertiary"}  # classes whose crossings have no major road
+CLASSES = ("motorway", "trunk", "primary", "secondary", "tertiary", "unclassified", "residential", "living_street", "service")
 SIGN_REACH = 40.0  # [m] a sign stands that near before its junction
 BESIDE = 10.0  # [m] and its node that near to the road
 ONCOMING = np.radians(135.0)  # [rad]
@@ -294,10 +295,29 @@ def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: B
     found = {}
     for way, node, (longitude, latitude) in nodes_of(ways, nodes, set(SIGNS)):
         x, y = box.local(latitude, longitude)
-        roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node])]
-        for road in roads:
+        whose = {nodes[node].get("stop"), nodes[node].get("give_way")}
+        beside, is_for_minor = SIGN_REACH if whose & {"all", "minor"} else BESIDE, "minor" in whose
+        roads = [road for road in by_way[way.id] if faces(net, road, np.array([x, y]), nodes[node], beside)]
+        for road in (each for each in roads if not is_for_minor or is_minor(net, each)):
             found[road] = "all_way_stop" if nodes[node].get("stop") == "all" else SIGNS[nodes[node]["highway"]]
     return found
+
+
+def is_minor(net: Net, road: str) -> bool:
+    """Whether a road is one of the lesser ones of its junction: of a lesser class than others or, where all are alike, one that does not
+    go straight on while others do."""
+    arms = [each for each in net.roads.values() if not each.internal and each.to_junction == net.roads[road].to_junction]
+    ranks = {each.id: rank(each.kind) for each in arms}
+    if len(set(ranks.values())) > 1:
+        return ranks[road] > min(ranks.values())
+    ahead = {net.lanes[each.from_lane].road for each in net.connections if each.direction == "straight"}
+    return road not in ahead
+
+
+def rank(kind: str) -> int:
+    """The place of a kind of road among all, the greatest first; ramps have that of their road."""
+    name = kind.removesuffix("_link")
+    return CLASSES.index(name) if name in CLASSES else len(CLASSES)
 
 
 def nodes_of(ways: list[Way], nodes: dict[int, dict[str, str]], kinds: set[str]) -> Iterator[tuple[Way, int, tuple[float, float]]]:
@@ -308,8 +328,9 @@ def nodes_of(ways: list[Way], nodes: dict[int, dict[str, str]], kinds: set[str])
                 yield way, node, place
 
 
-def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str]) -> bool:
-    """Whether a sign at a place is meant for a road: it stands by its end, and the tag names its direction or none."""
+def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str], beside: float = BESIDE) -> bool:
+    """Whether a sign at a place is meant for a road: it stands by its end, no farther away than this [m], and the tag names its direction
+    or none. One for several roads stands in the middle of their junction."""
     if road not in net.roads or net.roads[road].internal:
         return False
     wanted = tags.get("direction", tags.get("traffic_sign:direction", ""))
@@ -318,7 +339,7 @@ def faces(net: Net, road: str, at: np.ndarray, tags: dict[str, str]) -> bool:
     line = net.lanes[net.roads[road].lanes[0]].centre
     near = curve.distances(at[:, None], line)[0]
     to_end, to_start = np.hypot(*(at - line[:, -1])), np.hypot(*(at - line[:, 0]))
-    return bool(near < BESIDE and to_end < SIGN_REACH and (to_end < to_start or wanted))
+    return bool(near < beside and to_end < SIGN_REACH and (to_end < to_start or wanted))
 
 
 def counts(connections: tuple[Connection, ...]) -> dict[str, int]:

@@ -35,8 +35,10 @@ WAYS = {
     "hazard": "drivers see hazards, not signs", "shoulder": BESIDE, "cycleway": BESIDE, "busway": BESIDE, "passing_places": SHAPE,
     "priority": "nobody waits where a road gets narrow", "traffic_sign": "signs count by the tags of what they mean",
     "bicycle_road": "drivers do not mind cyclists more than elsewhere", "cyclestreet": "drivers do not mind cyclists more than elsewhere",
-    "tunnel": "what lies below the ground is built as on it", "covered": "roofs over roads are not built", "bridge": "no bridges are drawn",
-    "layer": "ways of other layers do not meet, and are drawn on the ground", "cutting": "ground is level", "embankment": "ground is level",
+    "tunnel": "who crosses above is not met; drawn on the ground", "covered": "roofs over roads are not built",
+    "bridge": "who crosses below is not met; no bridges are drawn",
+    "layer": "who crosses on another layer is not met; all are drawn on the ground",
+    "cutting": "ground is level", "embankment": "ground is level",
     "bridge:movable": "bridges do not open", "temporary": TIMES, "opening_hours": TIMES, "lanes:hov": BESIDE, "reversible": TIMES,
 }  # fmt: skip
 SILENT = {

@@ -131,4 +131,6 @@ def linked(net: Net, lights: Signals) -> tuple[Connection, ...]:
     from studio.road.assembly.alignment import sharpest
 
     link = {lane: number for number, lane in enumerate(lights.link_lane.tolist())}
-    return tuple(replace(each, link=link.get(each.from_lane, -1), sharpest=sharpest(net, each)) for each in net.connections)
+    return tuple(
+        replace(each, link=link.get(each.from_lane, -1), sharpest=each.sharpest or sharpest(net, each)) for each in net.connections
+    )

@@ -23,7 +23,8 @@ SPACE_ROWS = 5
 class Lane:
     """One lane. `index` 0 is the lane at the kerb; `centre` is its centre line, float64[2, n] [m].
 
-    `height` float64[n] [m] is that of the road at the points of `centre`; zeros where nothing is known.
+    `height` float64[n] [m] is that of the road at the points of `centre`; zeros where nothing is known. `level` float64[n] tells of
+    one that is not all on the ground on which level it is there.
     """
 
     id: int
@@ -36,6 +37,7 @@ class Lane:
     length: float  # [m]
     open: bool = True  # to cars; a bus lane is not
     height: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    level: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         if self.height.size != self.centre.shape[1]:

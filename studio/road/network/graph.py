@@ -37,7 +37,7 @@ CHANGE_ROOM = 12.0  # [m] of road that one lane change needs at the very least
 CHANGE_EASE = 50.0  # [m] of road on which a lane change is comfortable
 CLOSED_TIME = 75.0  # [s] a lane that cars keep out of is used only where nothing else leads on
 YIELD_TIME = 1.5  # [s] mean wait for others: the default of SUMO's router, weights.minor-penalty
-NARROW_TIME = 75.0  # [s] a turn that no car gets round is driven only where nothing else leads on
+NARROW_TIME = 75.0  # [s] a turn over which one swings out is driven only where all else is a long detour
 BACK_TIME = 15.0  # [s] a turn back
 BEND_REACH = 6.0  # [m] before and behind a place, on which its curvature is taken
 LATERAL = 2.5  # [m/s²] in bends, as the paths have it
@@ -46,23 +46,26 @@ STRIDE = 2.0  # [m] of a lane that is driven at one speed
 
 
 class Edge(NamedTuple):
-    """From a lane to the lane `to` of another road: price [s], the lanes on the way, whether it turns back."""
+    """From a lane to the lane `to` of another road over a connection: price [s], the lanes on the way, whether it turns back."""
 
     to: int
     price: float
     way: tuple[int, ...]
     back: bool
+    connection: int
 
 
 @dataclass(frozen=True, eq=False)
 class Graph:
-    """Edges of node i are first[i] to first[i + 1]. The first nodes are the lanes; `road` is the number of a node's road."""
+    """Edges of node i are first[i] to first[i + 1]. The first nodes are the lanes; `road` is the number of a node's road, `connection`
+    that of an edge's connection."""
 
     first: np.ndarray
     to: np.ndarray
     price: np.ndarray
     back: np.ndarray
     road: np.ndarray
+    connection: np.ndarray
     ways: tuple[tuple[int, ...], ...]
     number: dict[str, int]  # of the roads
 
@@ -80,6 +83,7 @@ def graph_of(network: Network) -> Graph:
         price=np.array([edge.price for _, edge in flat], dtype=float),
         back=np.array([edge.back for _, edge in flat], dtype=bool),
         road=np.array([number[network.lanes[lane].road] for lane in lane_of], dtype=np.int64),
+        connection=np.array([edge.connection for _, edge in flat], dtype=np.int64),
         ways=tuple(edge.way for _, edge in flat),
         number=number,
     )
@@ -97,6 +101,11 @@ def without(graph: Graph, avoid: Collection[str]) -> Graph:
     """The graph in which nothing leads onto some roads."""
     shut = [graph.number[road] for road in avoid if road in graph.number]
     return replace(graph, price=np.where(np.isin(graph.road[graph.to], shut), np.inf, graph.price)) if shut else graph
+
+
+def without_turns(graph: Graph, shut: Collection[int]) -> Graph:
+    """The graph without some connections."""
+    return replace(graph, price=np.where(np.isin(graph.connection, list(shut)), np.inf, graph.price))
 
 
 @compiled
@@ -194,6 +203,7 @@ def edges_of(network: Network) -> list[list[Edge]]:
     exits = defaultdict(list)
     for connection in network.connections:
         exits[connection.from_lane].append(connection)
+    number = {id(connection): i for i, connection in enumerate(network.connections)}
     times, waits = lane_times(index_of(network)), mean_waits(network.signals)
     found: list[list[Edge]] = [[] for _ in network.lanes]
     for lane in network.lanes:
@@ -203,9 +213,8 @@ def edges_of(network: Network) -> list[list[Edge]]:
                     if each.direction == "turn" and not is_dead_end(network, lane, exits):
                         continue
                     through = price + times[lane.id] + times[list(each.via)].sum() + wait(each, waits) + unwanted(network, each)
-                    found[lane.id].append(
-                        Edge(each.to_lane, float(through), (*used[1:], *each.via, each.to_lane), each.direction == "turn")
-                    )
+                    lanes = *used[1:], *each.via, each.to_lane
+                    found[lane.id].append(Edge(each.to_lane, float(through), lanes, each.direction == "turn", number[id(each)]))
     return found
 
 

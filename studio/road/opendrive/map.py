@@ -18,7 +18,7 @@ from studio.road.assembly.plan import Plan, Wish
 from studio.road.assembly.priority import counts, law_by_limits
 from studio.road.formats import limit as limits
 from studio.road.formats import osm
-from studio.road.network import Net, Network, Scenery
+from studio.road.network import Connection, Net, Network, Scenery
 from studio.road.network.report import DriveSide, LimitCount, Notes, Report, SignalCount, Spot
 from studio.road.opendrive.document import Document, Header, Remark, XRoad
 from studio.road.opendrive.file import WIDEST, document, read_header
@@ -138,6 +138,7 @@ def plan(path: Path, data: bytes, kept: str, progress: Callable[[str], None]) ->
 
 def planned(found: Document) -> Plan:
     """The same; messages do not name the file."""
+    from studio.road.assembly import narrow
     from studio.road.opendrive.build import build
 
     notes, middle = Notes(), middle_of(found)
@@ -158,6 +159,7 @@ def planned(found: Document) -> Plan:
         notes.guess("right of way", what, spot(next(iter(found.roads), ""), 0.0), source=source, sure="low")
     tell(found, earth, spot, notes)
     net, places = shifted(made.net, middle), [place - middle for place in made.places]
+    net = narrow.drivable(net, lambda each: end_of(net, each, earth, middle), notes)
     return Plan(
         net=net,
         signalled=net.signalled,
@@ -184,6 +186,12 @@ def tell(found: Document, earth: "Earth", spot: Callable[[str, float], Spot], no
         notes.skip(each.kind, each.what, at(each), each.reason)
     for each in found.guesses:
         notes.guess(each.kind, each.what, at(each), source=each.reason, sure="medium")
+
+
+def end_of(net: Net, connection: Connection, earth: "Earth", middle: np.ndarray) -> Spot:
+    """Where a connection begins."""
+    lane = net.lanes[connection.from_lane]
+    return Spot(f"road {lane.road}", *earth.degrees(lane.centre[:, -1] + middle))
 
 
 # -- the place -------------------------------------------------------------------------------------

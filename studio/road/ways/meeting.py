@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 
 from studio.road import kept
-from studio.road.network import Network
+from studio.road.network import Network, curve
 from studio.road.network.index import once
 from studio.road.ways.conflict import ACROSS, AGAINST, ALONG, EQUAL, GIVE, NONE, TAKE, zones
 from studio.road.ways.path import PATH_HEADING, PATH_HEIGHT
@@ -85,7 +85,7 @@ def meetings(network: Network, strands: Strands, a: int, b: int) -> Iterator[Fou
         metres = span * np.repeat(strands.spacing[[a, b]], 2)
         if hands_over(strands, a, b, metres) or hands_over(strands, b, a, metres[[2, 3, 0, 1]]):
             continue
-        if abs(height(strands, a, metres[:2]) - height(strands, b, metres[2:])) < OTHER_LEVEL:
+        if is_one_level(network, strands, a, b, metres):
             yield a, b, metres
             yield b, a, metres[[2, 3, 0, 1]]
 
@@ -111,6 +111,35 @@ def middle(strands: Strands, strand: int, span: np.ndarray) -> int:
 def height(strands: Strands, strand: int, span: np.ndarray) -> float:
     """Height in the middle of a stretch [m]."""
     return float(strands.points[PATH_HEIGHT, middle(strands, strand, span)])
+
+
+def is_one_level(network: Network, strands: Strands, a: int, b: int, span: np.ndarray) -> bool:
+    """Whether two strands are on one level where they come near to each other: by their heights, and by the levels that are mapped, but
+    for those that lead to or from one junction."""
+    if abs(height(strands, a, span[:2]) - height(strands, b, span[2:])) >= OTHER_LEVEL:
+        return False
+    if not junctions(network, strands, a).isdisjoint(junctions(network, strands, b)):
+        return True
+    return abs(level(network, strands, a, span[:2]) - level(network, strands, b, span[2:])) < 0.5
+
+
+def junctions(network: Network, strands: Strands, strand: int) -> set[str]:
+    """The junctions to which a strand leads, from which it comes, or in which it lies."""
+    if strand < strands.lanes:
+        road = network.roads[network.lanes[strand].road]
+        return {road.from_junction, road.to_junction} - {""}
+    start = network.lanes[network.connections[strand - strands.lanes].from_lane]
+    return {network.roads[start.road].to_junction} - {""}
+
+
+def level(network: Network, strands: Strands, strand: int, span: np.ndarray) -> float:
+    """The level in the middle of a stretch [m]; in a junction that of the lane that leads into it."""
+    is_lane = strand < strands.lanes
+    lane = network.lanes[strand if is_lane else network.connections[strand - strands.lanes].from_lane]
+    if not lane.level.size:
+        return 0.0
+    s = np.clip(span, 0.0, lane.length).mean() if is_lane else lane.length
+    return float(np.interp(s, curve.stations(lane.centre), lane.level))
 
 
 def shape(network: Network, strands: Strands, a: int, b: int, span: np.ndarray) -> int:

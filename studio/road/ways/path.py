@@ -14,6 +14,7 @@ from studio.errors import RouteError
 from studio.portable import arctan2
 from studio.road import kept
 from studio.road.network import Lane, Network, curve
+from studio.road.ways import swing
 from studio.road.ways.route import LanePath
 
 PATH_SPACING = 1.0  # [m]
@@ -26,8 +27,12 @@ WAVELENGTH = 12.0  # [m] shorter waves are corners where lanes meet
 HEIGHT_WAVELENGTH = 60.0  # [m] the same of its height
 CHANGE_LENGTH = 45.0  # [m] of road that one lane change takes, if the road is long enough
 MARK_REACH = 10.0  # [m] how far smoothing may have moved a place along the path since the place before
-ROOM = (0.3, 0.6, 1.3, 2.5)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next
+ROOM = (0.3, 0.6)  # [m] how far a sharper bend may leave the centre line, from one attempt to the next; then one swings
 ROOM_REACH = 10.0  # [m] before and behind the bend
+GENTLER = (0.93, 0.87)  # [1] times the lock, for which a swing is made again where smoothing has sharpened it
+NEARLY_SHARP = 0.9  # [1] times the lock: where one swings, one does so in bends as sharp as this
+SWING_WAVELENGTH = 1.0  # [1] over the lock: shorter waves of a swing are where its arcs meet
+HAND = 0.15  # [1/(m s)] how fast the curvature that is driven may change: wheels that turn by 0.4 rad/s, 2.7 m apart
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
 
@@ -89,7 +94,7 @@ class Draft:
         self.s += curve.length(piece)
 
 
-def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, deceleration=1.5) -> Path:
+def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, deceleration=1.5, lock=curve.LOCK) -> Path:
     """The driving line along a lane path; kept on disk.
 
     Args:
@@ -97,20 +102,19 @@ def path(network: Network, lane_path: LanePath, *, lateral_acceleration=2.5, dec
         lane_path: from `studio.road.ways.route.connect`.
         lateral_acceleration: what PATH_SPEED allows in bends [m/s²].
         deceleration: what PATH_SPEED needs before slower places [m/s²].
+        lock: the sharpest curve that the vehicle can drive [1/m]; where the lanes are sharper, it swings out.
 
     Raises:
         RouteError: the line is too short to be driven.
     """
-    parts = lane_path.lanes, lateral_acceleration, deceleration
-    return kept.of_map(
-        network.digest, "paths", Path, lambda: made(network, lane_path, lateral_acceleration, deceleration), *parts, maker=__file__
-    )
+    parts = lane_path, lateral_acceleration, deceleration, lock
+    return kept.of_map(network.digest, "paths", Path, lambda: made(network, *parts), lane_path.lanes, *parts[1:], maker=__file__)
 
 
-def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float) -> Path:
+def made(network: Network, lane_path: LanePath, lateral_acceleration: float, deceleration: float, lock: float) -> Path:
     """The same, made anew."""
     draft = drafted(network, lane_path)
-    points = sampled(*smooth(draft))
+    points = sampled(*smooth(draft, lock))
     if points.shape[1] < 2:
         raise RouteError(f"{network.name}: the route is too short to be driven, less than {PATH_SPACING:g} m")
     limit = limits(draft, points)
@@ -196,20 +200,46 @@ def joined(draft: Draft) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 # -- the smooth line -------------------------------------------------------------------------------
 
 
-def smooth(draft: Draft) -> tuple[np.ndarray, np.ndarray]:
-    """The fine curve of a draft, a point every `GRAIN` metres, and its height [m]; where it would be too sharp to drive, it gets room."""
+def smooth(draft: Draft, lock: float = curve.LOCK) -> tuple[np.ndarray, np.ndarray]:
+    """The fine curve of a draft, a point every `GRAIN` metres, and its height [m]; where it would be sharper than the lock [1/m], it gets
+    a little room, and where that is not enough, it swings."""
     rough, height, corridor = joined(draft)
     own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
     s = np.linspace(0.0, own[-1], fine.shape[1])
-    corridor = np.interp(s, own, corridor)
-    height = np.interp(s, own, height)
-    for room in (*ROOM, np.inf):
-        line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
-        sharp = np.abs(curvature_of(line)) > curve.LOCK
+    corridor, height = np.interp(s, own, corridor), np.interp(s, own, height)
+    tight = line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
+    for room in ROOM:
+        sharp = np.abs(curvature_of(line)) > lock
         if not sharp.any():
-            break
+            return line, height
         corridor = np.where(curve.widened(sharp, round(ROOM_REACH / GRAIN)), np.maximum(corridor, room), corridor)
-    return line, height
+        line = curve.smoothed(fine, spacing=s[1], wavelength=WAVELENGTH, corridor=corridor)
+    return (line, height) if is_within(line, lock) else swinging(tight, height, lock)
+
+
+def swinging(line: np.ndarray, height: np.ndarray, lock: float) -> tuple[np.ndarray, np.ndarray]:
+    """A fine curve with swings in its bends, and its height [m]; a little gentler where smoothing has sharpened them."""
+    sharp = np.abs(curvature_of(line)) > NEARLY_SHARP * lock
+    made = with_swings(line, height, sharp, lock)
+    for gentler in GENTLER:
+        if is_within(made[0], lock):
+            break
+        made = with_swings(line, height, sharp, gentler * lock)
+    return made
+
+
+def with_swings(line: np.ndarray, height: np.ndarray, sharp: np.ndarray, lock: float) -> tuple[np.ndarray, np.ndarray]:
+    """The same with swings for a lock [1/m], smoothed where their arcs meet."""
+    rough, at = swing.swung(line, heading_of(line), sharp, lock)
+    own, fine = curve.stations(rough), curve.resampled(rough, GRAIN)
+    s = np.linspace(0.0, own[-1], fine.shape[1])
+    made = curve.smoothed(fine, spacing=s[1], wavelength=SWING_WAVELENGTH / lock, corridor=np.full(s.size, CORRIDOR))
+    return made, np.interp(np.interp(s, own, at), np.arange(height.size), height)
+
+
+def is_within(line: np.ndarray, lock: float) -> bool:
+    """Whether a line is nowhere sharper than a lock [1/m]."""
+    return bool(np.abs(curvature_of(line)).max() <= lock)
 
 
 def without_kinks(height: np.ndarray) -> np.ndarray:
@@ -272,9 +302,11 @@ def limits(draft: Draft, points: np.ndarray) -> np.ndarray:
 
 
 def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float) -> np.ndarray:
-    """The speed for every point: the limit, what the bend allows, and what can be slowed down from in time [m/s]."""
+    """The speed for every point: the limit, what the bend and the turning of the wheels allow, and what can be slowed down from in
+    time [m/s]."""
     bend = np.sqrt(lateral_acceleration / np.maximum(np.abs(curvature), 1e-6))
-    speed = np.maximum(np.minimum(limit, bend), LOWEST_SPEED)
+    turning = HAND / np.maximum(np.abs(np.gradient(curvature, PATH_SPACING)), 1e-6)
+    speed = np.maximum(np.minimum(np.minimum(limit, bend), turning), LOWEST_SPEED)
     for i in range(len(speed) - 2, -1, -1):
         speed[i] = min(speed[i], np.sqrt(speed[i + 1] ** 2 + 2.0 * deceleration * PATH_SPACING))
     return speed

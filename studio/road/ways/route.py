@@ -3,12 +3,15 @@
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 from studio.errors import Problem, RouteError, nearest
-from studio.road.network import Network
-from studio.road.network.graph import graph_of, search, without
+from studio.road.network import Network, curve
+from studio.road.network.graph import graph_of, search, without, without_turns
+from studio.road.network.index import once
 
+MOST_NAMED = 5  # turns in a message
 SHORTEST = 2.0  # [m] there is nothing to drive on a way that is shorter
 
 
@@ -55,8 +58,9 @@ def bearing(network: Network, road: str, end: int) -> float:
     return math.atan2(y, x) % (2.0 * math.pi)
 
 
-def all_routes(network: Network) -> tuple[LanePath, ...]:
-    """The quickest way from every entry to every exit, where there is one; of a road without others every lane is a way."""
+def all_routes(network: Network, lock: float = curve.LOCK) -> tuple[LanePath, ...]:
+    """The quickest way from every entry to every exit for vehicles of a lock [1/m], where there is one; of a road without others every
+    lane is a way."""
     entries, exits = arms(network)
     found = []
     for entry in entries:
@@ -65,15 +69,16 @@ def all_routes(network: Network) -> tuple[LanePath, ...]:
                 found += [LanePath((lane.id,)) for lane in network.lanes_of(entry) if lane.open and lane.length >= SHORTEST]
                 continue
             try:
-                found.append(connect(network, [entry, end]))
+                found.append(connect(network, [entry, end], lock=lock))
             except RouteError:
                 continue
     return tuple(found)
 
 
 def connect(
-    network: Network, roads: Sequence[str], *, start_lane: int | None = None, turn_back: bool = False, avoid: Collection[str] = ()
-) -> LanePath:
+    network: Network, roads: Sequence[str], *, start_lane: int | None = None, turn_back: bool = False, avoid: Collection[str] = (),
+    lock: float = curve.LOCK,
+) -> LanePath:  # fmt: skip
     """The quickest lanes through `roads` in this order; between two of them any road may be used.
 
     Args:
@@ -82,20 +87,55 @@ def connect(
         start_lane: lane of the first road to start in, 0 at the kerb; left out, the quickest.
         turn_back: whether one may turn back at the end of a dead end; such a turn is narrower than a car can drive.
         avoid: roads that must not be entered.
+        lock: the sharpest curve that the vehicle can drive [1/m]; every turn that is left in a map suits a car.
 
     Raises:
-        RouteError: a road is not on the map, there is no way from one to the next, or hardly any to drive.
+        RouteError: a road is not on the map, there is no way from one to the next, or only one over turns that are too narrow for the
+            vehicle, or hardly any to drive.
     """
     check(network, roads, start_lane)
     lanes = network.roads[roads[0]].lanes
     starts = lanes if start_lane is None else (lanes[start_lane],)
     if start_lane is None and any(network.lanes[lane].open for lane in lanes):
         starts = tuple(lane for lane in lanes if network.lanes[lane].open)
-    way, reached = search(without(graph_of(network), avoid), tuple(roads), starts, turn_back=turn_back)
+    graph, shut = without(graph_of(network), avoid), ()
+    way, reached = search(graph, tuple(roads), starts, turn_back=turn_back)
+    while way and (narrow := too_narrow(network, way, lock)):
+        shut = (*shut, *narrow)
+        way, reached = search(without_turns(graph, shut), tuple(roads), starts, turn_back=turn_back)
     if not way:
-        raise no_way(network, tuple(roads), reached)
+        raise too_narrow_a_way(network, tuple(roads), reached, shut, lock) if shut else no_way(network, tuple(roads), reached)
     check_length(network, roads, sum(network.lanes[lane].length for lane in way))
     return LanePath(way)
+
+
+def too_narrow(network: Network, way: tuple[int, ...], lock: float) -> tuple[int, ...]:
+    """The connections on a way that are too narrow for a vehicle of a lock [1/m]; none for a car, for which all are wide enough."""
+    if lock >= curve.LOCK:
+        return ()
+    from studio.road.ways.lock import is_drivable
+
+    number, roads = numbers(network), [lane for lane in way if not network.lanes[lane].internal]
+    passed = (number[pair] for pair in pairwise(roads) if pair in number)
+    return tuple(each for each in passed if network.connections[each].direction != "turn" and not is_drivable(network, each, lock))
+
+
+@once
+def numbers(network: Network) -> dict[tuple[int, int], int]:
+    """The numbers of the connections by the lanes that they join."""
+    return {(each.from_lane, each.to_lane): i for i, each in enumerate(network.connections)}
+
+
+def too_narrow_a_way(network: Network, roads: tuple[str, ...], reached: int, shut: tuple[int, ...], lock: float) -> RouteError:
+    """The error that names the turns for which a vehicle finds no way between two roads."""
+    turns = [network.connections[each] for each in shut]
+    named = dict.fromkeys(f"{network.lanes[each.from_lane].road!r} to {network.lanes[each.to_lane].road!r}" for each in turns)
+    return RouteError(
+        f"{network.name}: there is no way from road {roads[reached - 1]!r} to road {roads[reached]!r} for a vehicle that turns no sharper "
+        f"than with a radius of {1.0 / lock:.1f} m",
+        [Problem(f"roads[{reached}]", "is only reached over turns that are too narrow for it", repr(roads[reached]),
+                 remedy=f"too narrow: {', '.join(list(named)[:MOST_NAMED])}; name other roads, or a vehicle that turns more sharply")],
+    )  # fmt: skip
 
 
 def check_length(network: Network, roads: Sequence[str], length: float) -> None:

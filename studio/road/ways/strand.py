@@ -15,15 +15,14 @@ from studio.compiled import compiled
 from studio.road import kept
 from studio.road.network import Connection, Lane, Network, curve
 from studio.road.network.index import once
+from studio.road.ways.approach import Approaches, resampled
+from studio.road.ways.lock import fitting
 from studio.road.ways.path import (
-    CORRIDOR,
-    GRAIN,
     PATH_HEADING,
     PATH_HEIGHT,
     PATH_ROWS,
     PATH_X,
     PATH_Y,
-    Draft,
     Path,
     Station,
     heading_of,
@@ -32,7 +31,6 @@ from studio.road.ways.path import (
 )
 
 WIDTH = 2.4  # [m] two that drive on lines nearer than this are in each other's way
-BEFORE = 25.0  # [m] of the lanes before and behind a junction that a way through it is smoothed with
 NEARLY = 1.5  # [m] from a strand's end, a path that comes so near to it drives on it to the end
 SLACK = 1e-6  # [m]
 
@@ -74,7 +72,8 @@ def strands_of(network: Network) -> Strands:
 
 def drawn(network: Network) -> Strands:
     """The same, made anew."""
-    lines = [*(lane_points(lane) for lane in network.lanes), *(way_points(network, each) for each in network.connections)]
+    approaches = Approaches(network)
+    lines = [*(lane_points(lane) for lane in network.lanes), *(way_points(approaches, each) for each in network.connections)]
     counts = np.array([line.shape[1] for line in lines], dtype=np.int64)
     lengths = np.array([curve.length(line[:2]) if line.shape[1] else 0.0 for line in lines])
     return Strands(
@@ -88,27 +87,16 @@ def drawn(network: Network) -> Strands:
 
 def lane_points(lane: Lane) -> np.ndarray:
     """The line of a lane; none of one inside a junction, which belongs to ways through it."""
-    return np.zeros((PATH_ROWS, 0)) if lane.internal else spaced(curve.resampled(lane.centre, GRAIN), heights(lane))
+    return np.zeros((PATH_ROWS, 0)) if lane.internal else spaced(*resampled(lane))
 
 
-def heights(lane: Lane) -> np.ndarray:
-    """Height of a lane [m] where it is resampled."""
-    count = curve.resampled(lane.centre, GRAIN).shape[1]
-    return np.interp(np.linspace(0.0, lane.length, count), curve.stations(lane.centre), lane.height)
-
-
-def way_points(network: Network, connection: Connection) -> np.ndarray:
-    """The line of a way through a junction, smoothed with pieces of the lanes before and behind; none where there is no way between."""
+def way_points(approaches: Approaches, connection: Connection) -> np.ndarray:
+    """The line of a way through a junction, smoothed with what is driven before and behind; none where there is no way between."""
     if not connection.via:
         return np.zeros((PATH_ROWS, 0))
-    inner = [network.lanes[via] for via in connection.via]
-    draft = Draft()
-    for lane, part in ((network.lanes[connection.from_lane], -1), *((lane, 0) for lane in inner), (network.lanes[connection.to_lane], 1)):
-        line, height = curve.resampled(lane.centre, GRAIN), heights(lane)
-        used = slice(None) if part == 0 else slice(0, round(BEFORE / GRAIN) + 2) if part == 1 else slice(-round(BEFORE / GRAIN) - 2, None)
-        draft.add(line[:, used], height[used], CORRIDOR, lane.speed)
+    draft, first, last = fitting(approaches, connection, curve.LOCK)
     fine, height = smooth(draft)
-    begin, end = nearest(fine, draft.starts[1].place), nearest(fine, draft.starts[-1].place)
+    begin, end = nearest(fine, draft.starts[first].place), nearest(fine, draft.starts[last].place)
     return spaced(fine[:, begin : end + 1], height[begin : end + 1]) if end > begin else np.zeros((PATH_ROWS, 0))
 
 

@@ -1,6 +1,6 @@
 """Counts: flows and trips become as many as were counted at places of the road.
 
-counted(streams, scenario, network, where)   →  (Stream, ...), (Counted, ...)
+counted(streams, scenario, network, where, locks)   →  (Stream, ...), (Counted, ...)
 
 Of all demands that fit the counts the most likely one is the nearest to what flows and matrices say (H. J. Van Zuylen, L. G. Willumsen, The
 most likely trip matrix estimated from traffic counts, Transportation Research Part B 14 (1980) 281): with the rate q of a stream, the
@@ -24,6 +24,7 @@ from studio.errors import Problem, ScenarioError, nearest
 from studio.road.network import Network
 from studio.scenario.schema import Scenario
 from studio.scenario.traffic import Count
+from studio.world.demand.lock import Locks
 from studio.world.demand.source import HOUR, Stream, usual_ways, varying
 
 SWEEPS, EXACT, ENOUGH = 2000, 1e-9, 1e-3  # until every count is met so well, relative; with less it cannot be met
@@ -38,13 +39,15 @@ class Counted(NamedTuple):
     rate: float
 
 
-def counted(asked: Sequence[Stream], scenario: Scenario, network: Network, where: str) -> tuple[tuple[Stream, ...], tuple[Counted, ...]]:
+def counted(
+    asked: Sequence[Stream], scenario: Scenario, network: Network, where: str, locks: Locks
+) -> tuple[tuple[Stream, ...], tuple[Counted, ...]]:
     """The streams as the counts have them, and what that changes; raises ScenarioError for counts that cannot be."""
     counts = dict(sorted(scenario.traffic.counts.items()))
     if not counts:
         return tuple(asked), ()
     refuse(list(unknown_roads(counts, network, where)), where)
-    shares = np.array([passing(each, list(counts.values()), network, where) for each in asked]).reshape(len(asked), len(counts))
+    shares = np.array([passing(each, list(counts.values()), network, where, locks) for each in asked]).reshape(len(asked), len(counts))
     pieces, problems, told = [], [], {}
     for begin, end in intervals(asked, counts, scenario):
         names = [name for name, each in counts.items() if each.begin <= begin and end <= end_of(each, scenario)]
@@ -86,9 +89,9 @@ def unmet(name: str, count: Count, found: float, begin: float, where: str) -> It
 # -- who drives there ------------------------------------------------------------------------------
 
 
-def passing(stream: Stream, counts: Sequence[Count], network: Network, where: str) -> list[float]:
+def passing(stream: Stream, counts: Sequence[Count], network: Network, where: str, locks: Locks) -> list[float]:
     """The shares of a stream's cars that drive over the roads of the counts: its ways are taken in turn."""
-    ways = [set(way.roads(network)) for _, way in usual_ways(stream, network, where)]
+    ways = [set(way.roads(network)) for _, way in usual_ways(stream, network, locks.of_traffic(stream.model), where)]
     return [sum(each.road in roads for roads in ways) / len(ways) for each in counts]
 
 

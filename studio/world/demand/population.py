@@ -15,15 +15,18 @@ import numpy as np
 
 from studio.errors import Problem, ScenarioError
 from studio.model.random import TRAFFIC_PLACE, TRAFFIC_ROUTE, uniform
+from studio.road import kept
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.network.index import once
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, Path, path
-from studio.road.ways.route import all_routes
+from studio.road.ways.route import LanePath, all_routes
 from studio.road.ways.strand import driven, strands_of
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.scenario.traffic import MOST_CARS, Manned
 from studio.world.car import Car, footprint, position
+from studio.world.demand.lock import Locks
 from studio.world.demand.source import Source
 from studio.world.demand.style import Who, driver_of, kind_of, who_of
 from studio.world.footprint import Footprint, depth
@@ -37,17 +40,31 @@ END_CLEARANCE = 60.0  # [m] no traffic starts this close to the end of its way
 PAINTS = ("#9aa3ad", "#d9d9d4", "#3b4048", "#6f7f8f", "#b8b2a6", "#54606e")  # of traffic, in turn
 SLOW = 3.0  # times as long as in free traffic a car may need, until cars of its flow run out
 
-through_ways = once(all_routes)  # from every arm to every other
-_paths: dict[tuple[str, int], Path] = {}
-_junctions: dict[tuple[str, int], np.ndarray] = {}
+_paths: dict[tuple[str, int, float], Path] = {}
+_junctions: dict[tuple[str, int, float], np.ndarray] = {}
 Models = dict[str, VehicleModel]
 
 
-def through_path(network: Network, number: int) -> Path:
+@once
+def _ways(network: Network) -> dict[float, tuple[LanePath, ...]]:
+    """Those that have been found, by their locks."""
+    return {LOCK: all_routes(network)}
+
+
+def through_ways(network: Network, lock: float) -> tuple[LanePath, ...]:
+    """The ways from every arm to every other for vehicles of a lock [1/m]; those of trucks take long to find, and are kept on disk."""
+    known = _ways(network)
+    if lock not in known:
+        known[lock] = kept.of_map(network.digest, "ways", tuple, lambda: all_routes(network, lock), lock, maker=__file__)
+    return known[lock]
+
+
+def through_path(network: Network, number: int, lock: float) -> Path:
     """The path of one of the ways between the arms, made when it is needed, once."""
-    if (network.digest, number) not in _paths:
-        _paths[network.digest, number] = path(network, through_ways(network)[number])
-    return _paths[network.digest, number]
+    key = network.digest, number, lock
+    if key not in _paths:
+        _paths[key] = path(network, through_ways(network, lock)[number], lock=lock)
+    return _paths[key]
 
 
 def traffic(scenario: Scenario, network: Network, models: Models, named: list[Car], works: Works, sources: Sequence[Source]) -> list[Car]:
@@ -61,14 +78,15 @@ def traffic(scenario: Scenario, network: Network, models: Models, named: list[Ca
 
 def population(scenario: Scenario, network: Network, models: Models, named: list[Car], works: Works) -> Iterator[Car]:
     """Cars at random on the ways, none near another; those that find no place wait where a way begins. Raises ScenarioError."""
-    taken, bodies = Cells(scenario.traffic.spacing), Cells(FAR)
+    taken, bodies, count = Cells(scenario.traffic.spacing), Cells(FAR), number_of(scenario, network)
+    lock = Locks(scenario, models).of_traffic() if count else LOCK
     for each in named:
         take(taken, bodies, footprint(each.name, each.model, each.path, each.station), position(each.path, each.station))
-    for i in range(number_of(scenario, network)):
+    for i in range(count):
         of = kind_of(Who(i), scenario, None)
         model = models[of.model]
-        found = free_place(i, scenario, network, taken, bodies, model, works)
-        way, station = found or (outside(i, scenario, network, works), 0.0)
+        found = free_place(i, scenario, network, taken, bodies, model, works, lock)
+        way, station = found or (outside(i, scenario, network, works, lock), 0.0)
         if found:
             take(taken, bodies, footprint(name_of(i), model, way, station), position(way, station))
         speed = min(scenario.traffic.speed, float(way.points[PATH_SPEED, int(station)]))
@@ -112,11 +130,11 @@ def number_of(scenario: Scenario, network: Network) -> int:
     return count
 
 
-def outside(i: int, scenario: Scenario, network: Network, works: Works) -> Path:
+def outside(i: int, scenario: Scenario, network: Network, works: Works, lock: float) -> Path:
     """The way of one for whom there is no room at the start; raises ScenarioError when no way can be driven."""
-    count = len(through_ways(network))
+    count = len(through_ways(network, lock))
     for attempt in range(TRIES if count else 0):
-        way = through_path(network, int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count))
+        way = through_path(network, int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count), lock)
         if is_long_enough(way, works):
             return way
     problem = Problem("traffic.count", "finds no way on the map", str(scenario.traffic.count), f"ways of more than {2 * END_CLEARANCE:g} m")
@@ -128,12 +146,14 @@ def is_long_enough(way: Path, works: Works) -> bool:
     return way.length > 2 * END_CLEARANCE and len(works.way(way).works) <= MOST_WORKS
 
 
-def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodies: Cells, model, works: Works) -> tuple[Path, float] | None:
+def free_place(
+    i: int, scenario: Scenario, network: Network, taken: Cells, bodies: Cells, model, works: Works, lock: float
+) -> tuple[Path, float] | None:
     """A way and a station for traffic car i that keeps the spacing to all that is placed, and overlaps nobody."""
-    count = len(through_ways(network))
+    count = len(through_ways(network, lock))
     for attempt in range(TRIES if count else 0):
         number = int(uniform(scenario.seed_of("traffic"), i, TRAFFIC_ROUTE, attempt) * count)
-        way = through_path(network, number)
+        way = through_path(network, number, lock)
         if not is_long_enough(way, works):
             continue
         station = uniform(scenario.seed_of("traffic"), i, TRAFFIC_PLACE, attempt) * (way.length - 2 * END_CLEARANCE) + 5.0
@@ -141,7 +161,7 @@ def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodie
         near_light = any(0 <= stop - station < 15 for stop, _ in way.stop_lines)
         if near_light or not all((x - a) ** 2 + (y - b) ** 2 > scenario.traffic.spacing**2 for a, b in taken.near(x, y)):
             continue
-        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(junctions(network, number), station):
+        if works.way(way).is_touched(station, CAR_LENGTH, works.first) or in_junction(junctions(network, number, lock), station):
             continue
         own = footprint("", model, way, station)
         if all(depth(own, other) <= 0.0 for other in bodies.near(own.x, own.y) if abs(other.x - own.x) + abs(other.y - own.y) < FAR):
@@ -149,13 +169,14 @@ def free_place(i: int, scenario: Scenario, network: Network, taken: Cells, bodie
     return None
 
 
-def junctions(network: Network, number: int) -> np.ndarray:
+def junctions(network: Network, number: int, lock: float) -> np.ndarray:
     """From where to where the path of one of the ways leads through junctions, float64[2, n] [m]; found when it is needed, once."""
-    if (network.digest, number) not in _junctions:
-        lanes, there = strands_of(network).lanes, driven(network, through_path(network, number))
+    key = network.digest, number, lock
+    if key not in _junctions:
+        lanes, there = strands_of(network).lanes, driven(network, through_path(network, number, lock))
         found = [(each.enter, each.leave) for each in there if each.strand >= lanes]
-        _junctions[network.digest, number] = np.array(found).reshape(-1, 2).T
-    return _junctions[network.digest, number]
+        _junctions[key] = np.array(found).reshape(-1, 2).T
+    return _junctions[key]
 
 
 def in_junction(through: np.ndarray, station: float) -> bool:

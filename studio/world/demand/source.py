@@ -1,7 +1,7 @@
 """Sources: where the cars of flows and of matrices come in, on which way, and when.
 
 streams(scenario)                             →  Stream, those of the flows and matrices
-sources_of(streams, network, works, where)    →  (Source, ...), (Detour, ...)
+sources_of(streams, network, works, where, locks)    →  (Source, ...), (Detour, ...)
 
 A stream, which is a flow, a trip of a matrix, or cars of a route file, has a source for every lane that it may start in; cars are due
 there in the order of time.
@@ -20,16 +20,18 @@ import numpy as np
 from studio.errors import Problem, RouteError
 from studio.model.random import TRAFFIC_HEADWAY, uniform
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways.path import Path, annotated, path
 from studio.road.ways.route import LanePath, connect
 from studio.scenario.schema import Scenario, moment_of
 from studio.scenario.traffic import Departures, Matrix, Trip
+from studio.world.demand.lock import Locks
 from studio.world.effect import Closing
 from studio.world.site import Site
 from studio.world.way import Works, is_led
 
 HOUR = 3600.0  # [s]
-_paths: dict[tuple[str, tuple[int, ...]], Path] = {}
+_paths: dict[tuple[str, tuple[int, ...], float], Path] = {}
 
 
 class Source(NamedTuple):
@@ -80,16 +82,19 @@ class Stream:
     rated: Rated | None = None
 
 
-def sources_of(asked: Iterable[Stream], network: Network, works: Works, where: str) -> tuple[tuple[Source, ...], tuple[Detour, ...]]:
+def sources_of(
+    asked: Iterable[Stream], network: Network, works: Works, where: str, locks: Locks
+) -> tuple[tuple[Source, ...], tuple[Detour, ...]]:
     """All sources, in the order of streams, and what closed roads do to them; raises RouteError for what cannot be driven."""
     sources: list[Source] = []
     detours: list[Detour] = []
     problems: list[Problem] = []
     closures = list(closures_of(works.sites))
     for stream in asked:
+        lock = locks.of_traffic(stream.model) if stream.due.size else LOCK
         try:
             for closed, due in parts(stream, closures):
-                ways, found = ways_of(stream, closed, network, where)
+                ways, found = ways_of(stream, closed, network, lock, where)
                 detours += found
                 sources += [
                     Source(f"{stream.name}/{lane}", way, due[turn :: len(ways)], stream.model) for turn, (lane, way) in enumerate(ways)
@@ -170,46 +175,50 @@ def parts(stream: Stream, closures: Sequence[Closure]) -> Iterator[tuple[frozens
             yield frozenset(each.road for each in closures if each.begin <= begin and end <= each.end), due
 
 
-def ways_of(stream: Stream, closed: frozenset[str], network: Network, where: str) -> tuple[list[tuple[int, Path]], list[Detour]]:
+def ways_of(
+    stream: Stream, closed: frozenset[str], network: Network, lock: float, where: str
+) -> tuple[list[tuple[int, Path]], list[Detour]]:
     """The paths of a stream by their first lanes while some roads are closed, and what that does to it."""
-    usual = usual_ways(stream, network, where)
+    usual = usual_ways(stream, network, lock, where)
     cut = [road for road in usual[0][1].roads(network) if road in closed]
     if not cut:
-        return [(lane, path_along(way, stream.speeds, network)) for lane, way in usual], []
-    around = list(lanewise(stream, tuple(road for road in stream.roads if road not in closed), closed, network))
+        return [(lane, path_along(way, stream.speeds, network, lock)) for lane, way in usual], []
+    around = list(lanewise(stream, tuple(road for road in stream.roads if road not in closed), closed, network, lock))
     if not around or stream.roads[0] in closed or stream.roads[-1] in closed:
-        return [(lane, path_along(way, stream.speeds, network)) for lane, way in usual], [Detour(stream.field, cut[0], inf)]
-    made = [(lane, path_along(way, (), network)) for lane, way in around]
-    longer = min(each.length for _, each in made) - path_along(usual[0][1], (), network).length
+        return [(lane, path_along(way, stream.speeds, network, lock)) for lane, way in usual], [Detour(stream.field, cut[0], inf)]
+    made = [(lane, path_along(way, (), network, lock)) for lane, way in around]
+    longer = min(each.length for _, each in made) - path_along(usual[0][1], (), network, lock).length
     return made, [Detour(stream.field, cut[0], round(longer, 1))]
 
 
-def usual_ways(stream: Stream, network: Network, where: str) -> list[tuple[int, LanePath]]:
+def usual_ways(stream: Stream, network: Network, lock: float, where: str) -> list[tuple[int, LanePath]]:
     """Its ways, from the lane that it names or from every lane of its first road from which it can be driven; raises RouteError."""
     try:
-        connect(network, stream.roads, start_lane=stream.lane)
+        connect(network, stream.roads, start_lane=stream.lane, lock=lock)
     except RouteError as error:
         field = f"{where}: {stream.field}" + (".lane" if stream.lane is not None else ".route" if ".flows." in stream.field else "")
         problem = Problem(field, error.message, " to ".join(stream.roads[:: max(len(stream.roads) - 1, 1)]),
                           remedy="; ".join(map(str, error.problems)))  # fmt: skip
         raise RouteError(error.message, [problem]) from None
-    return list(lanewise(stream, stream.roads, frozenset(), network))
+    return list(lanewise(stream, stream.roads, frozenset(), network, lock))
 
 
-def lanewise(stream: Stream, roads: tuple[str, ...], avoid: frozenset[str], network: Network) -> Iterator[tuple[int, LanePath]]:
+def lanewise(
+    stream: Stream, roads: tuple[str, ...], avoid: frozenset[str], network: Network, lock: float
+) -> Iterator[tuple[int, LanePath]]:
     """The ways through some roads, by their first lanes."""
     if not roads:
         return
     for lane in range(len(network.roads[roads[0]].lanes)) if stream.lane is None else (stream.lane,):
         try:
-            yield lane, connect(network, roads, start_lane=lane, avoid=avoid)
+            yield lane, connect(network, roads, start_lane=lane, avoid=avoid, lock=lock)
         except RouteError:
             continue
 
 
-def path_along(way: LanePath, speeds: Sequence, network: Network) -> Path:
+def path_along(way: LanePath, speeds: Sequence, network: Network, lock: float) -> Path:
     """The path along a way, made once as far as nobody has annotated it."""
-    key = network.digest, way.lanes
+    key = network.digest, way.lanes, lock
     if key not in _paths:
-        _paths[key] = path(network, way)
+        _paths[key] = path(network, way, lock=lock)
     return annotated(_paths[key], list(speeds), 0.0) if speeds else _paths[key]

@@ -8,11 +8,12 @@ from math import cos, sin, sqrt
 
 from studio.compiled import inlined, lean
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
-from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y
+from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y, Z
 from studio.world.passes.neighbour import AT_X, AT_Y, moved, within
 from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
 NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than half of both lengths and this
+OTHER_LEVEL = 3.0  # [m] of height between those who do not meet: one drives on a bridge
 ROUNDING = 1e-6  # [m] by which a bound gives way
 
 
@@ -63,7 +64,7 @@ def are_apart(a, b, state, parameter):
 @lean
 def touching(a, b, state, parameter):
     """Whether the bodies of two cars overlap."""
-    if are_apart(a, b, state, parameter):
+    if are_apart(a, b, state, parameter) or abs(state[Z, a] - state[Z, b]) > OTHER_LEVEL:
         return False
     x_a, y_a = centre(a, state, parameter)
     x_b, y_b = centre(b, state, parameter)

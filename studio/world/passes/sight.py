@@ -29,7 +29,7 @@ from studio.road.network.shadow import (
 )
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
-from studio.vehicle.state import ACTIVE, V_X, X, Y
+from studio.vehicle.state import ACTIVE, V_X, X, Y, Z
 from studio.world.passes.neighbour import COS, SIN, within
 from studio.world.table.street import CONE, O_HEADING, O_KIND, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
@@ -57,6 +57,8 @@ TRACK_EXISTENCE = SIGHT.row("track_existence", "1", "of the track")
 TRACK_SEEN = SIGHT.row("track_seen", "1", "1 when it has been seen at this look")
 
 ROOM = 64  # columns besides one for each body: covered bearings, and tracks
+OTHER_LEVEL = 3.0  # [m] of height between those who do not see each other when they are near: one drives on a bridge
+STEEPNESS = 0.06  # [1] rise over distance that is seen beyond that: half of what a sensor opens upwards, or a steep street
 LEAST = 1e-9  # [rad] bearings below that are rounding
 
 
@@ -211,6 +213,16 @@ def is_beside(view, me, v, half_cosine, half_sine):
 
 
 @inlined
+def is_on_other_level(view, me, v):
+    """Whether vehicle v is clearly above or below what the unit's own vehicle sees, on a bridge for instance."""
+    if me.vehicle < 0:
+        return False
+    dx, dy, dz = view.state[X, v] - me.eye_x, view.state[Y, v] - me.eye_y, view.state[Z, v] - view.state[Z, me.vehicle]
+    beyond = abs(dz) - OTHER_LEVEL
+    return beyond > 0.0 and beyond * beyond > STEEPNESS * STEEPNESS * (dx * dx + dy * dy)
+
+
+@inlined
 def field(view, me, reach, half, cones):
     """Puts all bodies that may be in the field into `view.sight`, the nearest first; how many. The field opens `half` to each side."""
     count, most, behind, half_cosine, half_sine = 0, reach + view.longest, view.longest, cos(half), sin(half)
@@ -222,7 +234,9 @@ def field(view, me, reach, half, cones):
     )
     for k in range(found):
         v = view.found[k]
-        if v != me.vehicle and view.state[ACTIVE, v] > 0.0 and not is_beside(view, me, v, half_cosine, half_sine):
+        if v == me.vehicle or view.state[ACTIVE, v] == 0.0 or is_on_other_level(view, me, v):
+            continue
+        if not is_beside(view, me, v, half_cosine, half_sine):
             put_vehicle(view, me, v, count)
             count += 1 if enlist(count, reach, view.sight) else 0
     first = view.first_object[me.world]
