@@ -56,7 +56,9 @@ class Stage:
             self.showing, self.playing = None, replay
             self.draw(replay.frame(last if time is None else time))
             self.move_ghosts(last if time is None else time)
-        return described(replay.setting) | about | {"ghosts": [each.told() for each in ghosts]}
+        told, shown = described(replay.setting), set(replay.columns.tolist())
+        about["vehicles"] = [each for each in told["vehicles"] if each["index"] in shown]
+        return told | about | {"ghosts": [each.told() for each in ghosts]}
 
     def seek(self, run: int, time: float) -> Replay | None:
         """Shows the run that is played back at another time [s] and returns it; None when it is another, or none."""

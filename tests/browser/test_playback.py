@@ -24,6 +24,7 @@ def test_a_run_is_played_back(tmp_path, sample):
         expect(time).to_have_value("4 s")
         expect(bar.get_by_role("button", name="Play (space)")).to_be_visible()
         expect(bar.get_by_role("note")).to_contain_text("were not recorded and are not shown")
+        assert "Traffic" not in page.get_by_label("Follow a car").inner_text()  # nobody is followed who is not there
 
         bar.get_by_role("button", name=re.compile("Back by one sample, 20 ms")).click()
         expect(time).to_have_value("3.98 s")
