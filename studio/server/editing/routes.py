@@ -14,6 +14,7 @@ from studio.server.desk import Desk
 from studio.server.editing.answer import Editing, EditingNews, Gone, NewEdit, NewTurn, NewWay, Revised, Way
 from studio.server.editing.way import way
 from studio.server.maps import plan_of
+from studio.server.maps.answer import MapPlan
 from studio.server.routes import AtDesk, AtOwnDesk, upgrade_required
 
 LOOKS = 0.25  # [s] between looks at a file that somebody has open
@@ -47,7 +48,7 @@ def redo(scenario: str, asked: NewTurn, desk: AtOwnDesk) -> Editing:
 
 
 @router.get("/scenarios/{scenario}/plan")
-def scenario_plan(scenario: str, desk: AtDesk) -> answer.MapPlan:
+def scenario_plan(scenario: str, desk: AtDesk) -> MapPlan:
     """The map of a scenario from above, cut as the scenario cuts it."""
     return plan_of(job.prepare(desk.load(scenario)).network, NOTHING_FOUND)
 

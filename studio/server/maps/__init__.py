@@ -26,7 +26,7 @@ from studio.road.ways.trip import Trip, trip
 from studio.scenario import file as scenario_file
 from studio.scenario.schema import VERSION
 from studio.scenario.text.splice import written
-from studio.server import answer
+from studio.server.maps import answer
 from studio.world.setting import USUAL_RADIUS
 
 CALLED = "maps"  # the folder's name, as scenarios write it

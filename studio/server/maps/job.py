@@ -22,8 +22,8 @@ from studio.errors import MapError, Problem, ServerError, SizeError, StudioError
 from studio.process import Child, Gone
 from studio.road.formats import osm
 from studio.road.library import folder, intake, tag
-from studio.server import answer
-from studio.server.maps import Maps, file_name, free_name, plain_name
+from studio.server.answer import ImportStatus
+from studio.server.maps import Maps, answer, file_name, free_name, plain_name
 from studio.server.maps import worker as map_worker
 from studio.server.maps.worker import Order
 
@@ -43,7 +43,7 @@ class MapJob:
     id: int
     map: str
     order: Order
-    status: answer.ImportStatus = "running"
+    status: ImportStatus = "running"
     stage: str = WAITING
     share: float | None = None
     problem: StudioError | None = None
@@ -67,7 +67,7 @@ class MapJob:
                 problem=self.problem.as_json() if self.problem else None,
             )  # fmt: skip
 
-    def end(self, status: answer.ImportStatus, problem: StudioError | None = None) -> None:
+    def end(self, status: ImportStatus, problem: StudioError | None = None) -> None:
         """It is over, unless it has been before."""
         with self.lock:
             if not self.is_over:
@@ -100,7 +100,7 @@ class MapJob:
                 self.process = Child.begin(map_worker.main, self.order)
             return self.process
 
-    def listen(self, child: Child) -> tuple[answer.ImportStatus, StudioError | None]:
+    def listen(self, child: Child) -> tuple[ImportStatus, StudioError | None]:
         """Hears the process out; the status that it ends with, and the problem."""
         outcome = None
         try:
@@ -111,7 +111,7 @@ class MapJob:
         child.end(END_PATIENCE)
         return outcome
 
-    def hear(self, child: Child, word: str, *values: Any) -> tuple[answer.ImportStatus, StudioError | None] | None:
+    def hear(self, child: Child, word: str, *values: Any) -> tuple[ImportStatus, StudioError | None] | None:
         """One piece of news; the last one is how it ended."""
         if word in ("done", "failed"):
             return word, values[0]

@@ -7,14 +7,15 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
 
-from studio.server import answer
+from studio.server.answer import REFUSALS
+from studio.server.maps import answer
 from studio.server.routes import AtDesk, AtOwnDesk
 
 BODY = {"requestBody": {"required": True, "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}}
 Name = Annotated[str, Query(description="name of the file; its ending tells the kind: .osm, .osm.gz, .osm.pbf, .json", max_length=300)]
 Box = Annotated[str | None, Query(description="the part to keep, west,south,east,north [deg]")]
 Replace = Annotated[bool, Query(description="replace the import of that name; its corrections are kept")]
-router = APIRouter(prefix="/api", responses=answer.REFUSALS)
+router = APIRouter(prefix="/api", responses=REFUSALS)
 
 
 @router.get("/maps")

@@ -17,11 +17,11 @@ from starlette.responses import Response
 from studio.errors import ScenarioError
 from studio.scenario import file
 from studio.scenario.text.source import decoded
-from studio.server import answer
+from studio.server.answer import REFUSALS, Changes, KeptScenario, Patched
 from studio.server.desk import Desk
 from studio.server.documents import check_text, digest_of, names_in, too_large
 from studio.server.routes import AtDesk, AtOwnDesk, IfMatch, etag, expected, patched
-from studio.server.scenarios import template
+from studio.server.scenarios import answer, template
 from studio.server.scenarios.name import ENDING
 from studio.server.scenarios.trash import Deleted
 
@@ -30,7 +30,7 @@ YAML: dict[int | str, dict[str, Any]] = {200: {"description": "YAML (RFC 9512)",
 BODY = {"requestBody": {"required": True, "content": TEXT}}
 Name = Annotated[str, Query(description="name of the file, with or without .yaml", max_length=300)]
 PLACE = re.compile(r", line (\d+), column (\d+)")
-router = APIRouter(prefix="/api", responses=answer.REFUSALS)
+router = APIRouter(prefix="/api", responses=REFUSALS)
 
 
 @router.get("/templates")
@@ -40,7 +40,7 @@ def templates() -> list[answer.Template]:
 
 
 @router.post("/scenarios", status_code=201)
-def new_scenario(new: answer.NewScenario, desk: AtOwnDesk) -> answer.KeptScenario:
+def new_scenario(new: answer.NewScenario, desk: AtOwnDesk) -> KeptScenario:
     """Writes a scenario from a template, on a way through a map that is drawn by lot."""
     desk.scenario_files.free(new.name)  # before the map is read, which takes its time
     text = template.text(new.template, desk.maps, new.map, new.title or "")
@@ -48,27 +48,27 @@ def new_scenario(new: answer.NewScenario, desk: AtOwnDesk) -> answer.KeptScenari
 
 
 @router.post("/scenarios/import", status_code=201, openapi_extra=BODY)
-async def import_scenario(request: Request, desk: AtOwnDesk, name: Name) -> answer.KeptScenario:
+async def import_scenario(request: Request, desk: AtOwnDesk, name: Name) -> KeptScenario:
     """Takes the scenario file that is the body, if it is one whose map is here."""
     data = await received(request.stream())
     return await run_in_threadpool(lambda: fresh(desk, desk.scenario_files.add(name, decoded(data, name))))
 
 
 @router.post("/scenarios/{scenario}/copy", status_code=201)
-def copy_scenario(scenario: str, new: answer.NewCopy, desk: AtOwnDesk) -> answer.KeptScenario:
+def copy_scenario(scenario: str, new: answer.NewCopy, desk: AtOwnDesk) -> KeptScenario:
     """Writes a scenario like this one under another name, with changes by path."""
     return fresh(desk, desk.scenario_files.copy(desk.file(scenario), new.name, new.title, new.set))
 
 
 @router.post("/scenarios/{scenario}/save", response_model_exclude_unset=True)
-def save_scenario(scenario: str, changes: answer.Changes, desk: AtOwnDesk, response: Response, if_match: IfMatch = None) -> answer.Patched:
+def save_scenario(scenario: str, changes: Changes, desk: AtOwnDesk, response: Response, if_match: IfMatch = None) -> Patched:
     """Writes changes by path into the file: all of them if the result is valid, else nothing. Undo: patch with the inverse."""
     found, inverse = desk.scenario_files.save(desk.file(scenario), changes.set, expected(if_match))
     return patched(found, inverse, response)
 
 
 @router.post("/scenarios/{scenario}/rename")
-def rename_scenario(scenario: str, new: answer.NewName, desk: AtOwnDesk, if_match: IfMatch = None) -> answer.KeptScenario:
+def rename_scenario(scenario: str, new: answer.NewName, desk: AtOwnDesk, if_match: IfMatch = None) -> KeptScenario:
     """Gives the file another name, another title, or both; its runs go with it. Refused while runs of it go on."""
     return kept(desk.rename(scenario, new.name, new.title, expected(if_match)))
 
@@ -95,14 +95,14 @@ def text(
 
 
 @router.put("/scenarios/{scenario}/text", openapi_extra=BODY)
-async def put_text(scenario: str, request: Request, desk: AtOwnDesk, if_match: IfMatch = None) -> answer.KeptScenario:
+async def put_text(scenario: str, request: Request, desk: AtOwnDesk, if_match: IfMatch = None) -> KeptScenario:
     """Puts the body in the place of the file's text, if it is a scenario."""
     data = await received(request.stream())
 
-    def write() -> answer.KeptScenario:
+    def write() -> KeptScenario:
         path = desk.file(scenario)
         desk.documents.put(path, decoded(data, path.name), expected(if_match))
-        return answer.KeptScenario(scenario=scenario, digest=digest_of(data))
+        return KeptScenario(scenario=scenario, digest=digest_of(data))
 
     return await run_in_threadpool(write)
 
@@ -150,22 +150,22 @@ def trash(desk: AtDesk) -> list[answer.DeletedScenario]:
 
 
 @router.post("/trash/{entry}/restore")
-def restore(entry: str, how: answer.Return, desk: AtOwnDesk) -> answer.KeptScenario:
+def restore(entry: str, how: answer.Return, desk: AtOwnDesk) -> KeptScenario:
     """Brings a deleted scenario back with the history of its edits, under its name or another one."""
     path = desk.scenario_files.restore(entry, how.name)
     desk.editing.follow(entry, path.stem)
     return kept(path)
 
 
-def fresh(desk: Desk, path: Path) -> answer.KeptScenario:
+def fresh(desk: Desk, path: Path) -> KeptScenario:
     """A scenario file that was not there before: what was done to an older one of its name is not its history."""
     desk.editing.forget(path.stem)
     return kept(path)
 
 
-def kept(path: Path) -> answer.KeptScenario:
+def kept(path: Path) -> KeptScenario:
     """A scenario file that was written."""
-    return answer.KeptScenario(scenario=path.stem, digest=digest_of(file.content(path, "scenario", file.SIZE_LIMIT)))
+    return KeptScenario(scenario=path.stem, digest=digest_of(file.content(path, "scenario", file.SIZE_LIMIT)))
 
 
 def deleted(found: Deleted) -> answer.DeletedScenario:
