@@ -20,7 +20,7 @@ from tests.changing import SLOW, scenario
 from tests.conftest import ROOT
 
 SAMPLES = sorted((ROOT / "scenarios").glob("*.yaml"))
-ROADS, SCRIPT = ("points", "pieces"), ("waiting", "acting")
+ROADS, SCRIPT = ("points", "pieces", "forced"), ("waiting", "acting")
 FOLLOWS = {*(f"world.roads.{name}" for name in ROADS), *(f"world.script.{name}" for name in SCRIPT)}  # made anew
 SORTED = {f"world.{name}.{each.name}" for name, kind in (("neighbours", Neighbours), ("queues", Queues)) for each in fields(kind)}
 SCRATCH = {
@@ -31,6 +31,8 @@ SCRATCH = {
     "world.script.values",
     "world.units.sight",
     *(f"world.units.posts[{i}].{name}" for i in range(3) for name in ("came", "came_count")),  # from the post to the inboxes
+    *(f"world.open_inboxes[{i}].post.{name}" for i in range(3) for name in ("came", "came_count")),
+    *(f"world.open_inboxes[{i}].when" for i in range(3)),  # behind those who are heard nobody looks; up to there it is made anew
     *SORTED,
 }
 KNOWN = {"world.roads.shadow.sky"}  # looked up once and kept: open sky
@@ -132,7 +134,24 @@ def test_whatever_changes_is_declared(settings, sample):
 
 def declared(world) -> set[str]:
     """What may change: what is declared as moving, follows from it, or is nobody's concern."""
-    return {part.path for part in moving(world)} | FOLLOWS | SCRATCH | {"world.clock.k", "world.arena", "world.events.hits"}
+    return (
+        {part.path for part in moving(world)}
+        | FOLLOWS
+        | SCRATCH
+        | {"world.clock.k", "world.arena", "world.events.hits"}
+        | open_to_all(world)
+    )
+
+
+def open_to_all(world) -> set[str]:
+    """Where those whom an inbox hears stand, which hears everybody: made anew of what the post has."""
+    places = {f"world.open_inboxes[{i}].{name}" for i in range(len(world.open_inboxes)) for name in ("heard", "slots")}
+    shared = [each for inbox in world.open_inboxes for each in (inbox.heard, inbox.slots)]
+    for h, host in enumerate(world.hosted):
+        for w, wiring in enumerate(host.wiring):
+            found = enumerate(wiring.columns)
+            places |= {f"world.hosted[{h}].wiring[{w}].columns[{c}]" for c, column in found if any(column is each for each in shared)}
+    return places
 
 
 def test_a_collision_is_declared(sample_setting):
