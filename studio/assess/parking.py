@@ -16,6 +16,7 @@ from studio.garage.plan import Pose
 from studio.kind.metric import Found
 
 DRIVING_IN, PARKED, COMING_BACK, GIVEN_BACK = 1.0, 2.0, 3.0, 4.0
+LOGGED = ("phase", "x", "y", "left")  # what the application logs; others may log or sense things of these names, but not all of them
 EVERY = 0.2  # [s] clearances are measured
 
 
@@ -32,10 +33,10 @@ class Stay(NamedTuple):
 def stays(record: Record) -> Iterator[Stay]:
     """Every car that has been handed over."""
     for name in record.vehicles:
-        for probe in record.probes:
-            if probe.startswith(f"{name}.") and probe.endswith(".left"):
-                stem = probe.removesuffix("left")
-                phase, x, y, left = (record.probes[stem + each].values for each in ("phase", "x", "y", "left"))
+        groups = (probe.removesuffix("phase") for probe in record.probes if probe.startswith(f"{name}.") and probe.endswith(".phase"))
+        for group in groups:
+            if all(group + each in record.probes for each in LOGGED):
+                phase, x, y, left = (record.probes[group + each].values for each in LOGGED)
                 if np.any(phase == DRIVING_IN):
                     yield Stay(name, phase, x, y, left)
 
