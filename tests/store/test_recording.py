@@ -16,7 +16,8 @@ from studio.execution import shelf
 from studio.execution.salvage import begun, lay_down, recorded, salvaged
 from studio.execution.simulation import simulation
 from studio.store import recording
-from studio.store.runs import open_runs, read_runs
+from studio.store.runs import open_runs
+from studio.world.channel import CHANNELS, read_runs
 from tests.patience import until
 
 LONG = {"clock.duration": 3600}
@@ -146,7 +147,8 @@ def test_memory_does_not_grow_with_the_run(sample, tmp_path):
 
 def test_a_run_for_which_there_is_no_room_is_refused(sample, tmp_path, monkeypatch):
     monkeypatch.setattr(job.shutil, "disk_usage", lambda path: job.shutil._ntuple_diskusage(100, 99, 1_000_000))
-    with pytest.raises(ScenarioError, match=r"(?s)too much.*28\.1 MB: 5 vehicles.*at most 0\.2 MB.*free on the disk"):
+    size = 8 * len(CHANNELS) * 5 * 360 / 0.02 / 1e6  # [MB] a number of 8 bytes for every channel, vehicle and sample
+    with pytest.raises(ScenarioError, match=rf"(?s)too much.*{size:.1f} MB: 5 vehicles.*at most 0\.2 MB.*free on the disk"):
         job.run(job.load(sample, {"clock.duration": 360}), runs=open_runs(tmp_path / "runs.db"))
 
 
