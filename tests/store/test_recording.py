@@ -16,8 +16,8 @@ from studio.execution import shelf
 from studio.execution.salvage import begun, lay_down, recorded, salvaged
 from studio.execution.simulation import simulation
 from studio.store import recording
-from studio.store.runs import open_runs
-from studio.world.channel import CHANNELS, read_runs
+from studio.store.runs import open_runs, read_runs
+from studio.world.channel import CHANNELS
 from tests.patience import until
 
 LONG = {"clock.duration": 3600}
@@ -94,7 +94,7 @@ def test_a_run_that_fills_the_disk_ends_and_keeps_what_it_had(sample, tmp_path):
     code = f"""
 import resource
 from studio import job
-from studio.store.runs import open_runs
+from studio.store.runs import open_runs, read_runs
 loaded = job.load({str(sample)!r}, {changes!r})
 resource.setrlimit(resource.RLIMIT_FSIZE, (20_000_000, 20_000_000))
 print(job.run(loaded, runs=open_runs("runs.db")).status)
