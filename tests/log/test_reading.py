@@ -146,3 +146,25 @@ def test_a_real_drive_of_three_clocks():
     raw = found["pose_velocities[0]"].time
     norm = np.linalg.norm([found[name].values for name in gnss], axis=0)
     assert np.trapezoid(norm, raw) == pytest.approx(1011.9, abs=0.5)
+
+
+def test_the_gyroscope_of_that_drive_has_the_clock_of_the_satellites():
+    """comma2k19's third clock: how its velocity turns about the axis across the car, over humps and dips, is what the gyroscope shows."""
+    found = reading.read(ROOT / "tests" / "reference" / "comma2k19" / "drive.npz")
+    time = found["pose_velocities[0]"].time
+    v = smooth(time, np.array([found[f"pose_velocities[{i}]"].values for i in range(3)]))
+    rotation = np.cross(v, np.gradient(v, time, axis=1), axis=0) / np.sum(v * v, axis=0)
+    across = np.linalg.svd(rotation[:, 60:-60])[0][:, 0]  # the road is straight: it turns up and down more than to the sides
+    gyro = found["IMU__gyro[1]"]
+    clock = np.arange(time[0] + 3.0, time[-1] - 3.0, 0.01)
+    one, other = np.interp(clock, time, across @ rotation), np.interp(clock, gyro.time, smooth(gyro.time, gyro.values))
+    shifts = np.arange(-50, 51)
+    alike = [abs(np.corrcoef(one[100:-100], np.roll(other, shift)[100:-100])[0, 1]) for shift in shifts]
+    assert max(alike) > 0.95 and abs(shifts[int(np.argmax(alike))]) * 0.01 <= 0.05  # [s]
+    assert other.std() / one.std() == pytest.approx(1.0, abs=0.05)
+
+
+def smooth(time, values, span=1.0):
+    """Means over a span [s] around each time."""
+    count = int(span / np.median(np.diff(time)))
+    return np.apply_along_axis(np.convolve, -1, values, np.ones(count) / count, "same")
