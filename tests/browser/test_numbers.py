@@ -163,9 +163,11 @@ def test_a_zoomed_chart_stays_and_gets_finer(page):
     until(lambda: coloured(figures.first) > 300, "curves in the chart")
 
 
-def test_a_needle_is_outside_and_told(page):
+def test_a_needle_is_outside_and_told(page, studio):
     """The time gap of a car that comes to a stand; a click brings it inside."""
-    page.goto(f"/runs/{WHOLE}")
+    run = started(studio[1], "runs", scenario=STERN, set={HEADWAY: 0.9})
+    ended(studio[1], run)
+    page.goto(f"/runs/{run}")
     figure = page.locator("figure").nth(1)
     figure.locator("select").select_option("time_gap")
     outside = figure.get_by_role("button", name=re.compile(r"▲ up to [\d.]+ outside"))
