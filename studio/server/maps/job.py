@@ -7,22 +7,20 @@ it makes appears at once and whole; from that moment on nobody cancels it.
 import itertools
 import os
 import shutil
-import threading
-import time
-from collections.abc import AsyncIterator, Iterator
-from dataclasses import dataclass, field
-from math import inf
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import psutil
 from starlette.concurrency import run_in_threadpool
 
-from studio.errors import MapError, Problem, ServerError, SizeError, StudioError, UnknownError
+from studio.errors import MapError, Problem, ServerError, SizeError, StudioError
 from studio.process import Child, Gone
 from studio.road.formats import osm
 from studio.road.library import folder, intake, tag
 from studio.server.answer import ImportStatus
+from studio.server.docket import Docket, Errand
 from studio.server.maps import Maps, answer, file_name, free_name, plain_name
 from studio.server.maps import worker as map_worker
 from studio.server.maps.worker import Order
@@ -36,69 +34,35 @@ COPIES = 3  # of an upload: as it came, in its folder, and the network that is m
 WAITING = "waiting for other imports"
 
 
-@dataclass
-class MapJob:
-    """One import. `status` is running, done, failed or cancelled; while it waits it counts as running."""
+@dataclass(kw_only=True)
+class MapJob(Errand):
+    """One import."""
 
-    id: int
     map: str
     order: Order
-    status: ImportStatus = "running"
     stage: str = WAITING
-    share: float | None = None
-    problem: StudioError | None = None
-    began: float = field(default_factory=time.monotonic)
-    ended: float = inf
-    process: Child | None = None
     committed: bool = False
-    lock: threading.RLock = field(default_factory=threading.RLock)
-
-    @property
-    def is_over(self) -> bool:
-        """Whether it has ended."""
-        return self.status != "running"
 
     def row(self) -> answer.MapJob:
         """The import as it is told."""
         with self.lock:
-            return answer.MapJob(
-                id=self.id, map=self.map, status=self.status, stage=self.stage, share=self.share,
-                seconds=round(min(self.ended, time.monotonic()) - self.began, 2),
-                problem=self.problem.as_json() if self.problem else None,
-            )  # fmt: skip
-
-    def end(self, status: ImportStatus, problem: StudioError | None = None) -> None:
-        """It is over, unless it has been before."""
-        with self.lock:
-            if not self.is_over:
-                self.status, self.stage, self.problem, self.ended = status, status, problem, time.monotonic()
-                self.share = 1.0 if status == "done" else self.share
+            return answer.MapJob(**self.told(), map=self.map)
 
     def cancel(self) -> None:
         """Ends it with its process, as long as its folder is not being written."""
         with self.lock:
             if not self.is_over and not self.committed:
-                self.end("cancelled")
-                if self.process is not None:
-                    self.process.kill()
+                super().cancel()
 
     def work(self) -> None:
         """Runs it in a process; when it is over, what it needed for a while is gone."""
         try:
-            child = self.start()
+            child = self.start(map_worker.main, self.order)
             outcome = self.listen(child) if child else ("cancelled", None)
         except OSError as error:
             outcome = "failed", ServerError(f"The process of the import did not start ({error.strerror or error}).")
         shutil.rmtree(self.order.scratch, ignore_errors=True)
         self.end(*outcome)
-
-    def start(self) -> Child | None:
-        """Starts the process, unless it has been cancelled."""
-        with self.lock:
-            if not self.is_over:
-                self.stage = "starting"
-                self.process = Child.begin(map_worker.main, self.order)
-            return self.process
 
     def listen(self, child: Child) -> tuple[ImportStatus, StudioError | None]:
         """Hears the process out; the status that it ends with, and the problem."""
@@ -115,12 +79,13 @@ class MapJob:
         """One piece of news; the last one is how it ended."""
         if word in ("done", "failed"):
             return word, values[0]
-        with self.lock:
-            if not self.is_over and word == "stage":
-                self.stage, self.share = values
-            elif not self.is_over and word == "commit":
-                self.committed = True
-                child.tell("go")
+        if word == "stage":
+            self.note(*values)
+        elif word == "commit":
+            with self.lock:
+                if not self.is_over:
+                    self.committed = True
+                    child.tell("go")
         return None
 
 
@@ -130,41 +95,21 @@ def gone(code: int | None) -> StudioError:
     return MapError("The map cannot be imported.", [Problem("importer", why, f"code {code}", remedy="cut out a smaller place")])
 
 
-@dataclass
-class MapJobs:
+class MapJobs(Docket[MapJob]):
     """All imports of this server."""
 
-    maps: Maps
-    jobs: dict[int, MapJob] = field(default_factory=dict)
-    working: set[int] = field(default_factory=set)
-    numbers: Iterator[int] = field(default_factory=itertools.count)
-    last: int = 0
-    closed: bool = False
-    lock: threading.RLock = field(default_factory=threading.RLock)
-
-    # -- what is told ------------------------------------------------------------------------------
-
-    def rows(self) -> list[answer.MapJob]:
-        """All imports, newest first."""
-        with self.lock:
-            return [job.row() for _, job in sorted(self.jobs.items(), reverse=True)]
-
-    def find(self, job: int) -> MapJob:
-        """An import; raises UnknownError."""
-        with self.lock:
-            if job not in self.jobs:
-                known = ", ".join(map(str, sorted(self.jobs))) or "there is none"
-                raise UnknownError(f"There is no import {job}.", [Problem("job", "does not exist", str(job), known)])
-            return self.jobs[job]
+    def __init__(self, maps: Maps) -> None:
+        super().__init__(at_a_time=AT_A_TIME, most_kept=MOST_KEPT, patience=END_PATIENCE, what="import")
+        self.maps, self.numbers = maps, itertools.count()
 
     def of(self, name: str) -> list[MapJob]:
         """The imports of a map that are not over."""
         with self.lock:
-            return [job for job in self.jobs.values() if job.map == name and not job.is_over]
+            return [job for job in self.waiting if job.map == name]
 
     # -- what is done ------------------------------------------------------------------------------
 
-    async def upload(self, body: AsyncIterator[bytes], *, name: str, size: int, bbox: str | None, replace: bool) -> answer.MapJob:
+    async def upload(self, body: AsyncIterator[bytes], *, name: str, size: int, bbox: str | None, replace: bool) -> MapJob:
         """Takes a map file and imports it; `size` is what its sender says of it [B]. Raises MapError, SizeError or ServerError."""
         base, ending = file_name(name)
         if bbox is not None:
@@ -182,7 +127,7 @@ class MapJobs:
             shutil.rmtree(scratch, ignore_errors=True)
             raise
 
-    def download(self, new: answer.NewDownload) -> answer.MapJob:
+    def download(self, new: answer.NewDownload) -> MapJob:
         """Downloads and imports a place. Raises MapError or ServerError."""
         from studio.road.library import download
 
@@ -199,24 +144,17 @@ class MapJobs:
         given = {"place": place, "overpass": by.overpass, "search": by.search}
         return self.begin("fetch", self.scratch(), base, given, replace=new.replace)
 
-    def correct(self, name: str, new: answer.NewCorrection) -> answer.MapJob:
+    def correct(self, name: str, new: answer.NewCorrection) -> MapJob:
         """Imports a map again with a correction. Raises UnknownError, MapError or ServerError."""
         path, wanted = self.maps.find_import(name), tag.correction(new.element, new.tags, new.remove)
         return self.begin("correct", self.scratch(), path.name, {"new": wanted}, replace=True)
 
-    def take_back(self, name: str, element: str) -> answer.MapJob:
+    def take_back(self, name: str, element: str) -> MapJob:
         """Imports a map again without the corrections of an element. Raises UnknownError, MapError or ServerError."""
         path = self.maps.find_import(name)
         if not self.of(name):  # else one may be on its way
             intake.check_corrected(path, element, folder.corrections(path))
         return self.begin("undo", self.scratch(), path.name, {"element": element}, replace=True)
-
-    def cancel(self, job: int) -> answer.MapJob:
-        """Cancels an import; raises UnknownError."""
-        found = self.find(job)
-        found.cancel()
-        self.proceed()
-        return found.row()
 
     def delete(self, name: str) -> None:
         """Removes an import that nobody works on. Raises UnknownError, MapError or ServerError."""
@@ -239,71 +177,47 @@ class MapJobs:
         except OSError as error:
             raise ServerError(f"{self.maps.folder}: maps cannot be kept here ({error.strerror or error})") from None
 
-    def begin(self, task: str, scratch: Path, base: str, given: dict[str, Any], *, replace: bool) -> answer.MapJob:
+    def begin(self, task: str, scratch: Path, base: str, given: dict[str, Any], *, replace: bool) -> MapJob:
         """An import of its own number, under a free name unless it replaces. Raises MapError or ServerError."""
         try:
             with self.lock:
                 self.check_room()
-                waiting = [job.map for job in self.jobs.values() if not job.is_over]
+                waiting = [job.map for job in self.waiting]
                 name = base if replace else free_name(base, [*waiting, *(each.name for each in self.maps.folder.iterdir())])
                 folder.refuse_foreign(self.maps.folder / name)
-                self.last += 1
-                job = MapJob(self.last, name, Order(task, self.maps.folder / name, scratch, given))
-                self.jobs[job.id] = job
-                self.forget()
+                order = Order(task, self.maps.folder / name, scratch, given)
+                job = self.add(lambda number: MapJob(id=number, map=name, order=order))
         except BaseException:
             shutil.rmtree(scratch, ignore_errors=True)
             raise
         self.proceed()
-        return job.row()
+        return job
 
     def check_room(self) -> None:
         """Raises ServerError when too many imports wait, or the server ends."""
         if self.closed:
             raise ServerError("The server is ending.")
-        waiting = sum(not job.is_over for job in self.jobs.values())
+        waiting = len(self.waiting)
         if waiting >= MOST_WAITING:
             problem = Problem("imports", "are as many as may wait", str(waiting), f"at most {MOST_WAITING}", "wait, or cancel one")
             raise ServerError("Too many imports are waiting.", [problem])
 
-    def forget(self) -> None:
-        """Forgets the oldest imports that are over."""
-        over = [number for number, job in sorted(self.jobs.items()) if job.is_over and number not in self.working]
-        for number in over[: max(0, len(over) - MOST_KEPT)]:
-            del self.jobs[number]
+    def may_begin(self, job: MapJob) -> bool:
+        """One at a time for the same map."""
+        return job.map not in [self.jobs[each].map for each in self.working]
 
     def proceed(self) -> None:
         """Starts the imports that may start now; those cancelled while they waited go."""
         with self.lock:
-            for number, job in sorted(self.jobs.items()):
-                if number in self.working or job.process is not None:
-                    continue
-                if job.is_over:
+            for number, job in self.jobs.items():
+                if job.is_over and job.process is None and number not in self.working:
                     shutil.rmtree(job.order.scratch, ignore_errors=True)
-                elif len(self.working) < AT_A_TIME and job.map not in [self.jobs[each].map for each in self.working]:
-                    self.working.add(number)
-                    threading.Thread(target=self.work, args=(job,), name=f"import {number}", daemon=True).start()
-
-    def work(self, job: MapJob) -> None:
-        """Sees one import through, then starts the next."""
-        try:
-            job.work()
-        finally:
-            with self.lock:
-                self.working.discard(job.id)
-            self.proceed()
+            super().proceed()
 
     def close(self) -> None:
         """Cancels all imports; folders that are being written are finished."""
-        with self.lock:
-            self.closed = True
-            jobs = list(self.jobs.values())
-        for job in jobs:
-            job.cancel()
-        deadline = time.monotonic() + END_PATIENCE
-        while self.working and time.monotonic() < deadline:
-            time.sleep(0.02)
-        for job in jobs:
+        super().close()
+        for job in self.rows():
             shutil.rmtree(job.order.scratch, ignore_errors=True)
 
 

@@ -41,19 +41,19 @@ async def upload(request: Request, desk: AtOwnDesk, name: Name, bbox: Box = None
     """Imports the map file that is the body, at most 100 MiB of it."""
     said = request.headers.get("content-length", "")
     size = int(said) if said.isdigit() else 0
-    return await desk.map_jobs.upload(request.stream(), name=name, size=size, bbox=bbox, replace=replace)
+    return (await desk.map_jobs.upload(request.stream(), name=name, size=size, bbox=bbox, replace=replace)).row()
 
 
 @router.post("/maps/download", status_code=202)
 def download(new: answer.NewDownload, desk: AtOwnDesk) -> answer.MapJob:
     """Downloads a place from the Overpass server of this studio, and imports it."""
-    return desk.map_jobs.download(new)
+    return desk.map_jobs.download(new).row()
 
 
 @router.get("/map-jobs")
 def map_jobs(desk: AtDesk) -> list[answer.MapJob]:
     """The imports of this server, newest first."""
-    return desk.map_jobs.rows()
+    return [each.row() for each in desk.map_jobs.rows()]
 
 
 @router.get("/map-jobs/{job}")
@@ -65,19 +65,19 @@ def map_job(job: int, desk: AtDesk) -> answer.MapJob:
 @router.delete("/map-jobs/{job}")
 def cancel(job: int, desk: AtDesk) -> answer.MapJob:
     """Cancels an import: its process ends, and nothing of it stays. One that is over stays as it is."""
-    return desk.map_jobs.cancel(job)
+    return desk.map_jobs.cancel(job).row()
 
 
 @router.put("/maps/{map}/corrections", status_code=202)
 def correct(map: str, new: answer.NewCorrection, desk: AtDesk) -> answer.MapJob:
     """Corrects an element of the map and imports it again; if that fails, map and corrections stay as they were."""
-    return desk.map_jobs.correct(map, new)
+    return desk.map_jobs.correct(map, new).row()
 
 
 @router.delete("/maps/{map}/corrections/{element}", status_code=202)
 def take_back(map: str, element: str, desk: AtDesk) -> answer.MapJob:
     """Takes the corrections of an element back and imports the map again."""
-    return desk.map_jobs.take_back(map, element)
+    return desk.map_jobs.take_back(map, element).row()
 
 
 @router.post("/maps/{map}/drive", status_code=201)

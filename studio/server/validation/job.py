@@ -4,17 +4,15 @@ Of one that is cancelled nothing is kept but the steps of a calibration that wer
 """
 
 import shutil
-import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from math import inf
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from studio.errors import Problem, ScenarioError, ServerError, StudioError, UnknownError
+from studio.errors import Problem, ScenarioError, ServerError, StudioError
 from studio.process import Child, Gone
-from studio.server.answer import ImportStatus
+from studio.server.docket import Docket, Errand
 from studio.server.validation import answer
 from studio.server.validation import worker as errand
 from studio.server.validation.worker import Order
@@ -26,64 +24,41 @@ COMPILING, WAITING = "waiting for the first compilation", "waiting for others"
 PAUSE = 0.1  # [s] between two looks at the compilation
 
 
-@dataclass
-class ProjectJob:
-    """One errand. `status` is running, done, failed or cancelled; while it waits it counts as running."""
+@dataclass(kw_only=True)
+class ProjectJob(Errand):
+    """One errand about a project."""
 
-    id: int
     project: str
     order: Order
-    status: ImportStatus = "running"
+    is_compiled: Callable[[], bool]
     stage: str = WAITING
-    share: float | None = None
-    problem: StudioError | None = None
     outcome: dict[str, Any] | None = None
-    began: float = field(default_factory=time.monotonic)
-    ended: float = inf
-    process: Child | None = None
     is_swept: bool = False
-    lock: threading.RLock = field(default_factory=threading.RLock)
-
-    @property
-    def is_over(self) -> bool:
-        """Whether it has ended."""
-        return self.status != "running"
 
     def row(self) -> answer.ProjectJob:
         """The errand as it is told."""
         with self.lock:
             task, found = self.order.job.task, self.outcome
             return answer.ProjectJob(
-                id=self.id, project=self.project, task=task, status=self.status, stage=self.stage, share=self.share,
-                seconds=round(min(self.ended, time.monotonic()) - self.began, 2),
-                problem=self.problem.as_json() if self.problem else None,
+                **self.told(), project=self.project, task=task,
                 looked=answer.Looked(**found) if found and task == "look" else None,
                 kept=answer.Kept(**found) if found and task != "look" else None,
             )  # fmt: skip
 
-    def end(self, status: ImportStatus, problem: StudioError | None = None, outcome: dict[str, Any] | None = None) -> None:
-        """It is over, unless it has been before."""
-        with self.lock:
-            if not self.is_over:
-                self.status, self.stage, self.problem, self.outcome, self.ended = status, status, problem, outcome, time.monotonic()
-                self.share = 1.0 if status == "done" else self.share
-
     def cancel(self) -> None:
         """Ends it with its process."""
         with self.lock:
-            self.end("cancelled")
-            if self.process is not None:
-                self.process.kill()
-            else:
+            super().cancel()
+            if self.process is None:
                 self.sweep()
 
-    def work(self, is_compiled: Callable[[], bool]) -> None:
+    def work(self) -> None:
         """Runs it in a process, once the models are compiled."""
-        while not is_compiled() and not self.is_over:
+        while not self.is_compiled() and not self.is_over:
             self.note(COMPILING, None)
             time.sleep(PAUSE)
         try:
-            if child := self.start():
+            if child := self.start(errand.main, self.order):
                 self.listen(child)
         except OSError as error:
             self.end("failed", ServerError(f"The process did not start ({error.strerror or error})."))
@@ -96,20 +71,6 @@ class ProjectJob:
                 self.is_swept = True
                 shutil.rmtree(self.order.folder, ignore_errors=True)
 
-    def note(self, stage: str, share: float | None) -> None:
-        """What is being done, and how far it is."""
-        with self.lock:
-            if not self.is_over:
-                self.stage, self.share = stage, share
-
-    def start(self) -> Child | None:
-        """Starts the process, unless it has been cancelled."""
-        with self.lock:
-            if not self.is_over:
-                self.stage, self.share = "starting", None
-                self.process = Child.begin(errand.main, self.order)
-            return self.process
-
     def listen(self, child: Child) -> None:
         """Hears the process out."""
         try:
@@ -118,10 +79,15 @@ class ProjectJob:
                 self.note(*values)
                 word, *values = child.hear()
             (value,) = values
-            self.end("done", outcome=value) if word == "done" else self.end("failed", value)
+            self.finish(value) if word == "done" else self.end("failed", value)
         except Gone as end:
             self.end("failed", gone(end.code))
         child.end(END_PATIENCE)
+
+    def finish(self, outcome: dict[str, Any]) -> None:
+        """It is done, unless it has been cancelled before."""
+        with self.lock:
+            self.outcome = outcome if self.end("done") else None
 
 
 def gone(code: int | None) -> StudioError:
@@ -130,80 +96,20 @@ def gone(code: int | None) -> StudioError:
     return ScenarioError("It came to no end.", [Problem("process", why, f"code {code}", remedy="try a shorter log")])
 
 
-@dataclass
-class ProjectJobs:
-    """All errands of this server."""
+class ProjectJobs(Docket[ProjectJob]):
+    """All errands about projects of this server."""
 
-    db: Path
-    is_compiled: Callable[[], bool]
-    kinds: tuple[Path, ...] = ()
-    jobs: dict[int, ProjectJob] = field(default_factory=dict)
-    working: ProjectJob | None = None
-    last: int = 0
-    closed: bool = False
-    lock: threading.RLock = field(default_factory=threading.RLock)
+    def __init__(self, db: Path, is_compiled: Callable[[], bool], kinds: tuple[Path, ...] = ()) -> None:
+        super().__init__(most_kept=MOST_KEPT, patience=2 * END_PATIENCE)
+        self.db, self.is_compiled, self.kinds = db, is_compiled, kinds
 
-    def rows(self) -> list[answer.ProjectJob]:
-        """All errands, newest first."""
-        with self.lock:
-            return [job.row() for _, job in sorted(self.jobs.items(), reverse=True)]
-
-    def find(self, job: int) -> ProjectJob:
-        """An errand; raises UnknownError."""
-        with self.lock:
-            if job not in self.jobs:
-                known = ", ".join(map(str, sorted(self.jobs))) or "there is none"
-                raise UnknownError(f"There is no job {job}.", [Problem("job", "does not exist", str(job), known)])
-            return self.jobs[job]
-
-    def begin(self, project: str, folder: Path, new: answer.NewJob) -> answer.ProjectJob:
+    def begin(self, project: str, folder: Path, new: answer.NewJob) -> ProjectJob:
         """An errand with a number of its own. Raises ServerError when too many wait."""
         with self.lock:
-            if self.closed or sum(not each.is_over for each in self.jobs.values()) >= MOST_WAITING:
+            if self.closed or len(self.waiting) >= MOST_WAITING:
                 problem = Problem("jobs", "are too many", allowed=f"{MOST_WAITING} at once", remedy="wait for one, or cancel it")
                 raise ServerError("The studio has enough to do.", [problem])
-            self.last += 1
-            job = self.jobs[self.last] = ProjectJob(self.last, project, Order(new, folder, self.db, self.kinds))
-            self.forget()
+            order = Order(new, folder, self.db, self.kinds)
+            job = self.add(lambda number: ProjectJob(id=number, project=project, order=order, is_compiled=self.is_compiled))
         self.proceed()
-        return job.row()
-
-    def forget(self) -> None:
-        """Forgets the oldest errands that are over."""
-        over = [number for number, job in sorted(self.jobs.items()) if job.is_over]
-        for number in over[: max(0, len(over) - MOST_KEPT)]:
-            del self.jobs[number]
-
-    def cancel(self, job: int) -> answer.ProjectJob:
-        """Cancels an errand; one that is over stays as it is. Raises UnknownError."""
-        found = self.find(job)
-        found.cancel()
-        return found.row()
-
-    def proceed(self) -> None:
-        """Starts the next errand, when none is going on."""
-        with self.lock:
-            waiting = [job for _, job in sorted(self.jobs.items()) if not job.is_over and job.process is None]
-            if self.working is None and waiting and not self.closed:
-                self.working = waiting[0]
-                threading.Thread(target=self.work, args=(waiting[0],), name=f"job {waiting[0].id}", daemon=True).start()
-
-    def work(self, job: ProjectJob) -> None:
-        """Sees one errand through, then starts the next."""
-        try:
-            job.work(self.is_compiled)
-        finally:
-            with self.lock:
-                self.working = None
-            self.proceed()
-
-    def close(self) -> None:
-        """Cancels all errands."""
-        with self.lock:
-            self.closed = True
-            jobs = list(self.jobs.values())
-        for job in jobs:
-            job.cancel()
-        deadline = time.monotonic() + 2 * END_PATIENCE
-        while self.working is not None and time.monotonic() < deadline:
-            time.sleep(0.02)
+        return job

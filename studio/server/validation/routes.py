@@ -65,7 +65,7 @@ def sample(new: answer.NewProject, desk: AtOwnDesk) -> answer.ProjectJob:
     name = names.checked(new.name)
     folder = desk.projects.make(name)
     try:
-        return desk.project_jobs.begin(name, folder, answer.NewJob(task="sample"))
+        return desk.project_jobs.begin(name, folder, answer.NewJob(task="sample")).row()
     except ServerError:
         folder.rmdir()
         raise
@@ -137,13 +137,13 @@ def begin_job(project: str, new: answer.NewJob, desk: AtOwnDesk) -> answer.Proje
     check_inside({"mapping": new.mapping})
     if new.task == "look" and new.log is None:
         raise ScenarioError("Nobody says which log.", [Problem("log", "is missing", remedy="name a file of the project")])
-    return desk.project_jobs.begin(project, folder, new)
+    return desk.project_jobs.begin(project, folder, new).row()
 
 
 @router.get("/validation-jobs")
 def jobs(desk: AtDesk) -> list[answer.ProjectJob]:
     """What is being done with projects, newest first; what a log held is told by its own job."""
-    return [each.model_copy(update={"looked": None}) for each in desk.project_jobs.rows()]
+    return [each.row().model_copy(update={"looked": None}) for each in desk.project_jobs.rows()]
 
 
 @router.get("/validation-jobs/{job}")
@@ -155,7 +155,7 @@ def job(job: int, desk: AtDesk) -> answer.ProjectJob:
 @router.delete("/validation-jobs/{job}")
 def cancel(job: int, desk: AtDesk) -> answer.ProjectJob:
     """Cancels a job: its process ends, and of the step that went on nothing is kept; those before stay. One that is over stays as it is."""
-    return desk.project_jobs.cancel(job)
+    return desk.project_jobs.cancel(job).row()
 
 
 # -- what came out -----------------------------------------------------------------------------------
