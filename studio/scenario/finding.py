@@ -1,6 +1,7 @@
 """What pydantic finds wrong, told as ours: the field's path, what is wrong, the value, what is allowed, the nearest name."""
 
 from collections.abc import Mapping
+from math import isfinite
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -34,8 +35,21 @@ def problem(finding: ErrorDetails, where: str, model: type, under: str) -> Probl
     elif finding["type"] == "missing":
         what, value, remedy = "is missing", "", "add it"
     elif finding["type"] == "mistaken":
-        remedy = "write it without quotes" if isinstance(finding["input"], str) else ""
+        remedy = "write it without quotes" if is_quoted(finding["input"]) else ""
     return Problem(f"{where}: {path}", lower(what), value, allowed(finding), remedy)
+
+
+def is_quoted(value: Any) -> bool:
+    """Whether a text is what a number, or yes and no, would be without quotes."""
+    return isinstance(value, str) and (value in ("true", "false") or isinstance(read_number(value), float))
+
+
+def read_number(text: str) -> float | None:
+    """The finite number that a text is, if it is one."""
+    try:
+        return number if isfinite(number := float(text)) else None
+    except ValueError:
+        return None
 
 
 def of_values(model: type[BaseModel], values: Mapping[str, Any], where: str, under: str) -> list[Problem]:
