@@ -70,7 +70,6 @@ def test_where_a_vehicle_was_outside_its_validated_span(tmp_path, beyond):
         page.goto(f"{client.base_url}/studio/beyond?run={run}")
         expect(page.get_by_role("region", name="Charts")).to_contain_text(TELLS)
         expect(page.get_by_role("img", name="Outside its validated span: Leader, speed")).to_be_visible()
-        page.screenshot(path="/tmp/valid/studio.png")
         assert complaints == []
         opened.close()
 
