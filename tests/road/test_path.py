@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from studio.road.assembly.alignment import STEADY
 from studio.road.network import curve
 from studio.road.network.curve import LOCK
+from studio.road.ways.lane_path import LanePath
 from studio.road.ways.path import (
     CORRIDOR,
     PATH_CURVATURE,
@@ -22,7 +23,6 @@ from studio.road.ways.path import (
     path,
     project,
 )
-from studio.road.ways.route import LanePath
 
 LATERAL, BRAKING = 2.5, 1.5  # [m/s²] the defaults of path()
 

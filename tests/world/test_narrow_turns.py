@@ -8,9 +8,9 @@ import pytest
 from studio.road import load
 from studio.road.network import curve
 from studio.road.ways.approach import Approaches
+from studio.road.ways.lane_path import LanePath
 from studio.road.ways.lock import is_drivable
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPEED, path
-from studio.road.ways.route import LanePath
 from studio.scenario import catalogue, figures
 from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.state import A_Y, ACTIVE

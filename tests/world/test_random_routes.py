@@ -13,9 +13,10 @@ from studio.road.network import Network, curve
 from studio.road.network.curve import LOCK
 from studio.road.network.signals import RED, RED_AMBER
 from studio.road.ways import path as road_path
+from studio.road.ways.lane_path import LanePath
 from studio.road.ways.lock import MOST_ASIDE
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPEED
-from studio.road.ways.route import LanePath, connect
+from studio.road.ways.route import connect
 from studio.scenario import catalogue
 from studio.scenario.schema import Gps, Intervention, Scenario
 from studio.vehicle.parameter import FRONT

@@ -15,7 +15,7 @@ from studio.portable import arctan2
 from studio.road import kept
 from studio.road.network import Lane, Network, curve
 from studio.road.ways import swing
-from studio.road.ways.route import LanePath
+from studio.road.ways.lane_path import LanePath
 
 PATH_SPACING = 1.0  # [m]
 PATH_X, PATH_Y, PATH_HEADING, PATH_CURVATURE, PATH_SPEED, PATH_HEIGHT, PATH_SLOPE = range(7)

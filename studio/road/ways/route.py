@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -10,25 +9,11 @@ from studio.errors import Problem, RouteError, nearest
 from studio.road.network import Network, curve
 from studio.road.network.graph import graph_of, search, without, without_turns
 from studio.road.network.index import once
+from studio.road.ways.lane_path import LanePath
+from studio.road.ways.lock import is_drivable
 
 MOST_NAMED = 5  # turns in a message
 SHORTEST = 2.0  # [m] there is nothing to drive on a way that is shorter
-
-
-@dataclass(frozen=True)
-class LanePath:
-    """Lane ids in the order they are driven, with the ways through junctions.
-
-    Two neighbours of the same road in sequence are a lane change within that road.
-    """
-
-    lanes: tuple[int, ...]
-
-    def roads(self, network: Network) -> tuple[str, ...]:
-        """The roads that are passed, without junctions."""
-        passed = [network.lanes[lane] for lane in self.lanes]
-        names = [lane.road for lane in passed if not lane.internal]
-        return tuple(name for i, name in enumerate(names) if i == 0 or names[i - 1] != name)
 
 
 class Arms(NamedTuple):
@@ -113,8 +98,6 @@ def too_narrow(network: Network, way: tuple[int, ...], lock: float) -> tuple[int
     """The connections on a way that are too narrow for a vehicle of a lock [1/m]; none for a car, for which all are wide enough."""
     if lock >= curve.LOCK:
         return ()
-    from studio.road.ways.lock import is_drivable
-
     number, roads = numbers(network), [lane for lane in way if not network.lanes[lane].internal]
     passed = (number[pair] for pair in pairwise(roads) if pair in number)
     return tuple(each for each in passed if network.connections[each].direction != "turn" and not is_drivable(network, each, lock))

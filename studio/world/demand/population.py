@@ -19,8 +19,9 @@ from studio.road import kept
 from studio.road.network import Network
 from studio.road.network.curve import LOCK
 from studio.road.network.index import once
+from studio.road.ways.lane_path import LanePath
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, Path, path
-from studio.road.ways.route import LanePath, all_routes
+from studio.road.ways.route import all_routes
 from studio.road.ways.strand import driven, strands_of
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Gps, Intervention, Scenario

@@ -21,8 +21,9 @@ from studio.errors import Problem, RouteError
 from studio.model.random import TRAFFIC_HEADWAY, uniform
 from studio.road.network import Network
 from studio.road.network.curve import LOCK
+from studio.road.ways.lane_path import LanePath
 from studio.road.ways.path import Path, annotated, path
-from studio.road.ways.route import LanePath, connect
+from studio.road.ways.route import connect
 from studio.scenario.schema import Scenario, moment_of
 from studio.scenario.traffic import Departures, Matrix, Trip
 from studio.world.demand.lock import Locks
