@@ -109,4 +109,6 @@ def tell(way: Way, drawn: float, total: float, notes: Notes) -> None:
         notes.guess("one lane", what, spot_of(way), source=SOURCE, sure="medium", key="lanes")
     else:
         short = 2.0 * (LEAST_END + TAPER) + LEAST
-        notes.guess("one lane", ends, spot_of(way), source=f"{SOURCE}, on less than {short:g} m: cars pass each other", sure="low", key="lanes")
+        notes.guess(
+            "one lane", ends, spot_of(way), source=f"{SOURCE}, on less than {short:g} m: cars pass each other", sure="low", key="lanes"
+        )

@@ -171,8 +171,8 @@ def free_place(
 
 
 def junctions(network: Network, number: int, lock: float) -> np.ndarray:
-    """From where to where the path of one of the ways leads through junctions, or over ground of two directions on which two who begin would
-    be face to face, float64[2, n] [m]; found when it is needed, once."""
+    """From where to where the path of one of the ways leads through junctions, or along streets of one lane for both directions, where two
+    might begin face to face, float64[2, n] [m]; found when it is needed, once."""
     key = network.digest, number, lock
     if key not in _junctions:
         lanes, there = strands_of(network).lanes, driven(network, through_path(network, number, lock))

@@ -84,12 +84,11 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
             continue
-        key = world * web.right.size + web.partner[m]
         if web.turn[m] >= SHARED:
-            own_key = world * web.right.size + strand
-            if waits_outside(v, m, own, key, own_key, state, parameter, number, entity, web, first, place, at, drivers, mind):
+            if waits_outside(v, d, last, m, own, world, state, parameter, number, entity, web, first, place, at, drivers, mind):
                 return True
             continue
+        key = world * web.right.size + web.partner[m]
         i, end = from_station(key, earliest(m, web), first, place, at)
         while i < end and place[KEY, i] == key:
             other, there, i = place[WHO, i], at[i], i + 1

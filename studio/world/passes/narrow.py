@@ -11,6 +11,9 @@ Who is outside waits before it begins
 
 Who follows another of his direction who is still on it goes on, until somebody on the other side has stood for long. All this hangs on what
 everybody can see of the other at the tick's beginning and is the same from either side, so that never both go, and never neither.
+
+Nobody goes on while there is no room for him behind it, so that who comes out of the next such street finds this one free; who waits for
+that is not waited for.
 """
 
 from math import inf
@@ -27,23 +30,27 @@ from studio.world.table.mind import (
     BRAKE_COMFORT,
     COMFORT,
     FIRST,
+    STANDSTILL,
     STATION,
     STOOD,
     V_DESIRED,
+    WAITED_FOR,
     WAY_STATION,
 )  # fmt: skip
-from studio.world.table.web import ITS_ENTER, ITS_LEAVE, OWN_ENTER, OWN_LEAVE
+from studio.world.table.web import END, ITS_ENTER, ITS_LEAVE, OWN_ENTER, OWN_LEAVE, START
 
 NOBODY = -1
 STANDING, PATIENCE, LONG = 0.5, 2.0, 15.0  # [m/s], [s], [s] slower one stands; stood so long one is minded, and so long followers wait
+FLOWING = 2.0  # [m/s] who drives so fast behind the ground makes room
 NEAR_LINE = 4.0  # [m] who stands so near to the ground waits for it
 
 
 @inlined
-def waits_outside(v, m, own, key, own_key, state, parameter, number, entity, web, first, place, at, drivers, mind):
-    """Whether a driver has to wait before ground that his lane shares with that of the queue `key`; if so, that is where he stops."""
+def waits_outside(v, d, last, m, own, world, state, parameter, number, entity, web, first, place, at, drivers, mind):
+    """Whether a driver has to wait before ground that his lane shares with that of the other direction; if so, that is where he stops."""
     to_enter = web.span[OWN_ENTER, m] - own - parameter[FRONT, v]
-    on_it, next_one, left, is_there = NOBODY, NOBODY, inf, 0
+    key, own_key = world * web.right.size + web.partner[m], world * web.right.size + web.strand[d]
+    on_it, next_one, left = NOBODY, NOBODY, inf
     i, end = from_station(key, -inf, first, place, at)
     while i < end and place[KEY, i] == key:
         other, nose, there, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], place[THERE, i], i + 1
@@ -56,38 +63,77 @@ def waits_outside(v, m, own, key, own_key, state, parameter, number, entity, web
             next_one, left = other, web.span[ITS_ENTER, m] - nose
     if to_enter < 0.0:
         return False
-    who = on_it
-    if who == NOBODY and next_one != NOBODY:
-        if not goes_before(v, next_one, web.turn[m], to_enter, left, state, entity, drivers, mind):
-            who = next_one
-    if who == NOBODY:
+    who = (
+        number[on_it]
+        if on_it != NOBODY
+        else in_the_way_behind(v, d, last, m, own, world, state, parameter, number, web, first, place, at, drivers)
+    )
+    if who == NOBODY and next_one != NOBODY and is_first(
+        v, next_one, m, own, own_key, to_enter, left, state, parameter, number, entity, web, first, place, at, drivers, mind
+    ):  # fmt: skip
+        who = number[next_one]
+    if who != NOBODY:
+        mind[WAY_STATION, v], mind[FIRST, v] = mind[STATION, v] + parameter[FRONT, v] + to_enter, who
+    return who != NOBODY
+
+
+@inlined
+def is_first(v, other, m, own, own_key, to_enter, left, state, parameter, number, entity, web, first, place, at, drivers, mind):
+    """Whether the first of those who come towards v goes first."""
+    if goes_before(v, other, web.turn[m], to_enter, left, state, entity, drivers, mind):
         return False
-    if who == next_one and is_led_on(v, next_one, m, own, own_key, to_enter, state, parameter, web, first, place, at, mind):
+    leader = led_on(v, m, own, own_key, parameter, web, first, place, at)
+    waits_for = mind[WAITED_FOR, other]
+    if (
+        state[V_X, other] < STANDING
+        and waits_for != NOBODY
+        and waits_for != number[v]
+        and (leader == NOBODY or waits_for != number[leader])
+    ):
         return False
-    mind[WAY_STATION, v], mind[FIRST, v] = mind[STATION, v] + parameter[FRONT, v] + to_enter, number[who]
-    return True
+    return leader == NOBODY or (mind[STOOD, other] > LONG and can_stop(v, to_enter, state))
 
 
 @inlined
 def face(v, other, to_enter, its_nose, m, state, number, web, drivers, mind):
     """Two who are on it together, since they began there: they stop before each other."""
-    length = web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m]
-    gap = length + to_enter - (its_nose - web.span[ITS_ENTER, m])
+    gap = web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + to_enter - (its_nose - web.span[ITS_ENTER, m])
     if to_enter < 0.0 < gap:
         follow(v, number[other], 0.5 * gap, 0.0, state, drivers, mind)
 
 
 @inlined
-def is_led_on(v, other, m, own, own_key, to_enter, state, parameter, web, first, place, at, mind):
-    """Whether somebody of the own direction is still on it, so that one may follow him before another who has not stood for long."""
-    if mind[STOOD, other] > LONG and can_stop(v, to_enter, state):
-        return False
+def led_on(v, m, own, own_key, parameter, web, first, place, at):
+    """Who of the own direction drives ahead and is still on the ground."""
     i, end = from_station(own_key, own, first, place, at)
     while i < end and place[KEY, i] == own_key:
         leader, nose, is_there, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], place[THERE, i], i + 1
         if leader != v and is_there == 1 and nose - parameter[LENGTH, leader] <= web.span[OWN_LEAVE, m]:
-            return nose >= web.span[OWN_ENTER, m]
-    return False
+            return leader if nose >= web.span[OWN_ENTER, m] else NOBODY
+    return NOBODY
+
+
+@inlined
+def in_the_way_behind(v, d, last, m, own, world, state, parameter, number, web, first, place, at, drivers):
+    """Who leaves no room behind the ground for v and those before him, by his number; who drives there makes room."""
+    room, needed = web.drive[END, d] - web.span[OWN_LEAVE, m], parameter[LENGTH, v] + drivers[STANDSTILL, v]
+    key = world * web.right.size + web.strand[d]
+    i, end = from_station(key, own, first, place, at)
+    while i < end and place[KEY, i] == key:
+        other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
+        if other != v and nose < web.drive[END, d]:
+            needed += parameter[LENGTH, other] + drivers[STANDSTILL, other]
+    for e in range(d + 1, last):
+        if room >= needed:
+            return NOBODY
+        key = world * web.right.size + web.strand[e]
+        i, end = from_station(key, -inf, first, place, at)
+        while i < end and place[KEY, i] == key:
+            other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]], i + 1
+            if other != v and nose >= 0.0:
+                return NOBODY if state[V_X, other] >= FLOWING or room + nose - parameter[LENGTH, other] >= needed else number[other]
+        room += web.drive[END, e] - web.drive[START, e]
+    return NOBODY
 
 
 @inlined
