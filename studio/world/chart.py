@@ -8,21 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.road.network import Network
+from studio.road.network import Network, curve
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPACING, Path
-from studio.rows import Role, Table
 from studio.world.line import Lines
 from studio.world.setting import Setting
+from studio.world.table.chart import CHART
 
 NOWHERE = 1e6  # [m] to a junction that does not come
-
-CHART = Table("chart", Role.PARAMETER, per="point of a path")
-LANE_WIDTH = CHART.row("lane_width", "m", "of the lane that the path is on")
-LANES_LEFT = CHART.row("lanes_left", "1", "lanes of the same direction to its left")
-LANES_RIGHT = CHART.row("lanes_right", "1", "lanes of the same direction to its right")
-LIMIT = CHART.row("limit", "m/s", "speed that is allowed there")
-JUNCTION = CHART.row("junction", "m", "along the path to the next junction, 0 within one, 1e6 where none comes")
-BENT = CHART.row("bent", "1/m", "sum of the curvatures of the path's points up to there, so that a mean takes two of them")
 
 
 class Piece(NamedTuple):
@@ -49,7 +41,18 @@ def under(path: Path, network: Network) -> np.ndarray:
     lane = np.array([lane_rows(network, each.lane) for each in found]).T[:, number]
     ends = np.array([each.junction for each in found])
     coming = np.minimum.accumulate(ends[::-1])[::-1][number]  # of this piece, or of one that comes
-    return np.concatenate([lane, [np.clip(coming - stations, 0.0, NOWHERE), np.cumsum(path.points[PATH_CURVATURE])]])
+    junction, bent = np.clip(coming - stations, 0.0, NOWHERE), np.cumsum(path.points[PATH_CURVATURE])
+    return np.concatenate([lane, [junction, levels(found, number, stations, network), bent]])
+
+
+def levels(found: list[Piece], number: np.ndarray, stations: np.ndarray, network: Network) -> np.ndarray:
+    """The level of the lane at every point; behind its end, within a junction, that of its end."""
+    level = np.zeros(stations.size)
+    for i, each in enumerate(found):
+        lane = network.lanes[each.lane]
+        if lane.level.size:
+            level[number == i] = np.interp(stations[number == i] - each.begin, curve.stations(lane.centre), lane.level)
+    return level
 
 
 def lane_rows(network: Network, number: int) -> list[float]:

@@ -14,12 +14,12 @@ from studio.vehicle.contact import CONTACT, GROUND
 from studio.vehicle.light import LIGHT
 from studio.vehicle.parameter import GEARBOX, PARAMETER
 from studio.vehicle.state import VEHICLE, WHEEL
-from studio.world.chart import CHART
 from studio.world.mail import MAIL
 from studio.world.passes.census import CENSUS, PAIR
 from studio.world.passes.neighbour import PLACE
 from studio.world.passes.notice import NOTICE
 from studio.world.passes.sight import SIGHT
+from studio.world.table.chart import CHART
 from studio.world.table.lane import GATE
 from studio.world.table.mind import DRIVER, MIND, SCRIPT
 from studio.world.table.street import COLLISION, LINE, OBSTACLE, PIECE, SWEEP, ZEBRA

@@ -15,6 +15,7 @@ from studio.model.random import normal, normals, uniform, uniforms
 from studio.vehicle.state import V_X, YAW_RATE
 from studio.world.passes.neighbour import within
 from studio.world.passes.sight import glimpse as glimpse
+from studio.world.passes.sight import is_on_other_level as is_on_other_level
 from studio.world.passes.sight import look as look
 from studio.world.passes.sight import target as target
 from studio.world.table.unit import BUMPER, COSINE, HEADING, SINE, TRUE_X, TRUE_Y

@@ -107,12 +107,13 @@ def test_a_lane_of_both_directions_is_no_through_lane(tmp_path, own_cache, tags,
 
 @pytest.mark.parametrize("tags", [{"lanes": "1"}, {"lanes": "1", "width": "3"}, {"lanes": "1", "oneway": "alternating"},
                                   {"lanes": "1", "oneway": "no", "width": "4.5"}])  # fmt: skip
-def test_on_one_lane_for_both_directions_two_cars_pass(tmp_path, own_cache, tags):
-    """The lanes lie side by side, each wide enough for a car, and the report says so."""
+def test_one_lane_for_both_directions_is_passed_one_after_the_other(tmp_path, own_cache, tags):
+    """Where it begins and ends there is room for two cars, and the report says so."""
     network = load(straight(tmp_path / "map.osm", tags))
     east, west = (network.lanes_of(name)[0] for name in ("11", "-11"))
     assert abs(east.centre[1, 0] - west.centre[1, -1]) >= (east.width + west.width) / 2 - 0.01 and min(east.width, west.width) >= 2.5
-    assert any("one lane: two lanes of 2.5 m at way 11" in line for line in guessed(network))
+    assert (east.facing, west.facing) == (west.id, east.id)
+    assert any("one lane: passed one after the other on" in line and "way 11" in line for line in guessed(network))
 
 
 def test_a_reversible_road_is_driven_one_way(tmp_path, own_cache):

@@ -2,19 +2,27 @@
 
 import json
 import shutil
+from dataclasses import replace
+from math import sin
 
 import pytest
 import yaml
 from websockets.sync.client import connect
 
+from studio import job
 from studio.errors import ConflictError, RouteError, SealedError, StudioError
+from studio.road import load
+from studio.road.network.curve import LOCK
+from studio.scenario import catalogue, figures
 from studio.scenario.text.patch import operation
 from studio.server.desk import Desk
 from studio.server.editing.answer import NewEdit, NewTurn
+from studio.server.editing.figure import lock_of
 from studio.server.editing.history import Change, steps
 from studio.server.editing.merge import changed_places, conflicts
-from studio.server.editing.way import way
+from studio.server.editing.way import driven, way
 from studio.store.runs import open_runs
+from tests.conftest import ROOT
 from tests.patience import PATIENCE
 
 
@@ -212,8 +220,6 @@ def test_every_thing_has_its_place(desk, folder):
 @pytest.fixture
 def grid(desk, folder):
     """The network of the town, two of whose roads follow each other on the sample's route."""
-    from studio import job
-
     return job.prepare(job.load(folder / "stepping_out.yaml")).network
 
 
@@ -225,6 +231,25 @@ def test_a_way_leads_through_points(desk, folder, grid):
     assert [each.road for each in found.handles] == found.roads
     farther = way(grid, [start], onwards=True, before=[])
     assert farther.roads[0] == found.roads[0] and farther.length > way(grid, [start], onwards=False, before=[]).length
+
+
+def test_a_way_is_that_of_its_vehicle():
+    """From a street by 154° onto the one beside it, Berlin Mitte: a car swings round, a truck does not, and is told why."""
+    mitte, roads = load(ROOT / "tests" / "reference" / "maps" / "berlin_mitte.osm.gz"), ["24243052#1", "465376243#0"]
+    assert driven(mitte, roads, LOCK).length > 10.0
+    with pytest.raises(RouteError, match="turns no sharper"):
+        driven(mitte, roads, figures.lock(catalogue.find_vehicle("truck").values))
+
+
+def test_the_least_lock_of_the_vehicles_counts(folder):
+    """A truck among cars; without any, or for names that are not there, that of a car."""
+    (folder / "mixed.yaml").write_text((folder / "stepping_out.yaml").read_text(encoding="utf-8"), encoding="utf-8")
+    setting = job.prepare(job.load(folder / "mixed.yaml"))
+    first = replace(setting.cars[0], model=catalogue.find_vehicle("truck"))
+    mixed = replace(setting, cars=(first, *setting.cars[1:]))
+    names = [car.name for car in mixed.cars]
+    assert lock_of(mixed, names) == lock_of(mixed, names[:1]) == pytest.approx(0.92 * sin(0.75) / 5.1)
+    assert lock_of(mixed, []) == lock_of(mixed, ["nobody"]) == LOCK
 
 
 def test_where_no_way_leads_the_reason_is_told(grid):

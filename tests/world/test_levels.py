@@ -10,6 +10,7 @@ from studio.world.build import build
 from studio.world.passes.collision import touching
 from studio.world.setting import setting
 from studio.world.tick import tick
+from tests.road.plot import plot
 
 ROAD = (
     '<road id="{id}" length="400" junction="-1"><type s="0" type="rural"><speed max="72" unit="km/h"/></type><planView><geometry s="0" '
@@ -61,3 +62,70 @@ def test_who_is_above_another_does_not_hit_him(height, hits):
     parameter[LENGTH], parameter[WIDTH], parameter[FRONT] = 4.0, 2.0, 2.0
     state[X, 1], state[Z, 1] = 1.0, height
     assert touching(0, 1, state, parameter) == hits
+
+
+# -- where no height is known ----------------------------------------------------------------------
+
+
+def bridged(tmp_path, over, under, along=100.0):
+    """A street to the east, 400 m long and with tags, and one to the north that cross in their middles; somebody all but stands where they
+    do on the one to the north, and one with a radar comes on the other."""
+    nodes = {1: (-200, 0), 2: (200, 0), 3: (0, -200), 4: (0, 200)}
+    plot(tmp_path / "map.osm", nodes, {11: ([1, 2], {"oneway": "yes"} | over), 12: ([3, 4], {"oneway": "yes"} | under)})
+    cars = {
+        "east": {"route": "east", "position": {"along": along}, "speed": SPEED},
+        "north": {"route": "north", "position": {"along": 199}, "speed": 0.5},
+    }
+    cars["east"]["sensors"] = {"front": {"kind": "front_radar", "preset": "long_range_radar"}}
+    document = {
+        "title": "levels", "map": {"file": "map.osm"}, "vehicles": cars,
+        "routes": {"east": {"roads": ["11"]}, "north": {"roads": ["12"], "speeds": [{"at": 0, "speed": 0.5}]}},
+    }  # fmt: skip
+    return build([setting(complete(document, "levels"), tmp_path, "levels")])
+
+
+APART = [({"bridge": "yes", "layer": "1"}, {}), ({"layer": "1"}, {}), ({}, {"tunnel": "yes"}), ({"bridge": "yes"}, {"layer": "-1"})]
+
+
+def looked(world, seconds=8.0):
+    """Whether the radar has seen anybody, and the least speed of the one who comes [m/s]."""
+    seen, least = False, np.inf
+    (each,) = world.units.mounted
+    while world.clock.time < seconds:
+        tick(world)
+        seen |= bool(each.out[0, 0])
+        least = min(least, float(world.vehicles.state[V_X, world.column("east")]))
+    return seen, least
+
+
+@pytest.mark.parametrize(("over", "under"), APART)
+def test_without_heights_levels_alone_part_them(tmp_path, over, under):
+    """Above somebody who stands: not seen by radar, not braked for, not hit."""
+    world = bridged(tmp_path, over, under)
+    seen, least = looked(world)
+    assert not seen and least > 0.7 * SPEED and world.events.hits_found == 0
+    east, north = (world.column(name) for name in ("east", "north"))
+    assert world.vehicles.state[X, east] > world.vehicles.state[X, north] + 10.0  # he has passed
+
+
+def test_on_one_level_he_is_seen_and_braked_for(tmp_path):
+    seen, least = looked(bridged(tmp_path, {}, {}))
+    assert seen and least < 0.5 * SPEED
+
+
+def test_on_a_ramp_who_is_ahead_is_seen(tmp_path):
+    """Two on the same street, which climbs onto a bridge: level by level each sees the other, on the ramp as well."""
+    nodes = {1: (-400, 0), 2: (-50, 0), 3: (50, 0), 4: (400, 0), 5: (0, -200), 6: (0, 200)}
+    ways = {11: ([1, 2], {}), 12: ([2, 3], {"bridge": "yes", "layer": "1"}), 13: ([3, 4], {}), 14: ([5, 6], {})}
+    plot(tmp_path / "map.osm", nodes, {way: (line, {"oneway": "yes"} | tags) for way, (line, tags) in ways.items()})
+    cars = {name: {"route": "r", "position": {"along": at}, "speed": SPEED} for name, at in (("own", 100.0), ("ahead", 140.0))}
+    cars["own"]["sensors"] = {"front": {"kind": "front_radar", "preset": "long_range_radar"}}
+    document = {"title": "ramp", "map": {"file": "map.osm"}, "vehicles": cars, "routes": {"r": {"roads": ["11"]}}}
+    world = build([setting(complete(document, "ramp"), tmp_path, "ramp")])
+    (each,) = world.units.mounted
+    seen, height = [], []
+    while world.clock.time < 18.0:
+        tick(world)
+        seen.append(bool(each.out[0, 0]))
+        height.append(float(world.vehicles.state[Z, 0]))
+    assert max(height) - height[0] > 3.0 and np.mean(seen) > 0.99

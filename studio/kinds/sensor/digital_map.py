@@ -11,7 +11,7 @@ from studio.compiled import inlined
 from studio.kind.preset import Preset
 from studio.kind.sensor import Sensor
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING
-from studio.world.chart import JUNCTION, LANE_WIDTH, LANES_LEFT, LANES_RIGHT, LIMIT
+from studio.world.table.chart import JUNCTION, LANE_WIDTH, LANES_LEFT, LANES_RIGHT, LIMIT
 from studio.world.table.mind import OFFSET, STATION
 from studio.world.table.unit import OWN_X, OWN_Y
 from studio.world.view import report

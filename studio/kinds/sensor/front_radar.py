@@ -24,7 +24,7 @@ from studio.vehicle.state import ACTIVE
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.sight import NEAR, SEEN_X, SEEN_Y, TURNED_COS, TURNED_SIN, is_thing, put_object, put_vehicle, speed_of
 from studio.world.table.street import OBJECT
-from studio.world.view import around, draw_four, glimpse, report
+from studio.world.view import around, draw_four, glimpse, is_on_other_level, report
 
 KIND = "sensor"
 TITLE = "Front radar with one target"
@@ -112,6 +112,8 @@ def nearest_car(view, me, settings, kappa, beyond):
         for i in range(found):
             other = view.found[i]
             if other == me.vehicle or view.state[ACTIVE, other] == 0.0 or not is_in_way(view, me, other, kappa):
+                continue
+            if is_on_other_level(view, me, other):
                 continue
             put_vehicle(view, me, other, 0)
             if beyond < view.sight[NEAR, 0] < nearest:

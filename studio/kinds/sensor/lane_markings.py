@@ -12,7 +12,7 @@ from studio.kind.preset import Preset
 from studio.kind.sensor import Sensor
 from studio.kind.settings import number
 from studio.road.ways.path import PATH_CURVATURE, PATH_SPACING
-from studio.world.chart import BENT, JUNCTION, LANE_WIDTH
+from studio.world.table.chart import BENT, JUNCTION, LANE_WIDTH
 from studio.world.table.mind import D_PSI, OFFSET, STATION
 from studio.world.view import draw_four, report
 

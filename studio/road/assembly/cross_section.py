@@ -5,12 +5,13 @@ A mapped width is often that of the whole carriageway with its parked cars, or o
 
 import re
 
+from studio.road.assembly.shared import NARROWEST, is_shared
 from studio.road.formats.correction import text
 from studio.road.formats.osm import MOST_LANES
 from studio.road.formats.way import Way, is_one_way, spot_of
 from studio.road.network.report import Notes
 
-NARROWEST, WIDEST_LANE = 2.5, 4.5  # [m] of a lane (RASt 06: 2.75 to 3.50 m; a lone one up to 4.5 m)
+WIDEST_LANE = 4.5  # [m] of a lone lane (RASt 06)
 NEITHER = ("both_ways", "reversible")
 COUNTS = ("lanes", "lanes:forward", "lanes:backward")
 BUS_COUNTS = ("lanes:psv", "lanes:bus")
@@ -45,12 +46,13 @@ def without_shared_lanes(way: Way, notes: Notes) -> Way:
 
 
 def with_room_to_meet(way: Way, notes: Notes) -> Way:
-    """A two-way street with one lane gets two narrow ones: nobody who drives here waits where a road gets narrow."""
+    """A two-way street with one lane gets two narrow ones. Where these have no room beside each other shared.py lays them on one ground."""
     if is_one_way(way) or way.tags["highway"].startswith("motorway") or way.tags.get("lanes") != "1":
         return way
     others = {key: value for key, value in way.tags.items() if key not in COUNTS}
-    source = "lanes=1 for both directions: cars pass each other, they do not wait for each other there"
-    notes.guess("one lane", f"two lanes of {NARROWEST:g} m", spot_of(way), source=source, sure="low", key="lanes")
+    if not is_shared(way):
+        source = "lanes=1 for both directions, and wide enough for two: cars pass each other"
+        notes.guess("one lane", "two lanes", spot_of(way), source=source, sure="medium", key="lanes")
     return way.with_tags({"width": f"{2.0 * NARROWEST:g}"} | others | {"lanes": "2"})
 
 

@@ -45,13 +45,11 @@ class Grid:
     neighbours: dict[int, dict[int, float]]
 
 
-def raised(net: Net, found: Survey, ways: list[Way], box: Box) -> Net:
-    """The network with the heights that the map has; without any, as it is."""
-    grid = grid_of(ways, box)
+def mapped_heights(found: Survey, grid: Grid, ways: list[Way], box: Box) -> Heights:
+    """The heights that the map has, of the nodes near which it has any."""
     tags = {node: height for node in grid.places if (height := metres(found.nodes.get(node, {}).get("ele", ""))) is not None}
     tags = without_slips(tags, grid, box, found.notes)
-    heights = heights_of(tags, grid, ways, box, found.notes)
-    return with_heights(net, ways, grid, heights) if heights else net
+    return heights_of(tags, grid, ways, box, found.notes)
 
 
 def metres(text: str) -> float | None:
@@ -207,6 +205,8 @@ def spot(node: int, grid: Grid, box: Box) -> Spot:
 
 def with_heights(net: Net, ways: list[Way], grid: Grid, heights: Heights) -> Net:
     """Lanes of roads have the height of the ways that they are made of; ways through junctions rise evenly."""
+    if not heights:
+        return net
     lines = {
         way.id: (np.array([grid.places[node] for node in way.nodes]).T, np.array([heights.get(node, 0.0) for node in way.nodes]))
         for way in ways
@@ -214,9 +214,9 @@ def with_heights(net: Net, ways: list[Way], grid: Grid, heights: Heights) -> Net
     lanes = list(net.lanes)
     for lane in net.lanes:
         own = [lines[name] for name in net.origins.get(lane.road, ()) if name in lines]
-        if not lane.internal:
+        if not lane.internal and (not own or any(z.any() for _, z in own)):
             lanes[lane.id] = replace(lane, height=height_along(lane.centre, own or list(lines.values())))
-    for each in net.connections:
+    for each in (each for each in net.connections if lanes[each.from_lane].height[-1] or lanes[each.to_lane].height[0]):
         bridge(lanes, each.from_lane, each.via, each.to_lane)
     return replace(net, lanes=tuple(lanes))
 

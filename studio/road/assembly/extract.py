@@ -58,7 +58,7 @@ def part(path: Path, wish: Wish) -> Part:
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
     """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road.assembly import audit, elevation, level, narrow, turn
+    from studio.road.assembly import audit, elevation, level, narrow, shared, storey, turn
     from studio.road.assembly.alignment import aligned
     from studio.road.assembly.priority import mapped_law
     from studio.road.assembly.side import drive_side
@@ -79,7 +79,10 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
     smooth = narrow.drivable(aligned(raw), lambda each: end_of(raw, each, ways, box), found.notes)
-    net = of_ways(level.with_levels(elevation.raised(smooth, found, cut, box), cut, elevation.grid_of(cut, box)), ways)
+    smooth = shared.brought_together(smooth, cut, found.notes)
+    grid = elevation.grid_of(cut, box)
+    heights = storey.with_storeys(elevation.mapped_heights(found, grid, cut, box), cut, grid, found.notes)
+    net = of_ways(level.with_levels(elevation.with_heights(smooth, cut, grid, heights), cut, grid), ways)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),

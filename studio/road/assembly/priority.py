@@ -287,12 +287,12 @@ def equal_junctions(net: Net, ways: list[Way]) -> frozenset[str]:
 
 
 def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: Box) -> dict[str, str]:
-    """The rule that a sign sets at the end of a road."""
+    """The rule that a sign sets at the end of a road; one that stands there goes before what its way says."""
     by_way = defaultdict(list)
     for road, names in net.origins.items():
         for name in names:
             by_way[name].append(road)
-    found = {}
+    found = dict(signs_of_ways(net, ways))
     for way, node, (longitude, latitude) in nodes_of(ways, nodes, set(SIGNS)):
         x, y = box.local(latitude, longitude)
         whose = {nodes[node].get("stop"), nodes[node].get("give_way")}
@@ -301,6 +301,32 @@ def signs_of(net: Net, ways: list[Way], nodes: dict[int, dict[str, str]], box: B
         for road in (each for each in roads if not is_for_minor or is_minor(net, each)):
             found[road] = "all_way_stop" if nodes[node].get("stop") == "all" else SIGNS[nodes[node]["highway"]]
     return found
+
+
+def signs_of_ways(net: Net, ways: list[Way]) -> Iterator[tuple[str, str]]:
+    """The rules that ways set at the ends of their roads where several meet: `stop=all` for all of these, `stop=minor` and
+    `give_way=minor` for the own road where it is a lesser one."""
+    says = {way.id: rule for way in ways if (rule := rule_of_way(way.tags))}
+    arms: dict[str, list[str]] = defaultdict(list)
+    for road in net.roads.values():
+        if says and not road.internal:
+            arms[road.to_junction].append(road.id)
+    ends = [(road, says[names[-1]]) for road, names in net.origins.items() if names and names[-1] in says and road in net.roads]
+    for road, rule in sorted(ends, key=lambda each: each[1] == "all_way_stop"):  # where all stop, that goes before
+        others = arms[net.roads[road].to_junction] if not net.roads[road].internal else []
+        if len(others) > 2 and (rule == "all_way_stop" or is_minor(net, road)):
+            yield from ((each, rule) for each in (others if rule == "all_way_stop" else [road]))
+
+
+def rule_of_way(tags: dict[str, str]) -> str:
+    """The rule that a way sets at its ends.
+
+    >>> rule_of_way({"stop": "all"}), rule_of_way({"stop": "minor"}), rule_of_way({"give_way": "minor"}), rule_of_way({"stop": "no"})
+    ('all_way_stop', 'stop', 'yield', '')
+    """
+    if tags.get("stop") in ("all", "minor"):
+        return "all_way_stop" if tags["stop"] == "all" else "stop"
+    return "yield" if tags.get("give_way") == "minor" else ""
 
 
 def is_minor(net: Net, road: str) -> bool:

@@ -17,6 +17,7 @@ LIMITS = "one limit holds for all lanes and vehicles"
 SIZES = "vehicles of every size and weight drive there"
 LINES = "lines between lanes forbid nothing"
 SHAPE = "lanes have one width, about the line of their way"
+NARROW = "nobody waits but on streets with one lane for both directions"
 GROUND = "roads are even, dry and paved unless the scenario says otherwise"
 BESIDE = "lanes of others are not built"
 WAYS = {
@@ -33,7 +34,7 @@ WAYS = {
     "traffic_calming": GROUND, "incline": "heights come from ele of nodes", "surface": GROUND, "smoothness": GROUND, "tracktype": GROUND,
     "ford": GROUND, "winter_road": GROUND, "ice_road": GROUND, "embedded_rails": GROUND, "flood_prone": GROUND, "seasonal": TIMES,
     "hazard": "drivers see hazards, not signs", "shoulder": BESIDE, "cycleway": BESIDE, "busway": BESIDE, "passing_places": SHAPE,
-    "priority": "nobody waits where a road gets narrow", "traffic_sign": "signs count by the tags of what they mean",
+    "priority": NARROW, "traffic_sign": "signs count by the tags of what they mean",
     "bicycle_road": "drivers do not mind cyclists more than elsewhere", "cyclestreet": "drivers do not mind cyclists more than elsewhere",
     "tunnel": "who crosses above is not met; drawn on the ground", "covered": "roofs over roads are not built",
     "bridge": "who crosses below is not met; no bridges are drawn",
@@ -55,7 +56,7 @@ NOTHING = {"no", "none", "separate", "unspecified"}
 NODES = {
     "traffic_calming": GROUND, "hazard": "drivers see hazards, not signs", "ford": GROUND, "maxheight": SIZES, "maxwidth": SIZES,
     "maxweight": SIZES, "toll": "nobody pays", "traffic_sign": "signs count by the tags of what they mean",
-    "priority": "nobody waits where a road gets narrow", "overtaking": "drivers overtake where lanes allow it",
+    "priority": NARROW, "overtaking": "drivers overtake where lanes allow it",
     "give_way": "signs are read from highway", "maxspeed": LIMITS, "railway": "trains and trams do not run", "crossing:barrier": TIMES,
     "bridge:movable": "bridges do not open",
 }  # fmt: skip
@@ -98,7 +99,7 @@ def unused(tags: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     """
     for key, value in tags.items():
         reason = reason_of(key)
-        if reason and not says_nothing(key, value):
+        if reason and not says_nothing(key, value) and not is_sign(tags, key):
             yield f"{key}={value[:60]}", reason
 
 
@@ -109,6 +110,11 @@ def reason_of(key: str) -> str:
         return TIMES if parts[0] in MODES and key != "maxspeed:conditional" else ""
     plain = ":".join(part for part in parts if part not in ("forward", "backward", "left", "right", "both"))
     return WAYS.get(plain, "")
+
+
+def is_sign(tags: Mapping[str, str], key: str) -> bool:
+    """Whether a key tells who goes first on a street with one lane."""
+    return key == "priority" and tags.get("lanes") == "1" and tags[key] in ("forward", "backward")
 
 
 def says_nothing(key: str, value: str) -> bool:

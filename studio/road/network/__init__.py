@@ -38,6 +38,8 @@ class Lane:
     open: bool = True  # to cars; a bus lane is not
     height: np.ndarray = field(default_factory=lambda: np.zeros(0))
     level: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    facing: int = -1  # the lane of the other direction on whose ground it lies, -1 for none
+    goes_first: int = 0  # on such ground, 1 who comes on this lane, -1 who comes on the other, 0 none by sign
 
     def __post_init__(self) -> None:
         if self.height.size != self.centre.shape[1]:

@@ -9,6 +9,7 @@ BLOCK = 32  # points that share one bounding box
 MOST_ZONES = 64  # of one pair of paths
 ALONG, ACROSS, AGAINST = range(3)  # how the other drives there: with oneself, crossing, towards oneself
 GIVE, TAKE, EQUAL, NONE = range(4)  # who goes first where both come at once: the other, oneself, the first; they part, or follow each other
+SHARED, SHARED_FIRST, SHARED_LAST = range(4, 7)  # lanes of both directions on one ground: who comes first, and by sign oneself, the other
 ENTER_I, EXIT_I, ENTER_J, EXIT_J = range(4)
 
 

@@ -13,7 +13,7 @@ import shapely
 from studio.road import kept
 from studio.road.network import Network, curve
 from studio.road.network.index import once
-from studio.road.ways.conflict import ACROSS, AGAINST, ALONG, EQUAL, GIVE, NONE, TAKE, zones
+from studio.road.ways.conflict import ACROSS, AGAINST, ALONG, EQUAL, GIVE, NONE, SHARED, SHARED_FIRST, SHARED_LAST, TAKE, zones
 from studio.road.ways.path import PATH_HEADING, PATH_HEIGHT
 from studio.road.ways.strand import WIDTH, Strands, strands_of
 
@@ -80,7 +80,7 @@ def meetings(network: Network, strands: Strands, a: int, b: int) -> Iterator[Fou
     """The meetings of a pair, from either side."""
     if follow_each_other(network, strands, a, b) or follow_each_other(network, strands, b, a):
         return
-    width = NARROW if a < strands.lanes else WIDTH
+    width = NARROW if a < strands.lanes and not is_shared(network, strands, a, b) else WIDTH
     for span in zones(strands.points, strands.first[a], strands.count[a], strands.first[b], strands.count[b], width):
         metres = span * np.repeat(strands.spacing[[a, b]], 2)
         if hands_over(strands, a, b, metres) or hands_over(strands, b, a, metres[[2, 3, 0, 1]]):
@@ -156,8 +156,15 @@ def ends_in(network: Network, strands: Strands, strand: int) -> int:
     return network.connections[strand - strands.lanes].to_lane if strand >= strands.lanes else -1
 
 
+def is_shared(network: Network, strands: Strands, a: int, b: int) -> bool:
+    """Whether two strands are the lanes of both directions on one ground."""
+    return a < strands.lanes and b < strands.lanes and network.lanes[a].facing == b
+
+
 def turn(network: Network, strands: Strands, a: int, b: int) -> int:
     """Who goes first."""
+    if is_shared(network, strands, a, b):
+        return (SHARED, SHARED_FIRST, SHARED_LAST)[network.lanes[a].goes_first]
     if a < strands.lanes and b < strands.lanes:
         return NONE if network.lanes[a].road == network.lanes[b].road else EQUAL
     if a < strands.lanes or b < strands.lanes:

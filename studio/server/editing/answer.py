@@ -128,6 +128,9 @@ class NewWay(BaseModel):
     points: list[Point] = Field(min_length=1, max_length=100, description="[m] of the map")
     onwards: bool = Field(False, description="go on straight behind the last point, as far as a car drives in half a minute or so")
     roads: list[str] = Field([], max_length=200, description="roads that come before the points")
+    vehicles: list[str] = Field(
+        [], max_length=200, description="vehicles of the scenario that are to drive there: the way has no turn too narrow for them"
+    )
 
 
 class Way(BaseModel):

@@ -5,7 +5,7 @@ items(setting)   →  Item, one for everything that can be chosen, group by grou
 Lengths in metres of the map, angles in radians, as everywhere.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any
 
 import numpy as np
@@ -14,10 +14,12 @@ from studio.kind.area import Area
 from studio.kind.settings import inner
 from studio.kind.stretch import Stretch
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import lane_line
 from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.road.ways.route import connect
+from studio.scenario import figures
 from studio.server.editing.answer import Figure, Handle, Item
 from studio.world.car import Car, footprint, pose
 from studio.world.effect import Jam, Row, Slippery, Walk, beside
@@ -76,11 +78,17 @@ def station(name: str, setting: Setting) -> Item:
 def route(name: str, setting: Setting) -> Item:
     """A way; its handles are the roads that the file names, each at its middle."""
     roads, network = setting.scenario.routes[name].roads, setting.network
-    line = road_path.path(network, connect(network, roads))
-    users = sum(each.route == name for each in setting.scenario.vehicles.values())
-    told = f"{line.length:.0f} m, {users} {'vehicle' if users == 1 else 'vehicles'}"
+    users = [vehicle for vehicle, each in setting.scenario.vehicles.items() if each.route == name]
+    lock = lock_of(setting, users)
+    line = road_path.path(network, connect(network, roads, lock=lock), lock=lock)
+    told = f"{line.length:.0f} m, {len(users)} {'vehicle' if len(users) == 1 else 'vehicles'}"
     figure = Figure(path=f"routes.{name}", shape="line", line=from_station(line, 0.0), handles=handles(roads, network))
     return Item(path=f"routes.{name}", group="route", name=name, told=told, figures=[figure])
+
+
+def lock_of(setting: Setting, vehicles: Collection[str]) -> float:
+    """The least lock [1/m] of some vehicles of a scenario; that of a car without any."""
+    return min([LOCK, *(figures.lock(car.model.values) for car in setting.cars if car.name in vehicles)])
 
 
 def handles(roads: list[str], network: Network) -> list[Handle]:

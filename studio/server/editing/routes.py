@@ -12,6 +12,7 @@ from studio.errors import RouteError, StudioError
 from studio.server import answer
 from studio.server.desk import Desk
 from studio.server.editing.answer import Editing, EditingNews, Gone, NewEdit, NewTurn, NewWay, Revised, Way
+from studio.server.editing.figure import lock_of
 from studio.server.editing.way import way
 from studio.server.maps import plan_of
 from studio.server.maps.answer import MapPlan
@@ -56,9 +57,9 @@ def scenario_plan(scenario: str, desk: AtDesk) -> MapPlan:
 @router.post("/scenarios/{scenario}/way")
 def a_way(scenario: str, new: NewWay, desk: AtDesk) -> Way:
     """The way through points on the map of a scenario; nothing is written. Where no way leads, the answer says why."""
-    network = job.prepare(desk.load(scenario)).network
+    setting = job.prepare(desk.load(scenario))
     try:
-        return way(network, new.points, onwards=new.onwards, before=new.roads)
+        return way(setting.network, new.points, onwards=new.onwards, before=new.roads, lock=lock_of(setting, new.vehicles))
     except RouteError as error:
         return Way(problem=answer.Refusal(**error.as_json()), roads=[], line=[], length=0.0, handles=[])
 

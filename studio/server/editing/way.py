@@ -10,6 +10,7 @@ import shapely
 
 from studio.errors import Problem, RouteError
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways import path as road_path
 from studio.road.ways.path import Path
 from studio.road.ways.route import connect
@@ -22,18 +23,21 @@ ONWARDS = 400.0  # [m] that a way goes on
 MOST_ROADS = 40  # that are added for it
 
 
-def way(network: Network, points: list[tuple[float, float]], *, onwards: bool, before: list[str]) -> Way:
-    """The way through points, behind roads that are given. Raises RouteError that says which point cannot be reached, and why."""
+def way(network: Network, points: list[tuple[float, float]], *, onwards: bool, before: list[str], lock: float = LOCK) -> Way:
+    """The way through points, behind roads that are given, for vehicles of a lock [1/m].
+
+    Raises RouteError that says which point cannot be reached, and why.
+    """
     roads = list(before)
     for number, point in enumerate(points, start=1):
-        roads = reached(network, roads, point, number)
+        roads = reached(network, roads, point, number, lock)
     if onwards:
-        roads = extended(network, roads)
-    line = driven(network, roads)
+        roads = extended(network, roads, lock)
+    line = driven(network, roads, lock)
     return Way(roads=roads, line=from_station(line, 0.0), length=round(line.length, 1), handles=handles(roads, network))
 
 
-def reached(network: Network, roads: list[str], point: tuple[float, float], number: int) -> list[str]:
+def reached(network: Network, roads: list[str], point: tuple[float, float], number: int, lock: float) -> list[str]:
     """The roads with the one at a point behind them."""
     near, wrong = roads_near(network, point), None
     if roads and roads[-1] in near:
@@ -41,7 +45,7 @@ def reached(network: Network, roads: list[str], point: tuple[float, float], numb
     best, least = None, inf
     for each in near:
         try:
-            length = driven(network, [*roads, each]).length
+            length = driven(network, [*roads, each], lock).length
         except RouteError as error:
             wrong = wrong or error
             continue
@@ -78,12 +82,12 @@ def roads_near(network: Network, point: tuple[float, float]) -> list[str]:
     return sorted((road for road, away in found.items() if away <= least + ASIDE), key=found.__getitem__)
 
 
-def driven(network: Network, roads: list[str]) -> Path:
-    """The line along roads; raises RouteError."""
-    return road_path.path(network, connect(network, roads))
+def driven(network: Network, roads: list[str], lock: float) -> Path:
+    """The line along roads of a vehicle of a lock [1/m]; raises RouteError."""
+    return road_path.path(network, connect(network, roads, lock=lock), lock=lock)
 
 
-def extended(network: Network, roads: list[str]) -> list[str]:
+def extended(network: Network, roads: list[str], lock: float) -> list[str]:
     """The roads with those behind them onto which one goes straightest, until they are long enough or the map ends."""
     found = list(roads)
     for _ in range(MOST_ROADS):
@@ -95,13 +99,13 @@ def extended(network: Network, roads: list[str]) -> list[str]:
         if after in found:
             break
         found.append(after)
-    return [*roads, found[-1]] if len(found) > len(roads) and leads(network, [*roads, found[-1]]) else roads
+    return [*roads, found[-1]] if len(found) > len(roads) and leads(network, [*roads, found[-1]], lock) else roads
 
 
-def leads(network: Network, roads: list[str]) -> bool:
-    """Whether roads connect."""
+def leads(network: Network, roads: list[str], lock: float) -> bool:
+    """Whether roads connect for a vehicle of a lock [1/m]."""
     try:
-        driven(network, roads)
+        driven(network, roads, lock)
     except RouteError:
         return False
     return True

@@ -171,17 +171,18 @@ def free_place(
 
 
 def junctions(network: Network, number: int, lock: float) -> np.ndarray:
-    """From where to where the path of one of the ways leads through junctions, float64[2, n] [m]; found when it is needed, once."""
+    """From where to where the path of one of the ways leads through junctions, or along streets of one lane for both directions, where two
+    might begin face to face, float64[2, n] [m]; found when it is needed, once."""
     key = network.digest, number, lock
     if key not in _junctions:
         lanes, there = strands_of(network).lanes, driven(network, through_path(network, number, lock))
-        found = [(each.enter, each.leave) for each in there if each.strand >= lanes]
+        found = [(each.enter, each.leave) for each in there if each.strand >= lanes or network.lanes[each.strand].facing >= 0]
         _junctions[key] = np.array(found).reshape(-1, 2).T
     return _junctions[key]
 
 
 def in_junction(through: np.ndarray, station: float) -> bool:
-    """Whether a car at a station [m] would start in one of the junctions, or so near before it that it could not let others go first."""
+    """Whether a car at a station [m] would start in one of these places, or so near before it that it could not let others go first."""
     enter, leave = through
     return bool(((station > enter - CAR_LENGTH - BRAKING) & (station < leave + CAR_LENGTH)).any())
 

@@ -29,11 +29,11 @@ from studio.road.ways.path import PATH_SPACING
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, V_X
-from studio.world.chart import LANE_WIDTH, LANES_LEFT, LANES_RIGHT
 from studio.world.passes.junction import STANDING
 from studio.world.passes.notice import has_passed_red
 from studio.world.passes.queue import EARLY, KEY, NEAR, WHO, first_drive, from_station, station_on
 from studio.world.passes.traffic import ARRIVAL
+from studio.world.table.chart import LANE_WIDTH, LANES_LEFT, LANES_RIGHT
 from studio.world.table.mind import MINDED, OFFSET, RED_STATION, STATION, STOOD
 from studio.world.table.web import ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE
 from studio.world.world import World

@@ -19,10 +19,11 @@ from math import inf, sqrt
 from studio.compiled import inlined
 from studio.model import driver
 from studio.model.passage import AFTER, PATIENT, arrival, arrival_below, is_enough, merging_headway, wanted_gap
-from studio.road.ways.conflict import ALONG, GIVE, NONE, TAKE
+from studio.road.ways.conflict import ALONG, GIVE, NONE, SHARED, TAKE
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import V_X
+from studio.world.passes.narrow import waits_outside
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, from_station
 from studio.world.passes.regard import behind, follow, is_ahead, is_in_the_way, is_unseen, let_in
@@ -82,6 +83,10 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
     top = top_speed(v, d, drivers, points, path_first, path_count, web, mind)
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
+            continue
+        if web.turn[m] >= SHARED:
+            if waits_outside(v, d, last, m, own, world, state, parameter, number, entity, web, first, place, at, drivers, mind):
+                return True
             continue
         key = world * web.right.size + web.partner[m]
         i, end = from_station(key, earliest(m, web), first, place, at)

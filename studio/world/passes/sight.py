@@ -27,10 +27,13 @@ from studio.road.network.shadow import (
     level,
     walk,
 )
+from studio.road.ways.path import PATH_SPACING
 from studio.rows import Role, Table
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, V_X, X, Y, Z
 from studio.world.passes.neighbour import COS, SIN, within
+from studio.world.table.chart import LEVEL
+from studio.world.table.mind import STATION
 from studio.world.table.street import CONE, O_HEADING, O_KIND, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
 SIGHT = Table("sight", Role.SCRATCH, per="body in the field of the sensor that looks")
@@ -219,7 +222,16 @@ def is_on_other_level(view, me, v):
         return False
     dx, dy, dz = view.state[X, v] - me.eye_x, view.state[Y, v] - me.eye_y, view.state[Z, v] - view.state[Z, me.vehicle]
     beyond = abs(dz) - OTHER_LEVEL
-    return beyond > 0.0 and beyond * beyond > STEEPNESS * STEEPNESS * (dx * dx + dy * dy)
+    if beyond <= 0.0:
+        return False
+    return beyond * beyond > STEEPNESS * STEEPNESS * (dx * dx + dy * dy) or abs(layer(view, v) - layer(view, me.vehicle)) >= 0.5
+
+
+@inlined
+def layer(view, v):
+    """The level on which vehicle v is."""
+    at = min(max(view.mind[STATION, v] / PATH_SPACING, 0.0), view.path_count[v] - 1.0)
+    return view.chart[LEVEL, view.path_first[v] + int(at)]
 
 
 @inlined
@@ -431,7 +443,7 @@ def glimpse(view, me, half, cones, least, found):
     sight, blocks, near = view.sight, 0, view.sight[NEAR, 0]
     for k in range(found):
         v = view.found[k]
-        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0 and not is_beyond(view, me, v, near):
+        if v != me.vehicle and v != int(sight[WHO, 0]) and view.state[ACTIVE, v] > 0.0 and not is_aside(view, me, v, near):
             put_vehicle(view, me, v, 1)
             blocks = cover_if_nearer(near, sight, blocks)
     first = view.first_object[me.world]
@@ -448,6 +460,12 @@ def glimpse(view, me, half, cones, least, found):
     if has_houses:
         blocks = cover_buildings(view, me, 0, sight, blocks)
     return see(0, half, sight, blocks) and sight[SHARE, 0] >= least
+
+
+@inlined
+def is_aside(view, me, v, near):
+    """Whether vehicle v covers nothing that is as near as that [m]."""
+    return is_beyond(view, me, v, near) or is_on_other_level(view, me, v)
 
 
 @inlined

@@ -3748,6 +3748,12 @@ export interface components {
              * @default []
              */
             roads: string[];
+            /**
+             * Vehicles
+             * @description vehicles of the scenario that are to drive there: the way has no turn too narrow for them
+             * @default []
+             */
+            vehicles: string[];
         };
         /**
          * News

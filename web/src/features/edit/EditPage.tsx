@@ -223,11 +223,11 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
   const elsewhere = (item: Item, to: Point) => {
     const place = onLane(lanes, to);
     if (!place) return notify(`${item.name} stays where it is.`, "Vehicles stand on lanes: let it go on a road.", "yellow");
-    wayFrom(place, to).then((roads) => perform((now) => ofItem(now, item, (it) => deeds.rerouted(now, it, roads, spot(place)))), notifyError);
+    wayFrom(place, to, [item.name]).then((roads) => perform((now) => ofItem(now, item, (it) => deeds.rerouted(now, it, roads, spot(place)))), notifyError);
   };
 
-  const wayFrom = (place: NonNullable<ReturnType<typeof onLane>>, to: Point) =>
-    findWay(id, { points: [[to.x, to.y]], roads: [place.road], onwards: true }).then(({ roads }) => roads);
+  const wayFrom = (place: NonNullable<ReturnType<typeof onLane>>, to: Point, vehicles: string[] = []) =>
+    findWay(id, { points: [[to.x, to.y]], roads: [place.road], onwards: true, vehicles }).then(({ roads }) => roads);
 
   const addVehicle = (to: Point) => {
     const place = onLane(lanes, to);
@@ -266,7 +266,7 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     if (isLocked(route)) return;
     perform(async (now) => {
       const before = roadsOf(now, route);
-      const { roads } = await findWay(id, { points: [[to.x, to.y]], roads: before, onwards: false });
+      const { roads } = await findWay(id, { points: [[to.x, to.y]], roads: before, onwards: false, vehicles: deeds.usersOf(now, route) });
       if (roads.length !== before.length) return rerouted(route, roads);
       notify("The route leads there already.", "Its last road is this one.", "yellow");
       return undefined;

@@ -241,6 +241,12 @@ export function rerouted(state: Editing, item: Item, way: readonly string[], pla
   return { name: `Move ${item.name} to another road`, patch: [...patch, replace(`${item.path}.route`, route), replace(`${item.path}.position`, position)] };
 }
 
+/** The vehicles that drive a route. */
+export function usersOf(state: Editing, route: string): string[] {
+  const vehicles = (at(state.document, "vehicles") as Tree | undefined) ?? {};
+  return Object.entries(vehicles).flatMap(([name, each]) => (isTree(each) && each.route === route ? [name] : []));
+}
+
 /** A route that names a road already, or a new one. */
 function routeFor(state: Editing, way: readonly string[], road: string): { route: string; patch: Operation[] } {
   const known = (at(state.given, "routes") as Tree | undefined) ?? {};
