@@ -114,6 +114,67 @@ def test_followers_brake_with_those_ahead():
     assert record.trace("behind_A_1.speed")[-1] < 1.0
 
 
+def three_lanes(**changes):
+    """A follower behind A and one behind B, and in the third lane C and its follower; one 40 m before A, one that comes towards them."""
+    document = together(others=1, duration=9.0)
+    a = document["vehicles"]["A"]["position"]["offset"]
+    document["vehicles"] |= {
+        "C": car(2, a - 30.0, FAST),
+        "behind_C": car(2, a - 60.0, FAST),
+        "first": car(1, a + 300.0, FAST),
+    } | changes  # fmt: skip
+    group = document["applications"]["evasion"]
+    group["units"] = list(document["vehicles"])
+    del group["listens_to"]
+    return document
+
+
+def test_only_who_is_concerned_brakes():
+    """All hear all: the followers in A's lane and in B's brake; those in the third lane and those ahead of A drive on as if nothing was."""
+    (record,) = run([three_lanes()], lanes=3)
+    assert survived(record)
+    assert FOLLOWING in stages(record, "behind_A_1") and FOLLOWING in stages(record, "behind_B_1")
+    for name in ("C", "behind_C", "first"):
+        assert stages(record, name) == [IDLE], name
+        assert record.trace(f"{name}.speed").min() > FAST - 1.0, name
+
+
+def test_who_cannot_tell_lanes_brakes():
+    """With a plain receiver, 1.5 m, lanes cannot be told: the one in the third lane that has somebody ahead brakes, to be safe."""
+    plain = {"gps": {"drift": 1.5, "noise": 0.3}}
+    document = three_lanes()
+    document["vehicles"]["behind_C"] |= plain
+    (record,) = run([document], lanes=3)
+    assert stages(record, "C") == [IDLE] and stages(record, "behind_C")[:2] == [IDLE, FOLLOWING]
+
+
+def again(first=AHEAD_OF_FIRST, **changes):
+    """`together`, and 8 s later something lies in the lane that A has gone to."""
+    document = together(duration=18.0, **changes)
+    a = document["vehicles"]["A"]["position"]["offset"]
+    line = [[a + FRONT + FAST * SECOND + first, 0.0]]
+    document["script"]["second"] = {"when": {"kind": "time", "at": SECOND}, "do": document["script"]["obstacle"]["do"] | {"line": line}}
+    return document
+
+
+def test_a_second_evasion_after_a_first_one():
+    """A has gone to the right lane; 8 s later something lies there, too: it goes around it, back to the lane where it came from."""
+    (record,) = run([again()])
+    assert survived(record)
+    assert stages(record, "A") == [IDLE, ASKING, COMMITTED, EVADING, ASIDE, EVADING, ASIDE]
+    aside = record.trace("A.lateral_offset")
+    assert aside.min() == pytest.approx(-3.75, abs=0.4) and abs(aside[-1]) < 0.3
+    assert abs(record.trace("A.speed")[-1] - FAST) < 3.0
+
+
+def test_an_evasion_after_one_that_was_aborted():
+    """Nobody answers, A brakes to a stand; what was in the way is taken away, A drives on, and goes around the next one together with B."""
+    document = together(duration=40.0, parameters={"patience": 0.3})
+    document["script"]["obstacle"]["until"] = {"kind": "time", "at": 12.0}
+    (record,) = run([document])
+    assert stages(record, "A")[:4] == [IDLE, ASKING, BRAKING, IDLE]
+
+
 def test_twenty_cars():
     """Nine behind each, 0.8 s apart: nobody touches anybody, those in A's lane slow down one behind the other, A drives on."""
     (record,) = run([together(others=9, duration=16.0)])
