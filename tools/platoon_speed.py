@@ -3,12 +3,13 @@
 uv run python tools/platoon_speed.py [--cars 100] [--seconds 120] [--profile]
 
 Every car has the full model and a radar, and hears the car ahead ten times a second. The plain application is the same file without
-its compilation. Wall and processor time of the simulation with its record on one core, building and compiling not counted; machine, versions
-and load stand beside the figures. With --profile: what the parts of the plain one cost.
+its compilation. Wall and processor time of the simulation with its record on one core, building and compiling not counted; machine,
+versions and load stand beside the figures. With --profile: what the parts of the plain one cost.
 """
 
 import argparse
 import cProfile
+import json
 import os
 import pstats
 import re
@@ -44,7 +45,7 @@ def platoon(folder: Path, application: str, cars: int, seconds: float) -> Simula
     length = cars * (GAP + 5.0) + 35.0 * seconds + 1000.0
     (folder / "motorway.xodr").write_text(motorway(length=length, lanes=2, radius=20_000.0), encoding="utf-8")
     path = folder / f"{application}.yaml"
-    path.write_text(__import__("json").dumps(document), encoding="utf-8")
+    path.write_text(json.dumps(document), encoding="utf-8")
     return simulation(job.prepare(job.load(path)))
 
 
