@@ -3,9 +3,9 @@
 uv run python -m docs.figures.feasibility            draws docs/pages/explanation/celc_feasible.svg, coarse, some minutes
 uv run python -m docs.figures.feasibility --long     the same over a finer grid with 72 runs a place, some hours: prints a table too
 
-Every run of a place has a seed of its own: B is 2.1 m behind A, give or take one, and sensors and radio have their noise and losses. A run is
-solved when nobody has touched anybody. Of k solved ones among n, the share of all that would be is bounded as C. J. Clopper and E. S. Pearson,
-Biometrika 26 (1934) 404, do: the bounds are those shares at which so many, or so few, would come with 2.5 %:
+Every run of a place has a seed of its own: B is 2.1 m behind A, give or take one, and sensors and radio have their noise and losses. A
+run is solved when nobody has touched anybody. Of k solved ones among n, the share of all that would be is bounded as C. J. Clopper and
+E. S. Pearson, Biometrika 26 (1934) 404, do: the bounds are those shares at which so many, or so few, would come with 2.5 %:
 
     lower = B(0.025; k, n - k + 1),   upper = B(0.975; k + 1, n - k)        B the quantile of the beta distribution
 
@@ -95,8 +95,9 @@ def draw_map(axes, title: str, grid: Grid, solved: np.ndarray) -> None:
     for (i, distance), (j, kmh) in product(enumerate(grid.distances), enumerate(grid.speeds)):
         axes.plot(kmh, distance, "s", color=colour(int(solved[i, j]), grid.runs), markersize=11.0)
         axes.annotate(f"{solved[i, j]}", (kmh, distance), ha="center", va="center", fontsize=6.0)
-    step = grid.distances[1] - grid.distances[0]
-    axes.set(title=title, xlabel="speed [km/h]", ylim=(grid.distances[0] - step, grid.distances[-1] + step))
+    step, aside = grid.distances[1] - grid.distances[0], grid.speeds[1] - grid.speeds[0]
+    wide = grid.speeds[0] - 0.5 * aside, grid.speeds[-1] + 0.5 * aside
+    axes.set(title=title, xlabel="speed [km/h]", xlim=wide, ylim=(grid.distances[0] - step, grid.distances[-1] + step))
     axes.set_xticks(grid.speeds)
 
 
