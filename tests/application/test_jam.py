@@ -8,7 +8,7 @@ import pytest
 from studio import job
 from studio.kinds.application import jam_warning
 
-COVERED = {"kind": "cellular", "coverage": "circle", "x": 0.0, "y": 0.0, "radius": 1000.0}
+COVERED = {"kind": "cellular", "coverage": "circle", "x": -2330.0, "y": -160.0, "radius": 1000.0}  # [m] around where the platoon starts
 
 
 def sample(root, **changes):
@@ -17,7 +17,7 @@ def sample(root, **changes):
 
 
 def test_the_warning_is_what_keeps_the_goals(root):
-    """With it nobody brakes by more than the comfortable 2 m/s² and a little; without, as hard as an ACC at the end of its radar's reach."""
+    """With it nobody brakes by much more than the comfortable 2 m/s²; without, as hard as an ACC where its radar's reach ends."""
     warned, blind = sample(root), sample(root, **{"applications.first.parameters.minds": False})
     assert warned.status == "done" and not warned.unmet, warned.unmet
     assert warned.metrics["max_deceleration"].value < 2.3 and blind.metrics["max_deceleration"].value > 5.0
@@ -37,7 +37,7 @@ def test_it_slows_down_along_its_law(root):
 
 
 def test_most_messages_may_be_lost_but_not_all_of_them(root):
-    """A warning counts for 10 s and comes every second: nine of ten may be lost. Where the network does not reach the jam, nothing is heard."""
+    """A warning counts for 10 s and comes every second: nine of ten may be lost. Where the network ends before the jam, none comes."""
     assert not sample(root, **{"radio.loss": 0.9}).unmet
     uncovered = sample(root, radio=COVERED)
     assert uncovered.metrics["max_deceleration"].value > 4.0

@@ -1,8 +1,8 @@
 """Traffic-jam warning: who has come to a jam tells those far behind, and they slow down before they see it; behind a car it is an ACC.
 
 A car that is slower than `slow` where the map allows twice as much, for `lasting`, sends a warning (DENM, cause 1, traffic) every
-`repetition`, with its place and its speed v_j; it counts for VALID. Who hears one from d ahead on its way drives no faster than lets it come
-to v_j with no more than `comfort` b, MARGIN before the jam,
+`repetition`, with its place and its speed v_j; it counts for VALID. Who hears one from d ahead on its way drives no faster than lets it
+come to v_j with no more than `comfort` b, MARGIN before the jam,
 
     v(d) = sqrt(v_j² + 2 b (d - MARGIN)),
 
