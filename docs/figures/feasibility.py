@@ -70,7 +70,7 @@ def needed(share: float, doubt: float = DOUBT) -> int:
 
 def tried(kmh: float, distance: float, seed: int, changes: dict[str, Any]) -> dict[str, Any]:
     """One run of a place."""
-    document = situation(**{"speed": kmh / 3.6, "distance": distance, "parameters": SEEN, "seed": seed} | changes)
+    document = situation(speed=kmh / 3.6, distance=distance, parameters=SEEN, seed=seed, **changes)
     document["vehicles"]["B"]["position"]["offset"] += float(np.random.default_rng(seed).uniform(-SPREAD, SPREAD))
     return document
 
