@@ -83,12 +83,12 @@ def way(document: dict[str, Any]) -> float:
     return first + SPEED * document["clock"]["duration"]
 
 
-def run(documents: list[dict[str, Any]]) -> list[Record]:
-    """The records of scenarios that are run side by side."""
+def run(documents: list[dict[str, Any]], *, lanes: int = 2) -> list[Record]:
+    """The records of scenarios that are run side by side, on a road with so many lanes each way."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         longest = max(map(way, documents))
-        (folder / "motorway.xodr").write_text(motorway(length=longest + 2500.0, lanes=2, radius=20_000.0), encoding="utf-8")
+        (folder / "motorway.xodr").write_text(motorway(length=longest + 2500.0, lanes=lanes, radius=20_000.0), encoding="utf-8")
         prepared = []
         for i, document in enumerate(documents):
             (folder / f"{i}.yaml").write_text(json.dumps(document, default=float), encoding="utf-8")

@@ -33,6 +33,7 @@ SENSORS = {
     "front": {"kind": "object_sensor", "range": 150.0, "opening_angle": 1.0, "visible": 0.05},
     "around": AROUND,
     "lane": {"kind": "lane_markings", "noise": 0.01, "heading_noise": 0.001},
+    "road": {"kind": "digital_map"},
 }
 
 

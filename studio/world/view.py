@@ -67,6 +67,8 @@ class View(NamedTuple):
     stop_link: Any
     shown: Any  # what each light shows
     sight: Any  # bodies that `look` has seen
+    receiver: Any  # settings of the satellite receivers, [row, vehicle]
+    satellite: Any  # their errors, and the sky that they have
 
 
 class Me(NamedTuple):

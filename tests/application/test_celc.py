@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from docs.figures.convoy import run
-from docs.figures.situation import APPEARS, formula, least, situation, survived, way_aside
+from docs.figures.situation import APPEARS, FRONT, WIDTH, car, formula, least, situation, survived, way_aside
 from studio import job
 from studio.conventions import GRAVITY
 from studio.model.evasion import left_over
@@ -112,6 +112,78 @@ def test_followers_brake_with_those_ahead():
     assert survived(record)
     assert FOLLOWING in stages(record, "behind_A_1") and FOLLOWING in stages(record, "behind_B_1")
     assert record.trace("behind_A_1.speed")[-1] < 1.0
+
+
+def three_lanes():
+    """A follower behind A and one behind B; in the third lane C with a follower; two more 200 m before A, in its lane. All hear all."""
+    document = together(others=1, duration=9.0)
+    a, group = document["vehicles"]["A"]["position"]["offset"], document["applications"]["evasion"]
+    document["vehicles"] |= {
+        "C": car(2, a - 30.0, FAST), "behind_C": car(2, a - 60.0, FAST), "far": car(1, a + 200.0, FAST), "farther": car(1, a + 245.0, FAST),
+    }  # fmt: skip
+    document["applications"]["evasion"] = {key: value for key, value in group.items() if key != "listens_to"} | {
+        "units": list(document["vehicles"])
+    }
+    return document
+
+
+def test_only_who_is_concerned_brakes():
+    """All hear all: the followers in A's lane and in B's brake; those in the third lane and those ahead of A drive on as if nothing was."""
+    (record,) = run([three_lanes()], lanes=3)
+    assert survived(record)
+    assert FOLLOWING in stages(record, "behind_A_1") and FOLLOWING in stages(record, "behind_B_1")
+    for name in ("C", "behind_C", "far", "farther"):
+        assert stages(record, name) == [IDLE], name
+        assert record.trace(f"{name}.speed").min() > FAST - 3.0, name  # who keeps his own gap slows down by 2 m/s
+
+
+def test_who_cannot_tell_lanes_brakes():
+    """With a plain receiver, 1.5 m, lanes cannot be told: the one in the third lane that has somebody ahead brakes, to be safe."""
+    plain = {"gps": {"drift": 1.5, "noise": 0.3}}
+    document = three_lanes()
+    document["vehicles"]["behind_C"] |= plain
+    (record,) = run([document], lanes=3)
+    assert stages(record, "C") == [IDLE] and stages(record, "behind_C")[:2] == [IDLE, FOLLOWING]
+
+
+def then(document, along, distance, lane):
+    """A further obstacle, so far [m] before A's bumper when A comes to a place of its way [m]; lane 0 is the right one."""
+    box = document["script"]["obstacle"]["do"] | {"line": [[along + FRONT + distance + 0.5, lane * WIDTH]]}
+    document["script"]["further"] = {"when": {"kind": "passed", "vehicle": "A", "along": along}, "do": box}
+    return document
+
+
+def test_a_second_evasion_after_a_first_one():
+    """A has gone to the right lane; 250 m on something lies there, too: it goes around it, back to its first lane, and stays there."""
+    (record,) = run([then(together(duration=18.0), 400.0, 1.25 * formula(FAST, 0.02), 0)])
+    assert survived(record)
+    assert stages(record, "A") == [IDLE, ASKING, COMMITTED, EVADING, ASIDE, EVADING, ASIDE]
+    aside = record.trace("A.lateral_offset")
+    assert aside.min() == pytest.approx(-WIDTH, abs=0.5) and abs(aside[-1]) < 0.3
+    assert record.trace("A.speed")[-1] == pytest.approx(FAST, abs=2.0)
+
+
+def test_an_evasion_after_one_that_was_aborted():
+    """B is not heard, A brakes to a stand; that obstacle is taken away, A drives on, and goes around the next one."""
+    document = situation(speed=14.0, distance=30.0, parameters={"always": True, "patience": 0.3}, duration=40.0)
+    document["script"]["obstacle"]["until"] = {"kind": "time", "at": 8.0}
+    document["script"]["silence"] = {"when": {"kind": "time", "at": APPEARS}, "do": {"kind": "drop_messages", "unit": "B", "count": 30}}
+    (record,) = run([then(document, 350.0, 25.0, 1)])
+    assert survived(record) and record.trace("A.speed").min() < 0.3
+    assert stages(record, "A") == [IDLE, ASKING, BRAKING, IDLE, EVADING, ASIDE]
+
+
+def test_where_there_is_no_lane_to_the_wanted_side_it_goes_to_the_other_one():
+    """A is told to go to the left, where its lane is the last one: it asks B, to the right, as the map has it; without a lane it brakes."""
+    two, one = together(parameters={"side": 1.0}), together(parameters={"side": 1.0})
+    del one["vehicles"]["B"]
+    one["vehicles"]["A"]["position"]["lane"] = 0
+    one["applications"]["evasion"] |= {"units": ["A"], "listens_to": [[]]}
+    one["script"]["obstacle"]["do"]["line"][0][1] = 0.0
+    (wide,) = run([two])
+    (narrow,) = run([one], lanes=1)
+    assert survived(wide) and wide.trace("A.lateral_offset")[-1] == pytest.approx(-WIDTH, abs=0.4)
+    assert stages(narrow, "A")[:2] == [IDLE, BRAKING]
 
 
 def test_twenty_cars():

@@ -55,6 +55,22 @@ def times(messages):
     return found.ravel()
 
 
+def unheard(messages, times_sent):
+    """In which rounds none of the first so many commitments came: they begin with the first acknowledgement that the asker has heard."""
+    sender, lost = messages.sender, []
+    heard = np.zeros(sender.size, dtype=bool)
+    heard[messages.of[messages.is_received]] = True
+    for pair in range(PAIRS):
+        asks, answers = messages.units.index(f"asks_{pair}"), messages.units.index(f"answers_{pair}")
+        acknowledged = messages.came[messages.is_received & (sender[messages.of] == answers)]
+        mine = np.flatnonzero(sender == asks)
+        for i in range(int(SECONDS / ROUND) - 1):
+            first = acknowledged[(acknowledged > i * ROUND - 1e-6) & (acknowledged < (i + 1) * ROUND - 1e-6)].min()
+            commits = mine[messages.time[mine] >= first - 1e-6][:times_sent]
+            lost.append(not heard[commits].any())
+    return np.array(lost)
+
+
 @pytest.mark.parametrize("loss", [0.1, 0.3, 0.5])
 def test_time_of_a_handshake(own_kinds, loss):
     """P(done by 45 + 20 m ms) is that of at most m failures before the third success: 5960 handshakes, three standard errors, seed 1."""
@@ -70,6 +86,8 @@ def test_time_of_a_handshake(own_kinds, loss):
     waits = (took - 0.045) / 0.02
     np.testing.assert_allclose(waits, np.round(waits), atol=1e-3)  # no wait for ticks: every loss costs one repetition
     assert took.mean() == pytest.approx(0.045 + 0.02 * 3.0 * loss / q, abs=3.0 * 0.02 * sqrt(3.0 * loss / q**2 / n))
+    never = loss**5  # a commitment that is sent five times: 0.00243 at a loss of 0.3
+    assert np.mean(unheard(record.messages, 5)) == pytest.approx(never, abs=3.0 * sqrt(never * (1.0 - never) / n) + 1.0 / n)
 
 
 def test_the_application_knows_it_at_its_own_next_cycle(own_kinds):

@@ -40,6 +40,12 @@ def test_stopping_distance():
     assert evasion.stopping_distance(100 / 3.6, a, 0.0, 0.3) == pytest.approx(50.40, rel=5e-3)
 
 
+@pytest.mark.parametrize(("late", "way"), [(0.27, 53.76), (1.25, 80.98)])
+def test_the_follower_of_who_evades_stands_before_the_obstacle(late, way):
+    """100 km/h, 0.85 g: told by message, 0.27 s late, and by a person's eyes, 1.25 s late (O2 of the checks)."""
+    assert evasion.stopping_distance(100 / 3.6, 0.85 * GRAVITY, late, 0.0) == pytest.approx(way, rel=0.01)
+
+
 @pytest.mark.parametrize(("v", "way"), [(15.0, 9.979), (20.0, 13.554), (25.0, 17.079)])
 def test_nothing_undercuts_the_friction_circle(v, way):
     """2 m aside while braking with what the tyre has left, mu 0.85: the least way of all lateral accelerations; the formula is above."""

@@ -33,6 +33,7 @@ SCRATCH = {
     *(f"world.units.posts[{i}].{name}" for i in range(3) for name in ("came", "came_count")),  # from the post to the inboxes
     *(f"world.open_inboxes[{i}].post.{name}" for i in range(3) for name in ("came", "came_count")),
     *(f"world.open_inboxes[{i}].when" for i in range(3)),  # behind those who are heard nobody looks; up to there it is made anew
+    *(f"world.open_inboxes[{i}].ready" for i in range(3)),  # a function, with its arrays given once it has been called
     *SORTED,
 }
 KNOWN = {"world.roads.shadow.sky"}  # looked up once and kept: open sky

@@ -5,16 +5,21 @@ takes follows from what it sees and hears:
 
     sees something slow in its lane, nearer than it can stop     asks   → committed → evades → done
     is asked, and sees the asking car beside itself              weighs → yields    → resumes                or refuses
-    hears one of these, and follows                              brakes → resumes
+    hears one of these from its own lane, ahead of itself        brakes → resumes
 
     REQUEST  who asks to the side, until a deadline; where it sees the other one       repeated until it is answered
     ACCEPT   with the braking that is offered, which begins at once; or REJECT         repeated until a commitment is heard, or the deadline
     COMMIT   begins to steer as soon as the other has fallen back by then              repeated until it is done
     DONE     in the other lane; or ABORT: brakes instead                               repeated for a while
 
-Who hears any of it and has a car ahead brakes with it: lanes cannot be told apart by what is heard, so every unit must name in `listens_to`
-whom it would follow and who drives beside it. An evasion happens once: afterwards the car keeps the other lane and its gap to the end of
-the run, and takes part in no further maneuver.
+Who hears any of it, has a car ahead and drives behind the sender in the sender's lane brakes with it: the followers of A with A, those
+of B with B, nobody else. Every message tells the sender's place, its way, and how many lanes the map has on either side of it; two are in
+one lane when one of these numbers is the same, since a lane that begins or ends changes the other. Whose receiver is too poor for lanes,
+TOLD_APART standard deviations of it being more than half a lane, says so, and takes every lane for the own one: to brake is safer than to
+guess.
+
+Afterwards the car keeps the other lane and its gap, and is free for a next maneuver, as it is after one that was aborted. To which side the
+next one goes the map says: back to where it came from, or to the other side where there is no lane.
 
 All of it carries the number that who asked has given it. The safe default is to brake: when nobody answers in time or one refuses, when
 the other one was heard to brake but is not seen to, and where braking alone is enough. Who has accepted and hears no commitment until
@@ -26,7 +31,7 @@ one, braking as it has told, will have fallen back by LONG_MARGIN at the moment 
 It is followed as in the action change_lane, by the lane's markings, which the car keeps seeing from the other lane.
 """
 
-from math import atan, cos, floor, sin
+from math import atan, copysign, cos, floor, sin
 from typing import Annotated, NamedTuple
 
 from studio.application.contract import (
@@ -65,7 +70,9 @@ TOLD_FOR = 0.5  # [s] an end is repeated
 LENGTH, WIDTH = 4.3, 1.8  # [m] of the own car
 BEHIND, BEFORE = -14.0, 8.0  # [m] middles of cars ahead of the own front bumper that stand in the way of a lane change
 CORRIDOR = 1.2  # [m] to each side of the middle of the lane: what comes in there is in the way
-SAME = 3.0  # [m] within which both see each other where the other says
+SAME = 3.0  # [m] within which both see each other where the other says; more by what the positions may be wrong
+TOLD_APART = 2.0  # [1] standard deviations of the position within half a lane, so that 95 % of all lanes are right
+UNKNOWN = -1.0  # lanes, where the position is too poor
 SURE = 0.25  # [s] after the other one's brakes should have acted, it must be seen
 RESERVE = 0.07  # [s] between commitment and wheels: it is repeated thrice, and the other one may be later than it has told
 TURN_LAG, YAW_LAG = 0.01, 0.0065  # [s], [s²/m] per speed, by which a car takes up a bend late; estimated for the electric compact
@@ -81,7 +88,14 @@ RESUME_HEADWAY, RESUME_GAP = 1.5, 3.0  # [s], [m]
 class Parameters(Part):
     """What is tuned."""
 
-    side: float = number(-1.0, unit="1", title="Side", description="of the lane to go to: -1 right, 1 left, 0 there is none", ge=-1, le=1)
+    side: float = number(
+        -1.0,
+        unit="1",
+        title="Side",
+        description="to go to first: -1 right, 1 left, 0 none; the other one where the map has no lane there",
+        ge=-1,
+        le=1,
+    )
     width: float = number(3.5, unit="m", title="Width", description="from the middle of one lane to that of the other", ge=2, le=5)
     slow: float = number(5.0, unit="m/s", title="Slow", description="what is slower along the road counts as an obstacle", ge=0, le=30)
     confidence: float = number(0.9, unit="1", title="Confidence", description="of the sensor that there is something", ge=0, le=1)
@@ -116,19 +130,22 @@ class Memory(NamedTuple):
     begin: Annotated[float, "s", "when the wheels turn"] = 0.0
     braked: Annotated[float, "s", "when the other one's brakes act"] = 0.0
     offered: Annotated[float, "m/s²", "braking that was agreed on"] = 0.0
+    home: Annotated[float, "m", "offset of the lane in which it drives from its first one, to the left"] = 0.0
+    goal: Annotated[float, "m", "offset of the lane to which it goes"] = 0.0
     place: Annotated[float, "m", "offset at which the way aside began, to the left"] = 0.0
     first: Annotated[float, "m", "distance at which the obstacle was recognised"] = -1.0
     closed: Annotated[float, "1", "number of the last maneuver that is over"] = 0.0
 
 
 class Sees(NamedTuple):
-    """What it sees: ahead, around, of its lane; and what it hears."""
+    """What it sees: ahead, around, of its lane and of its road; and what it hears."""
 
     clock: Clock
     own: Own
     front: Annotated[Targets, "object_sensor", 8]
     around: Annotated[Targets, "blind_spot", 8]
     lane: Annotated[Targets, "lane_markings", 1]
+    road: Annotated[Targets, "digital_map", 1]
     heard: Annotated[Inbox, "maneuver", 4]
 
 
@@ -187,8 +204,27 @@ def offset_of(sees, before):
 
 
 @compiled
+def lanes_of(sees):
+    """Lanes to the left and to the right of the own one [1], UNKNOWN where the position is too poor for that."""
+    road = sees.road.target[0]
+    if sees.road.count == 0 or TOLD_APART * road.sigma > 0.5 * road.width:
+        return UNKNOWN, UNKNOWN
+    return road.lanes_left, road.lanes_right
+
+
+@compiled
+def side_of(p, m, sees):
+    """The side to go to: the wanted one, or back after an evasion; the other one, or none, where the map has no lane there."""
+    wanted = p.side if m.home == 0.0 else copysign(1.0, -m.home)
+    left, right = lanes_of(sees)
+    if wanted == 0.0 or left < 0.0 or (left if wanted > 0.0 else right) > 0.0:
+        return wanted
+    return -wanted if (right if wanted > 0.0 else left) > 0.0 else 0.0
+
+
+@compiled
 def look_ahead(p, sees, offset):
-    """The nearest slow thing in the first lane, and the nearest of all in the own corridor."""
+    """The nearest slow thing in the lane whose middle is `offset` [m] to the right, and the nearest of all in the own corridor."""
     is_there, distance, sure, lasted, gap, rate = False, 1e6, 0.0, 0.0, 1e6, 0.0
     for i in range(sees.front.count):
         target = sees.front.target[i]
@@ -253,19 +289,36 @@ def is_braking(p, time, memory, beside):
 @compiled
 def entered(m, stage, time):
     """Another stage, from now on."""
-    return Memory(stage, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.place, m.first, m.closed)
+    return Memory(
+        stage, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first, m.closed
+    )  # fmt: skip
 
 
 @compiled
 def alone(m):
     """Without a maneuver: what is done now is of none that was before, and nothing is said of it."""
-    return Memory(m.stage, m.since, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, m.first, m.closed)
+    return Memory(m.stage, m.since, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, 0.0, m.home, m.home, 0.0, m.first, m.closed)
 
 
 @compiled
 def over(m, stage, time):
     """The maneuver is over: nothing more of it is minded."""
-    return Memory(stage, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.place, m.first, m.identity)
+    closed = m.identity if m.identity != 0.0 else m.closed
+    return Memory(stage, time, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, m.offered, m.home, m.home, 0.0, m.first, closed)
+
+
+@compiled
+def free(m):
+    """The stage of who is in no maneuver: one that has gone aside keeps its lane by itself."""
+    return ASIDE if m.home != 0.0 else IDLE
+
+
+@compiled
+def arrived(m, time):
+    """The other lane is the own one now."""
+    return Memory(
+        ASIDE, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.goal, m.goal, m.place, m.first, m.closed
+    )  # fmt: skip
 
 
 @compiled
@@ -276,13 +329,12 @@ def number_of(time, own):
 
 
 @compiled
-def recognised(p, m, sees, obstacle, beside):
+def recognised(p, m, sees, obstacle, beside, side):
     """What is done about an obstacle: braking where that is enough or all there is, going around it where nobody is beside, else asking."""
-    time, first = sees.clock.time, obstacle.distance
-    identity = number_of(time, sees.own)
-    stage = ASKING if beside.count > 0 else EVADING
-    new = Memory(stage, time, identity, -1.0, time + p.patience, -1.0, time, 0.0, 0.0, 0.0, first, m.closed)
-    return new if p.side != 0.0 else entered(new, BRAKING, time)
+    time, goal = sees.clock.time, m.home + side * p.width
+    stage = BRAKING if side == 0.0 else ASKING if beside.count > 0 else EVADING
+    identity, deadline = number_of(time, sees.own), time + p.patience
+    return Memory(stage, time, identity, -1.0, deadline, -1.0, time, 0.0, 0.0, m.home, goal, 0.0, obstacle.distance, m.closed)
 
 
 @compiled
@@ -304,12 +356,12 @@ def must_brake(p, v, distance):
 
 
 @compiled
-def as_asking(p, m, sees, obstacle, beside, offset):
+def as_asking(p, m, sees, obstacle, beside, side, offset):
     """The part of who has an obstacle before him."""
     time, v = sees.clock.time, sees.own.speed
-    if m.stage == IDLE and is_recognised(p, obstacle) and v > SLOWEST:
+    if m.stage in (IDLE, ASIDE) and is_recognised(p, obstacle) and v > SLOWEST:
         if must_evade(p, v, obstacle.distance):
-            new = recognised(p, m, sees, obstacle, beside)
+            new = recognised(p, m, sees, obstacle, beside, side)
             return new if new.stage != EVADING else started(new, time, offset)
         return entered(alone(m), BRAKING, time) if must_brake(p, v, obstacle.distance) else m
     if m.stage == ASKING:
@@ -318,44 +370,78 @@ def as_asking(p, m, sees, obstacle, beside, offset):
             return entered(m, BRAKING, time)
         if accepted >= max(beside.count, 1):
             begin, braked = plan(p, time, v, age, offered, beside)
-            return Memory(COMMITTED, time, m.identity, -1.0, m.deadline, -1.0, begin, braked, offered, 0.0, m.first, m.closed)
+            return Memory(
+                COMMITTED, time, m.identity, -1.0, m.deadline, -1.0, begin, braked, offered, m.home, m.goal, 0.0, m.first, m.closed
+            )  # fmt: skip
     if m.stage == COMMITTED and not is_braking(p, time, m, beside):
         return entered(m, BRAKING, time)
     if m.stage == COMMITTED and time >= m.begin:
         return started(m, time, offset)
     if m.stage == EVADING and time > m.since + evasion.change_time(p.width, p.lateral) + lag(v):
-        return entered(m, ASIDE, time)
+        return arrived(m, time)
     if m.stage == BRAKING and v < STANDS and not obstacle.is_there:
-        return over(m, IDLE, time)
+        return over(m, free(m), time)
     return m
 
 
 @compiled
 def started(m, time, offset):
     """The wheels turn."""
-    return Memory(EVADING, time, m.identity, -1.0, m.deadline, -1.0, time, m.braked, m.offered, offset, m.first, m.closed)
+    return Memory(
+        EVADING, time, m.identity, -1.0, m.deadline, -1.0, time, m.braked, m.offered, m.home, m.goal, offset, m.first, m.closed
+    )  # fmt: skip
 
 
 @compiled
-def is_there_as_told(payload, other):
-    """Whether the car that is seen beside is the one that asks: both see each other where the other says."""
-    return other.count > 0 and abs(payload.ahead + other.ahead + 0.5 * (other.length + LENGTH)) < SAME
+def before(sees, message):
+    """How far the sender is ahead [m] along the own road, by both satellite positions; since it sent it has come as far as the own car."""
+    along, told = sees.road.target[0].heading, message.payload
+    apart = (told.x - sees.own.gps_x) * cos(along) + (told.y - sees.own.gps_y) * sin(along)
+    return apart + sees.own.speed * message.age
+
+
+@compiled
+def is_there_as_told(sees, message, other):
+    """Whether the car that is seen beside is the one that asks: both see each other where the other says, and satellites place it there."""
+    is_seen = other.count > 0 and abs(message.payload.ahead + other.ahead + 0.5 * (other.length + LENGTH)) < SAME
+    unsure = SAME + 3.0 * sees.road.target[0].sigma
+    return is_seen and (sees.road.count == 0 or abs(before(sees, message) - other.ahead - 0.5 * LENGTH) < unsure)
+
+
+@compiled
+def is_in_one_lane(sees, told):
+    """Whether the sender is in the own lane, as far as both know: the numbers of lanes on one side are the same."""
+    left, right = lanes_of(sees)
+    return left < 0.0 or told.lanes_left < 0.0 or left == told.lanes_left or right == told.lanes_right
+
+
+@compiled
+def is_ahead(sees, message):
+    """Whether the sender is ahead on the own road, on its way in the same direction; without a map it is taken to be."""
+    if sees.road.count == 0:
+        return True
+    told = message.payload
+    is_same_way = told.lanes_left < 0.0 or cos(told.heading - sees.road.target[0].heading) > 0.0
+    return is_same_way and before(sees, message) > 0.0
 
 
 @compiled
 def called(p, m, sees, obstacle):
-    """The part of who is free and hears of a maneuver: weighs when asked, brakes when behind."""
+    """The part of who is free and hears of a maneuver: weighs when asked, brakes when behind in the same lane."""
     time = sees.clock.time
     for i in range(sees.heard.count):
         message = sees.heard.message[i]
         told, identity = message.payload, message.payload.identity
         if not message.received or message.age > TOLD_FOR or identity == m.closed:
             continue
-        is_asked = told.step == REQUEST and is_there_as_told(told, look_aside(-told.side, sees))
-        if is_asked or ((told.step in (REQUEST, ACCEPT, ABORT)) and obstacle.gap < 100.0):
-            stage = WEIGHING if is_asked else FOLLOWING
+        is_asked = told.step == REQUEST and is_there_as_told(sees, message, look_aside(-told.side, sees))
+        follows = (
+            (told.step in (REQUEST, ACCEPT, ABORT)) and obstacle.gap < 100.0 and is_ahead(sees, message) and is_in_one_lane(sees, told)
+        )
+        if is_asked or follows:
+            stage, offered = WEIGHING if is_asked else FOLLOWING, -told.acceleration
             return Memory(
-                stage, time, identity, message.sender, told.deadline, -1.0, 0.0, 0.0, -told.acceleration, 0.0, m.first, m.closed
+                stage, time, identity, message.sender, told.deadline, -1.0, 0.0, 0.0, offered, m.home, m.home, 0.0, m.first, m.closed
             )  # fmt: skip
     return m
 
@@ -389,7 +475,7 @@ def as_asked(p, m, sees, obstacle):
     if m.stage == WEIGHING and time - m.since >= p.processing:
         return entered(m, REFUSING if is_pressed(p, sees) else YIELDING, time)
     if m.stage == REFUSING and time - m.since > TOLD_FOR:
-        return over(m, IDLE, time)
+        return over(m, free(m), time)
     if m.stage == YIELDING:
         step, gap = last_step(m, heard), obstacle.gap
         is_off = step in (DONE, ABORT) or (step < COMMIT and time > m.deadline + GRACE)
@@ -397,7 +483,7 @@ def as_asked(p, m, sees, obstacle):
     if m.stage == FOLLOWING and not obstacle.is_there and last_step(m, heard) in (0, DONE):
         return over(m, RESUMING, time)
     if m.stage == RESUMING and time - m.since > RESUMED:
-        return over(m, IDLE, time)
+        return over(m, free(m), time)
     return m
 
 
@@ -411,8 +497,10 @@ def drive_on(own, obstacle):
 
 @compiled
 def way_aside(p, m, time):
-    """Offset [m], its rate [m/s] and second derivative [m/s²] of the way aside at a time [s]."""
-    T, W = evasion.change_time(p.width, p.lateral), p.side * p.width - m.place
+    """Offset [m], its rate [m/s] and second derivative [m/s²] of the way aside at a time [s]; without an evasion it is the own lane."""
+    if m.stage != EVADING:
+        return m.home, 0.0, 0.0
+    T, W = evasion.change_time(p.width, p.lateral), m.goal - m.place
     u = (time - m.begin) / T
     return m.place + W * evasion.share(u), W / T * evasion.slope(u), W / (T * T) * evasion.bend(u)
 
@@ -436,13 +524,11 @@ def evading(p, m, own, time):
 
 
 @compiled
-def command(p, m, sees, obstacle, offset):
-    """What is asked of the car in each stage."""
-    time, stage = sees.clock.time, int(m.stage)
+def speeding(p, m, sees, obstacle):
+    """What is asked of drive and brakes in each stage; nothing where the driver does it."""
+    stage = int(m.stage)
     if stage == EVADING:
-        return also(accelerate(evading(p, m, sees.own, time)), steer(steering(p, m, sees, offset)))
-    if stage == ASIDE:
-        return also(accelerate(drive_on(sees.own, obstacle)), steer(steering(p, m, sees, offset)))
+        return accelerate(evading(p, m, sees.own, sees.clock.time))
     if stage in (ASKING, COMMITTED):
         return accelerate(0.0)
     if stage == BRAKING:
@@ -451,15 +537,25 @@ def command(p, m, sees, obstacle, offset):
         return accelerate(-p.yielding)
     if stage == FOLLOWING:
         return accelerate(-min(max(m.offered, 0.0), p.braking))
-    return accelerate(drive_on(sees.own, obstacle)) if stage == RESUMING else leave()
+    return accelerate(drive_on(sees.own, obstacle)) if stage in (ASIDE, RESUMING) or m.home != 0.0 else leave()
 
 
 @compiled
-def message_of(p, m, beside):
-    """What the car says of the maneuver."""
-    stage = int(m.stage)
-    offered = p.yielding if stage == YIELDING else p.braking
-    return Payload(SAID[stage] * 1.0, m.identity, m.asking, -1.0, m.deadline, p.side, LONG_MARGIN, -offered, max(beside.ahead, -1e3))
+def command(p, m, sees, obstacle, offset):
+    """What is asked of the car: a driver would steer back to the lane of his route, so one that has left it steers by itself."""
+    asked = speeding(p, m, sees, obstacle)
+    return also(asked, steer(steering(p, m, sees, offset))) if m.stage in (EVADING, ASIDE) or m.home != 0.0 else asked
+
+
+@compiled
+def message_of(p, m, sees, beside, side):
+    """What the car says of the maneuver, and where it is."""
+    stage, own = int(m.stage), sees.own
+    offered, (left, right) = p.yielding if stage == YIELDING else p.braking, lanes_of(sees)
+    return Payload(
+        SAID[stage] * 1.0, m.identity, m.asking, -1.0, m.deadline, side, LONG_MARGIN, -offered, max(beside.ahead, -1e3),
+        own.gps_x, own.gps_y, sees.road.target[0].heading, left, right,
+    )  # fmt: skip
 
 
 @compiled
@@ -471,20 +567,32 @@ def is_said(p, m, time):
 
 
 @compiled
+def said(m, time):
+    """A message has gone out."""
+    return Memory(
+        m.stage, m.since, m.identity, m.asking, m.deadline, time, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first, m.closed
+    )  # fmt: skip
+
+
+@compiled
 def decide(parameters, memory, sees):
     """One moment."""
     p, m, time = parameters, memory, sees.clock.time
-    offset = offset_of(sees, m.place)
-    obstacle, beside = look_ahead(p, sees, offset), look_aside(p.side, sees)
-    m = as_asking(p, m, sees, obstacle, beside, offset)
-    if p.cooperates and m.stage in (IDLE, RESUMING):
+    offset = offset_of(sees, m.home)
+    side = copysign(1.0, m.goal - m.home) if m.goal != m.home else side_of(p, m, sees)
+    obstacle, beside = look_ahead(p, sees, offset - m.home), look_aside(side, sees)
+    m = as_asking(p, m, sees, obstacle, beside, side, offset)
+    if p.cooperates and (m.stage in (IDLE, RESUMING) or (m.stage == ASIDE and time - m.since > TOLD_FOR)):
         m = called(p, m, sees, obstacle)
     m = as_asked(p, m, sees, obstacle)
     says = is_said(p, m, time)
     if says:
-        m = Memory(m.stage, m.since, m.identity, m.asking, m.deadline, time, m.begin, m.braked, m.offered, m.place, m.first, m.closed)
+        m = said(m, time)
     log = Log(m.stage, obstacle.confidence, m.first, way_aside(p, m, time)[0] if m.stage in (EVADING, ASIDE) else 0.0)
     does = Does(
-        command(p, m, sees, obstacle, offset), Outbox(1 if says else 0, (message_of(p, m, beside),)), Notice(SHOWN[int(m.stage)]), log
+        command(p, m, sees, obstacle, offset),
+        Outbox(1 if says else 0, (message_of(p, m, sees, beside, side),)),
+        Notice(SHOWN[int(m.stage)]),
+        log,
     )
     return m, does

@@ -26,3 +26,8 @@ class Payload(NamedTuple):
     gap: Annotated[float, "m", "that is needed, bumper to bumper"] = 0.0
     acceleration: Annotated[float, "m/s²", "that is offered or asked for"] = 0.0
     ahead: Annotated[float, "m", "where the sender sees whom it asks: its middle, ahead of the own front bumper"] = 0.0
+    x: Annotated[float, "m", "east position of the sender by its satellite receiver, with its errors"] = 0.0
+    y: Annotated[float, "m", "north position, likewise"] = 0.0
+    heading: Annotated[float, "rad", "of the road at the sender, on its way, counter-clockwise from east"] = 0.0
+    lanes_left: Annotated[float, "1", "lanes of its direction to the left of the sender's; -1 where it cannot tell"] = -1.0
+    lanes_right: Annotated[float, "1", "lanes of its direction to the right of the sender's; -1 where it cannot tell"] = -1.0
