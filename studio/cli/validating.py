@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, load_kinds
-from studio.cli.output import print_json, print_table, signed, text
+from studio.cli.output import print_json, print_table, text
 from studio.cli.progress import compile_first, progress, told
 from studio.errors import Problem, ScenarioError
 
@@ -197,32 +197,13 @@ def validate(
 
 def print_validated(number: int, step, found) -> None:
     """Verdicts, and the span in words."""
-    from studio.validation import span
+    from studio.validation import span, table
     from studio.validation.zone import WORDS
 
     before = f"with the values of iteration {step.before.iteration}" if step.before else "as the project names it"
     print(f"iteration {number}: {step.loaded.model.name}, {before}; {WORDS[found.confidence]}")
-    rows = [
-        [
-            each.maneuver,
-            each.criterion,
-            text(each.ours),
-            text(each.theirs),
-            interval(each),
-            signed(each.error),
-            text(each.limit),
-            each.verdict,
-            each.reason,
-        ]
-        for each in found.verdicts
-    ]
-    print_table(["maneuver", "criterion", "ours", "theirs", "interval", "error", "limit", "verdict", "reason"], rows)
+    print_table(["maneuver", *table.HEAD], [[each.maneuver, *table.cells(each)] for each in found.verdicts])
     print("Validated span:", "; ".join(span.told(found.span)))
-
-
-def interval(each) -> str:
-    """The interval of a verdict."""
-    return "–" if each.low is None else f"{each.low:.4g} to {each.high:.4g}"
 
 
 def print_report(out: Path, step, found, runs, number: int) -> None:

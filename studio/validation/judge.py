@@ -136,7 +136,11 @@ def measured(compared: Comparison) -> list[Measure]:
             f"maneuvers.{compared.name}", "has runs that have nothing in common", remedy="cut them so that they hold the same gears"
         )
         raise ScenarioError(f"The runs of {compared.name} cannot be compared.", [problem])
-    return [Measure(name, theirs[0][name][1], values(theirs, name), values(ours, name), float(averaged[name][0])) for name in shared]
+    return [
+        Measure(name, rule, values(theirs, name), values(ours, name), float(averaged[name][0]), unit)
+        for name, (_, rule, unit) in theirs[0].items()
+        if name in shared
+    ]
 
 
 def values(runs: Sequence[dict], name: str) -> np.ndarray:

@@ -42,7 +42,7 @@ def test_the_way_from_a_log_to_a_car_with_its_span(path, tmp_path):
     after = studio("validate", path, "--db", db, "--out", out, "--report", page, "--json")
     result = json.loads(after.stdout)
     assert after.exit_code == 0 and result["valid"] and "two-sided" in result["interval"]
-    names = ["maneuver", "criterion", "ours", "theirs", "low", "high", "error", "limit", "verdict", "reason"]
+    names = ["maneuver", "criterion", "ours", "theirs", "low", "high", "error", "limit", "verdict", "reason", "unit", "error_unit"]
     assert list(result["verdicts"][0]) == names and {"verdicts", "span", "interval"} <= result.keys()
     car = catalogue.find_vehicle(str(out))
     assert car.values.validated.model_dump() == result["span"]["whole"]

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
 from studio.log.smooth import crossing
 from studio.validation.marks import Lobe, Marks, lacking, lobes, mean, steering
@@ -50,4 +51,4 @@ def marks(recording: Recording) -> Marks:
 
 def measures(recording: Recording, at: Marks) -> dict:
     """Steady-state gains of yaw rate and lateral acceleration."""
-    return {f"steady {name}": (mean(recording, name, at.since, at.until), "gain") for name in JUDGED}
+    return {f"steady {name}": (mean(recording, name, at.since, at.until), "gain", QUANTITIES[name].unit) for name in JUDGED}

@@ -1,6 +1,7 @@
 /** Validation projects as the page shows them: what stands in them, the patches that change them, and courses as columns. */
 
 import type { Server } from "./run";
+import { formatNumber } from "./units";
 
 export type ProjectRow = Server["ProjectRow"];
 export type Project = Server["ProjectDetail"];
@@ -102,6 +103,18 @@ export function addParameter(said: Said, step: string, path: string, low: number
   }
   return [{ op: "add", path: `/calibration/${part(step)}/parameters/${part(path)}`, value }];
 }
+
+// -- verdicts -----------------------------------------------------------------------------------------
+
+/** A number with its unit as a verdict has it; a pure number is a share, in per cent. What was judged by an older studio has no unit. */
+export const measured = (value: number | null, unit: string | undefined): string => (value === null ? "–" : `${figure(value, unit)}${behind(unit)}`);
+
+/** From where to where, with one unit. */
+export const interval = (low: number | null, high: number | null, unit: string | undefined): string =>
+  low === null || high === null ? "–" : `${figure(low, unit)} to ${figure(high, unit)}${behind(unit)}`;
+
+const figure = (value: number, unit: string | undefined): string => formatNumber(unit === "1" ? Number((100 * value).toPrecision(12)) : value);
+const behind = (unit: string | undefined): string => (unit === undefined ? "" : unit === "1" ? " %" : ` ${unit}`);
 
 // -- mapping ------------------------------------------------------------------------------------------
 
