@@ -162,7 +162,7 @@ def written(step, runs, out: Path, number: int, span) -> None:
 def validate(
     project: ProjectFile,
     afresh: Annotated[bool, typer.Option("--afresh", help="The vehicle as the project names it, without what was calibrated.")] = False,
-    report: Annotated[Path | None, typer.Option("--report", help="A page to write (HTML), with tables and figures.")] = None,
+    report: Annotated[Path | None, typer.Option("--report", help="A report to write, .html or .pdf, with tables and figures.")] = None,
     out: VehicleOut = None,
     kinds: Kinds = None,
     db: Db = DEFAULT_DB,
@@ -172,11 +172,14 @@ def validate(
 
     With --out the vehicle is written with its validated span, which later runs hold it to. Ends with code 1 when a criterion fails.
     """
+    from studio.parcel import paper
     from studio.store.runs import open_runs
     from studio.validation import iterate
     from studio.validation.project import load
 
     load_kinds(kinds)
+    if report is not None:
+        paper.check(report)
     loaded = load(project)
     runs = open_runs(db)
     step = iterate.begin(loaded, runs, afresh=afresh)
@@ -207,13 +210,10 @@ def print_validated(number: int, step, found) -> None:
 
 
 def print_report(out: Path, step, found, runs, number: int) -> None:
-    """Writes the page."""
+    """Writes the report."""
+    from studio.parcel import paper
     from studio.validation import iterate
     from studio.validation.report import report
 
-    page = report(step.loaded, found, iterate.estimates(runs, number), number)
-    try:
-        out.write_text(page, encoding="utf-8")
-    except OSError as error:
-        raise ScenarioError(f"{out} cannot be written.", [Problem(str(out), f"cannot be written: {error.strerror or error}")]) from None
+    paper.write(report(step.loaded, found, iterate.estimates(runs, number), number), out)
     told(f"{out}: the report of iteration {number}")

@@ -3,7 +3,7 @@
 import { Anchor, Button, Group, Modal, Text, Textarea } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
-import { courses, iteration, reportOf, usePatch, vehicleOf } from "../../api/validations";
+import { courses, iteration, paperOf, reportOf, usePatch, vehicleOf } from "../../api/validations";
 import { formatNumber, words } from "../../model/units";
 import { interval, measured, override, type Project, type Said } from "../../model/validation";
 import { notify, notifyError } from "../../ui/notify";
@@ -72,6 +72,9 @@ export function Verdicts({ project, said, at }: Props) {
           <Group gap="lg">
             <Anchor size="sm" href={reportOf(project.name, shown.iteration)} target="_blank" rel="noreferrer">
               Open the report, to be read and printed
+            </Anchor>
+            <Anchor size="sm" href={paperOf(project.name, shown.iteration)} download>
+              Download the report as PDF
             </Anchor>
             <Anchor size="sm" href={vehicleOf(project.name, shown.iteration)} download>
               Download the vehicle with its span
