@@ -55,6 +55,11 @@ def test_2_the_report_is_the_page_of_that_iteration(page):
     expect(report.get_by_role("heading", name="A car with worn front tyres: iteration 3")).to_be_visible()
     assert report.locator("svg").count() == 2
     report.close()
+    with page.expect_download() as sent:
+        page.get_by_role("link", name="Download the report as PDF").click()
+    assert sent.value.path().read_bytes().startswith(b"%PDF-")
+    row = page.get_by_test_id("verdicts").get_by_role("row").filter(has_text="steady yaw_rate, averaged simulation")
+    expect(row).to_contain_text(re.compile(r"0\.\d+ rad/s.* %5 %pass"))
 
 
 def test_3_a_criterion_that_failed_is_judged_otherwise_with_a_reason(page):

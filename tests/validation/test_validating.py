@@ -1,6 +1,7 @@
 """The commands about recorded drives, as a script uses them; what is wrong is told, and keeps nothing."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -48,8 +49,19 @@ def test_the_way_from_a_log_to_a_car_with_its_span(path, tmp_path):
     assert car.values.validated.model_dump() == result["span"]["whole"]
     assert car.origins["tyres.front_cornering"].source.startswith("calibrated: Known truth; 0.8")
     text = page.read_text()
+    assert re.search(r"<td class=\"n\">0\.\d+ rad/s</td>.*?<td class=\"n\">[+-]\d[.\d]* %</td><td class=\"n\">5 %</td>", text)
     assert text.count("<svg") == 2 and "95 % confidence interval of the mean, two-sided" in text and "longitudinal acceleration" in text
     assert not any(word in text for word in ("<script", "<link", "<img", "@import", "url(http", 'src="'))
+
+
+def test_the_report_is_a_pdf_where_it_is_named_so_and_else_nothing_is_begun(path, tmp_path):
+    db = tmp_path / "runs.db"
+    refused = studio("validate", path, "--db", db, "--report", tmp_path / "report.docx")
+    assert "has an ending that no report has" in str(refused.exception) and not db.exists()
+    done = studio("validate", path, "--db", db, "--report", tmp_path / "report.pdf")
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF-")
+    row = next(line for line in done.stdout.splitlines() if "averaged simulation" in line and "yaw_rate" in line)
+    assert re.search(r"0\.\d+ rad/s .* \+\d[.\d]* % .* 5 % .* fail", row)
 
 
 def test_a_cut_is_told_as_a_project_takes_it(path):
