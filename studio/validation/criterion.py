@@ -22,6 +22,9 @@ from studio.validation.zone import Confidence, zone
 DIGITS = 9  # after the point, to which numbers are compared
 Rule = Literal["gain", "time", "lag", "fit", "final"]
 PASS, FAIL, OVERRIDDEN = "pass", "fail", "overridden"
+WIDE = (
+    "the interval is wider than the limit, so that it says little: record more runs, and see whether one of these differs from the others"
+)
 ALONE = "one run only: there is no interval; record the maneuver again"
 
 
@@ -100,10 +103,10 @@ def judged(
     asked = Verdict(maneuver, f"{name}, mean in the interval", mean, theirs, low, high, mean - theirs, None, PASS, "", unit, unit)
     interval = inside(asked)
     if rule == "gain":
-        yield interval
+        yield doubted(interval, limits.gain * abs(theirs))
         yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.gain, unit, abs(theirs))
     elif rule == "time":
-        yield interval
+        yield doubted(interval, limits.time)
         yield within(maneuver, f"{name}, mean", mean, theirs, limits.time, unit)
         yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.averaged_time, unit)
     elif rule == "lag":
@@ -123,6 +126,12 @@ def inside(asked: Verdict) -> Verdict:
         return replace(asked, low=None, high=None, verdict=FAIL, reason=ALONE)
     fits = round(min(low, high) - asked.ours, DIGITS) <= 0.0 and round(asked.ours - max(low, high), DIGITS) <= 0.0
     return replace(asked, verdict=PASS if fits else FAIL)
+
+
+def doubted(found: Verdict, limit: float) -> Verdict:
+    """A verdict by an interval that is so wide on each side that nearly anything passes says so."""
+    is_wide = found.low is not None and found.high is not None and abs(found.high - found.low) > 2.0 * limit
+    return replace(found, reason=WIDE) if is_wide else found
 
 
 def within(maneuver: str, name: str, ours: float, theirs: float, limit: float, unit: str, over: float | None = None) -> Verdict:

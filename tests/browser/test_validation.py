@@ -41,7 +41,7 @@ def test_1_the_sample_is_calibrated_and_then_valid(page):
     expect(found).to_contain_text(re.compile(r"0\.8[45]\d+"))
     page.get_by_role("button", name="Validate", exact=True).click()
     verdict = page.get_by_role("region", name="Verdict")
-    expect(verdict).to_contain_text("6 of 6 criteria met")
+    expect(verdict).to_contain_text("10 of 10 criteria met")
     expect(verdict).to_contain_text("With the values of iteration 2.")
     expect(verdict).to_contain_text("Validated span: speed")
     expect(page.get_by_role("figure", name="turn: yaw rate")).to_contain_text("6 recorded runs")

@@ -1,10 +1,14 @@
-"""J-turn (ISO 7401, step steer): the wheel is turned quickly to an angle and held. Judged in its steady part (Lat-I)."""
+"""J-turn (ISO 7401, step steer): the wheel is turned quickly to an angle and held. Judged in its steady part (Lat-I).
+
+The zone is that of the steady part alone. So that a signal that comes late does not pass by it, its lag counts too, as in a double lane
+change: from half of the steady angle to half of its own steady value, the response time of ISO 7401.
+"""
 
 import numpy as np
 
 from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
-from studio.log.smooth import crossing
+from studio.log.smooth import crossing, smooth
 from studio.validation.marks import Lobe, Marks, lacking, lobes, mean, steering
 
 TITLE = "J-turn"
@@ -50,5 +54,15 @@ def marks(recording: Recording) -> Marks:
 
 
 def measures(recording: Recording, at: Marks) -> dict:
-    """Steady-state gains of yaw rate and lateral acceleration."""
-    return {f"steady {name}": (mean(recording, name, at.since, at.until), "gain", QUANTITIES[name].unit) for name in JUDGED}
+    """Steady-state gains of yaw rate and lateral acceleration, and their lags."""
+    steady = {name: mean(recording, name, at.since, at.until) for name in JUDGED}
+    gains = {f"steady {name}": (value, "gain", QUANTITIES[name].unit) for name, value in steady.items()}
+    return gains | {f"{name}, lag of the step": (lag(recording, name, at, value), "lag", "s") for name, value in steady.items()}
+
+
+def lag(recording: Recording, name: str, at: Marks, steady: float) -> float:
+    """How much later than the wheel a signal reaches half of its steady value [s]."""
+    if not steady:
+        return float("nan")
+    values = smooth(recording.time, recording[name]) * np.sign(steady)
+    return crossing(recording.time, values, 0.5 * abs(steady)) - at.reference

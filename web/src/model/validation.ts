@@ -183,12 +183,12 @@ export function guesses(recorded: readonly { name: string; unit: string }[], kin
 }
 
 const ALIKE: Readonly<Record<string, RegExp>> = {
-  speed: /^(v|vx|vx_mps|speed|velocity|vehicle_?speed|geschwindigkeit)$/i,
+  speed: /^(v|vx|vx_mps|speed|velocity|vehicle_?speed|geschwindigkeit|tempo)$/i,
   yaw_rate: /yaw_?(rate|velocity|vel)|gierrate|psi_?dot/i,
   lateral_acceleration: /^(ay|acc_?y|a_y)(_|$)|lat(eral)?_?acc|querbeschl/i,
   acceleration: /^(ax|acc_?x|a_x)(_|$)|long(itudinal)?_?acc|l(ä|ae)ngsbeschl/i,
-  steering_wheel_angle: /steer(ing)?_?wheel|lenkrad|swa/i,
-  road_wheel_angle: /road_?wheel|^delta|wheel_?angle/i,
+  steering_wheel_angle: /steer(ing)?_?wheel|^lenkrad|swa/i,
+  road_wheel_angle: /road_?wheel|^delta|radlenk|radeinschlag|(?<!steering_?)wheel_?angle/i,
   throttle: /throttle|accelerator|pedal/i,
   brake: /^brake(_pedal)?$/i,
   gear: /gear|gang/i,

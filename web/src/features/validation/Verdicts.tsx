@@ -76,9 +76,11 @@ export function Verdicts({ project, said, at }: Props) {
             <Anchor size="sm" href={paperOf(project.name, shown.iteration)} download>
               Download the report as PDF
             </Anchor>
-            <Anchor size="sm" href={vehicleOf(project.name, shown.iteration)} download>
-              Download the vehicle with its span
-            </Anchor>
+            {result.span.whole ? (
+              <Anchor size="sm" href={vehicleOf(project.name, shown.iteration)} download>
+                Download the vehicle with its span
+              </Anchor>
+            ) : null}
           </Group>
         ) : null}
         <VerdictTable project={project} said={said} verdicts={result.verdicts} />
