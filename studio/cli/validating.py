@@ -37,6 +37,7 @@ def import_(
     A gap stays a gap. What cannot be right (a yaw rate of 500 rad/s) is refused, with the unit that was taken for it.
     """
     from studio.log import recording
+    from studio.log.hint import hints
 
     load_kinds(kinds)
     log, made = taken(file, mapping, dbc)
@@ -45,11 +46,14 @@ def import_(
         raise ScenarioError("There is nothing to write.", [problem])
     recorded = [each.facts() for each in log.signals.values()]
     ours = made.facts() if made else []
+    doubts = hints(made) if made else []
     if as_json:
-        print_json({"log": log.name, "signals": recorded, "ours": ours, "period": recording.PERIOD if made else None})
+        print_json({"log": log.name, "signals": recorded, "ours": ours, "period": recording.PERIOD if made else None, "hints": doubts})
     else:
         print_table(HEAD, [facts(each) for each in recorded])
         print_table(HEAD, [facts(each) for each in ours]) if ours else told("Which signal is which of ours says a mapping: --mapping FILE.")
+    for each in doubts:
+        told(f"warning: {each}")
     if out is not None and made is not None:
         told(f"{out}: {recording.write(made, out)} rows")
 

@@ -57,7 +57,7 @@ def test_from_drives_to_a_validated_car(client, project):
     looked = begun(client, project, task="look", log="turn_0.csv")["looked"]
     assert {each["name"] for each in looked["ours"]} == {"road_wheel_angle", "speed", "yaw_rate", "lateral_acceleration"}
     assert looked["ours"][0]["rate"] == pytest.approx(100.0) and [each["kind"] for each in looked["cuts"]] == ["j_turn"]
-    assert all(len(each["time"]) == len(each["values"]) <= 3000 for each in looked["drawn"])
+    assert all(len(each["time"]) == len(each["values"]) <= 3000 for each in looked["drawn"]) and looked["hints"] == []
 
     refused = begun(client, project, task="validate")
     (number,) = refused["kept"]["iterations"]

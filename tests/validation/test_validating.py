@@ -116,6 +116,23 @@ def test_a_copy_of_a_run_under_another_name_is_found(path):
     assert "maneuvers.turn.validation[5]: was used for calibration" in told
 
 
+@pytest.mark.parametrize(
+    "alter",
+    [
+        lambda rows: np.vstack([rows[:1] + [0.0, 1e-6, *[0.0] * (rows.shape[1] - 2)], rows[1:]]),
+        lambda rows: np.round(rows, 3),
+        lambda rows: rows[:-20],
+    ],
+    ids=["one sample", "fewer digits", "the end"],
+)
+def test_a_copy_that_was_altered_a_little_is_found(path, alter):
+    original = path.with_name("turn_0.csv")
+    head, rows = original.read_text().splitlines()[0], np.loadtxt(original, delimiter=",", skiprows=1)
+    np.savetxt(path.with_name("altered.csv"), alter(rows), delimiter=",", header=head, comments="", fmt="%.9g")
+    told = refusal(path, lambda d: d["maneuvers"]["turn"]["validation"].append({"log": "altered.csv"}))
+    assert "maneuvers.turn.validation[5]: was used for calibration" in told
+
+
 def test_a_gap_in_what_is_fed_is_refused_and_one_in_what_is_judged_is_not(path):
     loaded = project.load(path)
     run = loaded.validation["turn"][0]

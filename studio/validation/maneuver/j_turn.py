@@ -1,7 +1,8 @@
 """J-turn (ISO 7401, step steer): the wheel is turned quickly to an angle and held. Judged in its steady part (Lat-I).
 
-The zone is that of the steady part alone. So that a signal that comes late does not pass by it, its lag counts too, as in a double lane
-change: from half of the steady angle to half of its own steady value, the response time of ISO 7401.
+The zone is that of the steady part alone. So that a clock that runs late does not pass by it, the lag of the yaw rate counts too, as in a
+double lane change: from half of the steady angle to half of its own steady value. How the lateral acceleration builds up is judged in the
+double lane change alone, as the method has it.
 """
 
 import numpy as np
@@ -18,6 +19,7 @@ JUDGED = ("yaw_rate", "lateral_acceleration")
 HOLDS_SPEED = True
 REPEATS = True
 ZONES = JUDGED
+LATE = "yaw_rate"  # whose lag counts
 LEAD, HELD, LONGEST = 1.0, 2.5, 8.0  # [s] straight before, held at least, looked at at most
 SHARPNESS = 0.1  # [s] that smoothing reaches to both sides
 STEADY = 0.1  # [1] of the angle, by which it may vary while it is held
@@ -54,10 +56,10 @@ def marks(recording: Recording) -> Marks:
 
 
 def measures(recording: Recording, at: Marks) -> dict:
-    """Steady-state gains of yaw rate and lateral acceleration, and their lags."""
+    """Steady-state gains of yaw rate and lateral acceleration, and the lag of the yaw rate."""
     steady = {name: mean(recording, name, at.since, at.until) for name in JUDGED}
     gains = {f"steady {name}": (value, "gain", QUANTITIES[name].unit) for name, value in steady.items()}
-    return gains | {f"{name}, lag of the step": (lag(recording, name, at, value), "lag", "s") for name, value in steady.items()}
+    return gains | {f"{LATE}, lag of the step": (lag(recording, LATE, at, steady[LATE]), "lag", "s")}
 
 
 def lag(recording: Recording, name: str, at: Marks, steady: float) -> float:
