@@ -1,14 +1,14 @@
 """Whether two recordings are of one drive, though not to the last bit: a copy with other digits, one sample changed, the end cut off.
 
 Two drives are never alike in all their signals at once for long: instruments scatter, and nobody steers twice the same. Where the signals
-move, most samples of a copy agree with those of its original to a thousandth of their range.
+move, most samples of a copy agree with those of its original to two thousandths of their range.
 """
 
 import numpy as np
 
 from studio.log.recording import Recording
 
-NEAR = 1e-3  # [1] of the range of a signal
+NEAR = 2e-3  # [1] of the range of a signal
 SHARE, LENGTH = 0.5, 0.9  # [1] of the moving samples that agree; of the longer recording that the shorter one has
 
 

@@ -120,7 +120,7 @@ def test_a_copy_of_a_run_under_another_name_is_found(path):
     "alter",
     [
         lambda rows: np.vstack([rows[:1] + [0.0, 1e-6, *[0.0] * (rows.shape[1] - 2)], rows[1:]]),
-        lambda rows: np.round(rows, 3),
+        lambda rows: np.round(rows, 4),
         lambda rows: rows[:-20],
     ],
     ids=["one sample", "fewer digits", "the end"],

@@ -2852,6 +2852,11 @@ export interface components {
             drawn: components["schemas"]["Drawn"][];
             /** Cuts */
             cuts: components["schemas"]["Cut"][];
+            /**
+             * Hints
+             * @description what looks wrong though every signal by itself could be right
+             */
+            hints: string[];
             /** @description why the mapping makes nothing of it */
             problem: components["schemas"]["Refusal"] | null;
         };
