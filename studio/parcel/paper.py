@@ -198,7 +198,7 @@ def table(sheet, of: Element) -> None:
     rows = [list(row) for row in of.iter() if name(row) == "tr"]
     write_with(sheet, SMALL)
     sheet.set_draw_color(*LINE)
-    widths = shares([[text_of(cell) for cell in row] for row in rows], measured(sheet))
+    widths = shares([[held(cell) for cell in row] for row in rows], measured(sheet))
     with sheet.table(
         width=WIDTH, col_widths=widths, align="L", text_align="LEFT", borders_layout="HORIZONTAL_LINES", padding=(0.4, 1.0, 0.4, 0.0),
         line_height=LEADING * SMALL * POINT, headings_style=FontFace(emphasis="BOLD", color=INK),
@@ -206,15 +206,20 @@ def table(sheet, of: Element) -> None:
         for i, row in enumerate(rows):
             line = made.row()
             for cell in row:
-                line.cell(text_of(cell), align="R" if cell.get("class") == "n" else "L", style=face(cell) if i else None)
+                line.cell(held(cell), align="R" if cell.get("class") == "n" else "L", style=face(cell) if i else None)
     sheet.ln(2.0)
+
+
+def held(cell: Element) -> str:
+    """The text of a cell; a number stays with its unit."""
+    return text_of(cell).replace(" ", "\u00a0") if cell.get("class") == "n" else text_of(cell)
 
 
 def face(cell: Element):
     """How the text of a cell is written: as what stands out in it."""
     from fpdf.fonts import FontFace
 
-    inside = next(iter(cell), cell)
+    inside = cell if cell.text else next(iter(cell), cell)
     return FontFace(emphasis="BOLD" if name(inside) == "b" else None, color=tone_of(inside))
 
 
@@ -230,7 +235,7 @@ def measured(sheet) -> Callable[[str], float]:
 def shares(rows: Sequence[Sequence[str]], width: Callable[[str], float]) -> list[float]:
     """Widths of columns [mm]: what their longest words need, and of the rest as much more as their longest texts would take."""
     columns = list(zip(*rows, strict=True))
-    least = [max(width(word) for text in column for word in text.split() or [""]) for column in columns]
+    least = [max(width(word) for text in column for word in text.split(" ")) for column in columns]
     wanted = [max(map(width, column)) for column in columns]
     room, more = WIDTH - sum(least), sum(wanted) - sum(least)
     if room <= 0.0 or more <= 0.0:

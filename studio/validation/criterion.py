@@ -22,9 +22,7 @@ from studio.validation.zone import Confidence, zone
 DIGITS = 9  # after the point, to which numbers are compared
 Rule = Literal["gain", "time", "lag", "fit", "final"]
 PASS, FAIL, OVERRIDDEN = "pass", "fail", "overridden"
-WIDE = (
-    "the interval is wider than the limit, so that it says little: record more runs, and see whether one of these differs from the others"
-)
+WIDE = "says little, for the interval is wider than the limit: record more runs, and see whether one of these differs"
 ALONE = "one run only: there is no interval; record the maneuver again"
 
 

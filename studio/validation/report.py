@@ -89,10 +89,11 @@ def maneuver(compared: Comparison, found: Result) -> str:
     runs = f"<p>{len(compared.theirs)} runs: {escape(', '.join(each.name for each in compared.theirs))}</p>"
     rows = [row(each) for each in found.verdicts if each.maneuver == compared.name]
     pictures = "".join(picture for _, picture in figure.figures(compared, found.confidence))
-    return runs + table(verdict.HEAD, rows, numeric=verdict.NUMERIC) + pictures
+    return runs + table(verdict.HEAD[:-1], rows, numeric=verdict.NUMERIC) + pictures
 
 
 def row(each: Verdict) -> tuple[str, ...]:
-    """A verdict as cells."""
-    *numbers, word, reason = map(escape, verdict.cells(each))
-    return (*numbers, f'<b class="{TONE[each.verdict]}">{word}</b>', reason)
+    """A verdict as cells, its reason beside the criterion."""
+    criterion, *numbers, word, reason = map(escape, verdict.cells(each))
+    why = f': <span class="dim">{reason}</span>' if reason else ""
+    return (criterion + why, *numbers, f'<b class="{TONE[each.verdict]}">{word}</b>')

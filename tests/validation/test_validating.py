@@ -12,7 +12,9 @@ from typer.testing import CliRunner
 from studio.cli import app
 from studio.errors import ScenarioError, StudioError
 from studio.scenario import catalogue
-from studio.validation import known, project, replay
+from studio.store import iteration
+from studio.store.runs import open_runs
+from studio.validation import calibration, known, project, replay
 from tests.validation.truth import Ground, j_turns
 
 
@@ -152,3 +154,11 @@ def test_what_is_wrong_keeps_nothing(path, tmp_path):
     for command in ("validate", "calibrate"):
         done = studio(command, bad, "--db", tmp_path / "runs.db")
         assert done.exit_code != 0 and not (tmp_path / "runs.db").exists()
+
+
+def test_a_calibration_that_does_not_converge_keeps_nothing_and_says_what_to_do(path, tmp_path, monkeypatch):
+    """One evaluation is too few to get anywhere from a start that is 18 % away."""
+    monkeypatch.setattr(calibration, "MOST", 1)
+    done = studio("calibrate", path, "--db", tmp_path / "runs.db")
+    assert done.exit_code != 0 and "does not converge; nothing was kept" in str(done.exception)
+    assert iteration.history(open_runs(tmp_path / "runs.db"), "Known truth") == []
