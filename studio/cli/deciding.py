@@ -10,7 +10,6 @@ from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, load_kinds
 from studio.cli.output import print_json, print_table
 from studio.cli.progress import compile_first, progress
 from studio.cli.running import existing
-from studio.errors import Problem, StoreError
 
 commands = typer.Typer()
 
@@ -69,18 +68,16 @@ def remark(
 @commands.command()
 def report(
     run: Annotated[int, typer.Argument(help="Number of the run.")],
-    out: Annotated[Path | None, typer.Option(help="The file; default: run_N.html here.")] = None,
+    out: Annotated[Path | None, typer.Option(help="The file, .html or .pdf; default: run_N.html here.")] = None,
     db: Db = DEFAULT_DB,
 ) -> None:
     """Writes one page about a run, to be read and printed: verdict, metrics against its parent, charts, events, environment."""
+    from studio.parcel import paper
     from studio.parcel.report import report as page
 
     target = out or Path(f"run_{run}.html")
-    text = page(existing(db), run)
-    try:
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise StoreError(f"{target} cannot be written.", [Problem("--out", error.strerror or str(error), str(target))]) from None
+    paper.check(target)
+    paper.write(page(existing(db), run), target)
     print(target)
 
 

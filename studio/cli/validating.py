@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, load_kinds
-from studio.cli.output import print_json, print_table, signed, text
+from studio.cli.output import print_json, print_table, text
 from studio.cli.progress import compile_first, progress, told
 from studio.errors import Problem, ScenarioError
 
@@ -37,6 +37,7 @@ def import_(
     A gap stays a gap. What cannot be right (a yaw rate of 500 rad/s) is refused, with the unit that was taken for it.
     """
     from studio.log import recording
+    from studio.log.hint import hints
 
     load_kinds(kinds)
     log, made = taken(file, mapping, dbc)
@@ -45,11 +46,14 @@ def import_(
         raise ScenarioError("There is nothing to write.", [problem])
     recorded = [each.facts() for each in log.signals.values()]
     ours = made.facts() if made else []
+    doubts = hints(made) if made else []
     if as_json:
-        print_json({"log": log.name, "signals": recorded, "ours": ours, "period": recording.PERIOD if made else None})
+        print_json({"log": log.name, "signals": recorded, "ours": ours, "period": recording.PERIOD if made else None, "hints": doubts})
     else:
         print_table(HEAD, [facts(each) for each in recorded])
         print_table(HEAD, [facts(each) for each in ours]) if ours else told("Which signal is which of ours says a mapping: --mapping FILE.")
+    for each in doubts:
+        told(f"warning: {each}")
     if out is not None and made is not None:
         told(f"{out}: {recording.write(made, out)} rows")
 
@@ -162,7 +166,7 @@ def written(step, runs, out: Path, number: int, span) -> None:
 def validate(
     project: ProjectFile,
     afresh: Annotated[bool, typer.Option("--afresh", help="The vehicle as the project names it, without what was calibrated.")] = False,
-    report: Annotated[Path | None, typer.Option("--report", help="A page to write (HTML), with tables and figures.")] = None,
+    report: Annotated[Path | None, typer.Option("--report", help="A report to write, .html or .pdf, with tables and figures.")] = None,
     out: VehicleOut = None,
     kinds: Kinds = None,
     db: Db = DEFAULT_DB,
@@ -172,11 +176,14 @@ def validate(
 
     With --out the vehicle is written with its validated span, which later runs hold it to. Ends with code 1 when a criterion fails.
     """
+    from studio.parcel import paper
     from studio.store.runs import open_runs
     from studio.validation import iterate
     from studio.validation.project import load
 
     load_kinds(kinds)
+    if report is not None:
+        paper.check(report)
     loaded = load(project)
     runs = open_runs(db)
     step = iterate.begin(loaded, runs, afresh=afresh)
@@ -197,42 +204,20 @@ def validate(
 
 def print_validated(number: int, step, found) -> None:
     """Verdicts, and the span in words."""
-    from studio.validation import span
+    from studio.validation import span, table
     from studio.validation.zone import WORDS
 
     before = f"with the values of iteration {step.before.iteration}" if step.before else "as the project names it"
     print(f"iteration {number}: {step.loaded.model.name}, {before}; {WORDS[found.confidence]}")
-    rows = [
-        [
-            each.maneuver,
-            each.criterion,
-            text(each.ours),
-            text(each.theirs),
-            interval(each),
-            signed(each.error),
-            text(each.limit),
-            each.verdict,
-            each.reason,
-        ]
-        for each in found.verdicts
-    ]
-    print_table(["maneuver", "criterion", "ours", "theirs", "interval", "error", "limit", "verdict", "reason"], rows)
+    print_table(["maneuver", *table.HEAD], [[each.maneuver, *table.cells(each)] for each in found.verdicts])
     print("Validated span:", "; ".join(span.told(found.span)))
 
 
-def interval(each) -> str:
-    """The interval of a verdict."""
-    return "–" if each.low is None else f"{each.low:.4g} to {each.high:.4g}"
-
-
 def print_report(out: Path, step, found, runs, number: int) -> None:
-    """Writes the page."""
+    """Writes the report."""
+    from studio.parcel import paper
     from studio.validation import iterate
     from studio.validation.report import report
 
-    page = report(step.loaded, found, iterate.estimates(runs, number), number)
-    try:
-        out.write_text(page, encoding="utf-8")
-    except OSError as error:
-        raise ScenarioError(f"{out} cannot be written.", [Problem(str(out), f"cannot be written: {error.strerror or error}")]) from None
+    paper.write(report(step.loaded, found, iterate.estimates(runs, number), number), out)
     told(f"{out}: the report of iteration {number}")

@@ -22,7 +22,8 @@ STYLE = """
 body { font: 14px/1.45 system-ui, sans-serif; max-width: 52rem; margin: 2rem auto; padding: 0 1rem; color: #1a1a1a; background: #fff; }
 h1 { font-size: 1.4rem; margin-bottom: 0; } h2 { font-size: 1.05rem; margin: 1.6rem 0 .4rem; }
 table { border-collapse: collapse; width: 100%; } th, td { text-align: left; padding: .15rem .6rem .15rem 0; vertical-align: top; }
-tr { border-bottom: 1px solid #ddd; break-inside: avoid; } .n { text-align: right; font-variant-numeric: tabular-nums; }
+tr { border-bottom: 1px solid #ddd; break-inside: avoid; } .n { text-align: right; white-space: nowrap; }
+.n { font-variant-numeric: tabular-nums; }
 .dim { color: #5a5a5a; } .good { color: #0b6e4f; } .bad { color: #b3261e; } svg { width: 100%; height: auto; break-inside: avoid; }
 pre { white-space: pre-wrap; overflow-wrap: anywhere; } @media print { body { margin: 0; max-width: none; } }
 """

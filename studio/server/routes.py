@@ -14,6 +14,7 @@ from studio.assess.compare import ALIKE
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError, short
 from studio.kind import registry
 from studio.kind.registry import Kind
+from studio.parcel import paper
 from studio.parcel.report import report
 from studio.scenario.schema import Scenario, json_schema
 from studio.scenario.text.document import digest
@@ -41,6 +42,9 @@ from studio.store.stretch import stretch
 from studio.store.verdict import judge, remark, remark_of, verdicts
 from studio.world import channel
 
+PAPER: dict[int | str, dict[str, Any]] = {
+    200: {"description": "PDF", "content": {paper.MEDIA: {"schema": {"type": "string", "format": "binary"}}}}
+}
 PAGE: dict[int | str, dict[str, Any]] = {200: {"description": "HTML", "content": {"text/html": {"schema": {"type": "string"}}}}}
 TRAJECTORIES: dict[int | str, dict[str, Any]] = {
     200: {"description": "piece by piece", "content": {each: {"schema": {"type": "string"}} for each in MEDIA.values()}}
@@ -350,6 +354,18 @@ def run_trajectories(
 def run_report(run: int, kept: KeptRuns) -> Response:
     """One page about a run, to be kept, read and printed."""
     return HTMLResponse(report(kept, run), headers={"Content-Disposition": f'attachment; filename="run_{run}.html"'})
+
+
+@router.get("/runs/{run}/report.pdf", response_class=Response, responses=PAPER)
+def run_report_on_paper(run: int, kept: KeptRuns) -> Response:
+    """The same page about a run as PDF."""
+    return on_paper(report(kept, run), f"run_{run}.pdf")
+
+
+def on_paper(page: str, name: str) -> Response:
+    """A report as PDF, to be downloaded."""
+    named = {"Content-Disposition": f'attachment; filename="{name}"'}
+    return Response(paper.pdf(page), media_type=paper.MEDIA, headers=named)
 
 
 @router.get("/runs/{run}/explanation")

@@ -22,6 +22,7 @@ from studio.validation.zone import Confidence, zone
 DIGITS = 9  # after the point, to which numbers are compared
 Rule = Literal["gain", "time", "lag", "fit", "final"]
 PASS, FAIL, OVERRIDDEN = "pass", "fail", "overridden"
+WIDE = "says little, for the interval is wider than the limit: record more runs, and see whether one of these differs"
 ALONE = "one run only: there is no interval; record the maneuver again"
 
 
@@ -50,7 +51,10 @@ class Override(Part):
 
 @dataclass(frozen=True)
 class Verdict:
-    """One criterion: our value, theirs, its interval, the error and its limit, the verdict, and the reason where one is needed."""
+    """One criterion: our value, theirs, its interval, the error and its limit, the verdict, and the reason where one is needed.
+
+    `unit` is that of values and interval, `error_unit` that of error and limit: "1" where the error is meant over something.
+    """
 
     maneuver: str
     criterion: str
@@ -62,6 +66,8 @@ class Verdict:
     limit: float | None
     verdict: str
     reason: str = ""
+    unit: str = "1"
+    error_unit: str = "1"
 
     def as_json(self) -> dict[str, Any]:
         """Plain data, in which what is not a number is none."""
@@ -77,37 +83,38 @@ class Measure:
     theirs: np.ndarray
     ours: np.ndarray
     averaged: float
+    unit: str = "1"
 
 
 def verdicts(maneuver: str, found: Measure, limits: Limits, confidence: Confidence) -> list[Verdict]:
     """All criteria of a quantity."""
     theirs, mean = zone(found.theirs, confidence), float(np.mean(found.ours))
-    return list(
-        judged(maneuver, found.name, found.rule, (float(theirs.mean), float(theirs.low), float(theirs.high)), mean, found.averaged, limits)
-    )
+    experiments = (float(theirs.mean), float(theirs.low), float(theirs.high))
+    return list(judged(maneuver, found.name, found.rule, experiments, mean, found.averaged, limits, found.unit))
 
 
 def judged(
-    maneuver: str, name: str, rule: Rule, experiments: Sequence[float], mean: float, averaged: float, limits: Limits
+    maneuver: str, name: str, rule: Rule, experiments: Sequence[float], mean: float, averaged: float, limits: Limits, unit: str = "1"
 ) -> Iterator[Verdict]:
-    """The criteria of a rule; `experiments` are mean, low and high."""
+    """The criteria of a rule; `experiments` are mean, low and high, `unit` that of all of them."""
     theirs, low, high = experiments
-    interval = inside(Verdict(maneuver, f"{name}, mean in the interval", mean, theirs, low, high, mean - theirs, None, PASS))
+    asked = Verdict(maneuver, f"{name}, mean in the interval", mean, theirs, low, high, mean - theirs, None, PASS, "", unit, unit)
+    interval = inside(asked)
     if rule == "gain":
-        yield interval
-        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.gain, abs(theirs))
+        yield doubted(interval, limits.gain * abs(theirs))
+        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.gain, unit, abs(theirs))
     elif rule == "time":
-        yield interval
-        yield within(maneuver, f"{name}, mean", mean, theirs, limits.time)
-        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.averaged_time)
+        yield doubted(interval, limits.time)
+        yield within(maneuver, f"{name}, mean", mean, theirs, limits.time, unit)
+        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.averaged_time, unit)
     elif rule == "lag":
-        yield within(maneuver, f"{name}, mean", mean, theirs, limits.lag)
-        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.lag)
+        yield within(maneuver, f"{name}, mean", mean, theirs, limits.lag, unit)
+        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.lag, unit)
     elif rule == "final":
         yield interval
-        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.final)
+        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.final, unit)
     else:
-        yield within(maneuver, name, mean, 0.0, limits.fit)
+        yield within(maneuver, name, mean, 0.0, limits.fit, unit)
 
 
 def inside(asked: Verdict) -> Verdict:
@@ -119,11 +126,18 @@ def inside(asked: Verdict) -> Verdict:
     return replace(asked, verdict=PASS if fits else FAIL)
 
 
-def within(maneuver: str, name: str, ours: float, theirs: float, limit: float, over: float = 1.0) -> Verdict:
-    """Whether the error, over a reference, keeps to its limit."""
-    error = (ours - theirs) / over if over else float("nan")
+def doubted(found: Verdict, limit: float) -> Verdict:
+    """A verdict by an interval that is so wide on each side that nearly anything passes says so."""
+    is_wide = found.low is not None and found.high is not None and abs(found.high - found.low) > 2.0 * limit
+    return replace(found, reason=WIDE) if is_wide else found
+
+
+def within(maneuver: str, name: str, ours: float, theirs: float, limit: float, unit: str, over: float | None = None) -> Verdict:
+    """Whether the error keeps to its limit: as it is, or as a share of a reference."""
+    error = ours - theirs if over is None else (ours - theirs) / over if over else float("nan")
     fits = isfinite(error) and round(abs(error) - limit, DIGITS) <= 0.0
-    return Verdict(maneuver, name, ours, theirs, None, None, error, limit, PASS if fits else FAIL)
+    error_unit = unit if over is None else "1"
+    return Verdict(maneuver, name, ours, theirs, None, None, error, limit, PASS if fits else FAIL, "", unit, error_unit)
 
 
 def overridden(found: Sequence[Verdict], overrides: Sequence[Override]) -> list[Verdict]:

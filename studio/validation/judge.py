@@ -6,6 +6,7 @@ result.verdicts, result.span, result.comparisons
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from types import ModuleType
 from typing import Any
 
@@ -21,6 +22,8 @@ from studio.validation.criterion import FAIL, PASS, Measure, Verdict, overridden
 from studio.validation.marks import Marks
 from studio.validation.project import Loaded
 from studio.validation.zone import WORDS, Confidence, Zone, zone
+
+UNKNOWN = "two runs at least must have recorded the judged part of this signal: see which one breaks off, and cut or replace it"
 
 
 @dataclass(frozen=True)
@@ -136,7 +139,11 @@ def measured(compared: Comparison) -> list[Measure]:
             f"maneuvers.{compared.name}", "has runs that have nothing in common", remedy="cut them so that they hold the same gears"
         )
         raise ScenarioError(f"The runs of {compared.name} cannot be compared.", [problem])
-    return [Measure(name, theirs[0][name][1], values(theirs, name), values(ours, name), float(averaged[name][0])) for name in shared]
+    return [
+        Measure(name, rule, values(theirs, name), values(ours, name), float(averaged[name][0]), unit)
+        for name, (_, rule, unit) in theirs[0].items()
+        if name in shared
+    ]
 
 
 def values(runs: Sequence[dict], name: str) -> np.ndarray:
@@ -152,10 +159,13 @@ def zones(compared: Comparison, least: float, confidence: Confidence) -> list[Ve
     if hasattr(compared.module, "share"):
         found = compared.module.share(compared.theirs, compared.ours, confidence)
         shares |= {f"{name} in the data zone": each for name, each in found.items()}
-    return [
-        Verdict(compared.name, name, share, 1.0, None, None, share - 1.0, least - 1.0, PASS if share >= least else FAIL)
-        for name, share in shares.items()
-    ]
+    return [zoned(compared.name, name, share, least) for name, share in shares.items()]
+
+
+def zoned(maneuver: str, name: str, share: float, least: float) -> Verdict:
+    """The verdict about a share [1] of the judged part; of a part that was not recorded there is none."""
+    passed, reason = share >= least, "" if isfinite(share) else UNKNOWN
+    return Verdict(maneuver, name, share, 1.0, None, None, share - 1.0, least - 1.0, PASS if passed else FAIL, reason)
 
 
 def inside(compared: Comparison, name: str, confidence: Confidence) -> float:
@@ -163,7 +173,7 @@ def inside(compared: Comparison, name: str, confidence: Confidence) -> float:
     time, around, mean = compared.zone(name, confidence)
     since = np.mean([each.since - each.reference for each in compared.marks])
     until = np.mean([each.until - each.reference for each in compared.marks])
-    judged = (time >= since) & (time <= until) & np.isfinite(around.low)
+    judged = (time >= since) & (time <= until) & np.isfinite(around.low) & np.isfinite(mean)
     return float(around.holds(mean)[judged].mean()) if judged.any() else float("nan")
 
 

@@ -32,6 +32,7 @@ from studio.scenario.catalogue import VehicleModel
 from studio.scenario.text.source import Source
 from studio.validation import known
 from studio.validation.criterion import Limits, Override
+from studio.validation.twin import are_twins
 from studio.validation.zone import Confidence
 
 SIZE_LIMIT = 1_000_000  # [B] of a project file
@@ -207,7 +208,7 @@ class Logs:
 
 
 def apart(calibration: dict[str, list[Recording]], validation: dict[str, list[Recording]]) -> None:
-    """Refuses runs that are in both sets, whatever they are called, and cuts of one log that overlap; raises ScenarioError."""
+    """Refuses runs in both sets, whatever they are called and were rounded to, and cuts of one log that overlap; raises ScenarioError."""
     used = [each for runs in calibration.values() for each in runs]
     digests = {each.digest: each for each in used}
     found = [
@@ -219,7 +220,7 @@ def apart(calibration: dict[str, list[Recording]], validation: dict[str, list[Re
         )
         for name, runs in validation.items()
         for i, each in enumerate(runs)
-        if each.digest in digests or any(overlaps(each, other) for other in used)
+        if each.digest in digests or any(overlaps(each, other) or are_twins(each, other) for other in used)
     ]
     if found:
         raise ScenarioError("A run that calibrates cannot validate: it would prove what it was fitted to.", found)

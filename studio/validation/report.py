@@ -8,6 +8,7 @@ from html import escape
 
 from studio.parcel.report import STYLE, listed, section, table, value
 from studio.validation import figure, span
+from studio.validation import table as verdict
 from studio.validation.calibration import Estimate
 from studio.validation.criterion import FAIL, OVERRIDDEN, Verdict
 from studio.validation.judge import Comparison, Result
@@ -15,7 +16,6 @@ from studio.validation.project import Loaded
 from studio.validation.zone import WORDS
 
 TONE = {"pass": "good", FAIL: "bad", OVERRIDDEN: "dim"}
-HEAD = ("criterion", "ours", "theirs", "interval", "error", "limit", "verdict", "reason")
 METHOD = (
     "The recorded inputs of real maneuvers drove the simulated vehicle open loop: once for every run, and once with the average of them. "
     "A maneuver is valid where the mean of the simulations lies in the interval of the experiments and the simulation of the averaged "
@@ -88,25 +88,12 @@ def maneuver(compared: Comparison, found: Result) -> str:
     """Verdicts and figures of a maneuver."""
     runs = f"<p>{len(compared.theirs)} runs: {escape(', '.join(each.name for each in compared.theirs))}</p>"
     rows = [row(each) for each in found.verdicts if each.maneuver == compared.name]
-    return runs + table(HEAD, rows, numeric=[1, 2, 3, 4, 5]) + "".join(picture for _, picture in figure.figures(compared, found.confidence))
+    pictures = "".join(picture for _, picture in figure.figures(compared, found.confidence))
+    return runs + table(verdict.HEAD[:-1], rows, numeric=verdict.NUMERIC) + pictures
 
 
 def row(each: Verdict) -> tuple[str, ...]:
-    """A verdict as cells."""
-    interval = f"{each.low:.4g} to {each.high:.4g}" if each.low is not None and each.high is not None else ""
-    verdict = f'<b class="{TONE[each.verdict]}">{each.verdict}</b>'
-    return (
-        escape(each.criterion),
-        value(each.ours),
-        value(each.theirs),
-        interval,
-        value(each.error, signed=True),
-        limit(each),
-        verdict,
-        escape(each.reason),
-    )
-
-
-def limit(each: Verdict) -> str:
-    """The limit of a verdict."""
-    return "" if each.limit is None else value(each.limit)
+    """A verdict as cells, its reason beside the criterion."""
+    criterion, *numbers, word, reason = map(escape, verdict.cells(each))
+    why = f': <span class="dim">{reason}</span>' if reason else ""
+    return (criterion + why, *numbers, f'<b class="{TONE[each.verdict]}">{word}</b>')

@@ -57,6 +57,6 @@ def measures(recording: Recording, at: Marks) -> dict:
     """Mean acceleration over the first and the second half of the time."""
     middle = 0.5 * (at.since + at.until)
     return {
-        "acceleration, faster half": (mean(recording, "acceleration", at.since, middle), "gain"),
-        "acceleration, slower half": (mean(recording, "acceleration", middle, at.until), "gain"),
+        "acceleration, faster half": (mean(recording, "acceleration", at.since, middle), "gain", "m/s²"),
+        "acceleration, slower half": (mean(recording, "acceleration", middle, at.until), "gain", "m/s²"),
     }

@@ -70,6 +70,16 @@ def test_where_a_vehicle_was_outside_its_validated_span(tmp_path, beyond):
         page.goto(f"{client.base_url}/studio/beyond?run={run}")
         expect(page.get_by_role("region", name="Charts")).to_contain_text(TELLS)
         expect(page.get_by_role("img", name="Outside its validated span: Leader, speed")).to_be_visible()
+        slow = {"scenario": "beyond", "parent": run, "set": {"script.faster.do.speed": 28.0}}
+        other = client.post("/api/runs", json=slow).json()["run"]
+        until(lambda: client.get(f"/api/runs/{other}").json()["status"] == "done", "the end of the slow run")
+        assert not any(each["stretches"] for each in client.get(f"/api/runs/{other}/beyond").json())
+        page.goto(f"{client.base_url}/compare?runs={other},{run}")
+        page.get_by_role("checkbox", name="Leader").check()
+        chart = page.get_by_role("figure", name="Speed [m/s] over time")
+        expect(chart).to_contain_text(re.compile(rf"outside its validated span: .*#{run}.*: Leader, speed", re.IGNORECASE))
+        until(lambda: shares(chart)[1] > 0.004, "the band of the faster run")
+        assert shares(chart)[0] == 0.0
         assert complaints == []
         opened.close()
 

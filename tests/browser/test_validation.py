@@ -41,7 +41,7 @@ def test_1_the_sample_is_calibrated_and_then_valid(page):
     expect(found).to_contain_text(re.compile(r"0\.8[45]\d+"))
     page.get_by_role("button", name="Validate", exact=True).click()
     verdict = page.get_by_role("region", name="Verdict")
-    expect(verdict).to_contain_text("6 of 6 criteria met")
+    expect(verdict).to_contain_text("8 of 8 criteria met")
     expect(verdict).to_contain_text("With the values of iteration 2.")
     expect(verdict).to_contain_text("Validated span: speed")
     expect(page.get_by_role("figure", name="turn: yaw rate")).to_contain_text("6 recorded runs")
@@ -55,6 +55,11 @@ def test_2_the_report_is_the_page_of_that_iteration(page):
     expect(report.get_by_role("heading", name="A car with worn front tyres: iteration 3")).to_be_visible()
     assert report.locator("svg").count() == 2
     report.close()
+    with page.expect_download() as sent:
+        page.get_by_role("link", name="Download the report as PDF").click()
+    assert sent.value.path().read_bytes().startswith(b"%PDF-")
+    row = page.get_by_test_id("verdicts").get_by_role("row").filter(has_text="steady yaw_rate, averaged simulation")
+    expect(row).to_contain_text(re.compile(r"0\.\d+ rad/s.* %5 %pass"))
 
 
 def test_3_a_criterion_that_failed_is_judged_otherwise_with_a_reason(page):
@@ -99,6 +104,7 @@ def test_4_a_project_of_ones_own_from_a_log_in_other_units(page):
     page.get_by_role("button", name="Save as mapping.yaml").click()
     expect(page.get_by_role("alert").filter(has_text="The logs are read by mapping.yaml now.").first).to_be_visible()
     expect(signals.get_by_role("row", name="speed", exact=False).first).to_contain_text("10")
+    expect(page.get_by_role("alert").filter(has_text="lateral_acceleration is 2 times speed × yaw_rate")).to_be_visible()
     cuts.get_by_role("button", name="Take it").first.click()
     page.get_by_role("tab", name="Maneuvers").click()
     expect(page.get_by_role("region", name="Maneuver j_turn")).to_contain_text("turn.csv")

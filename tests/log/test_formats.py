@@ -64,6 +64,34 @@ def test_a_row_that_is_cut_off_is_named(tmp_path):
     assert "line 4 has 2 cells, the head 3" in str(refused(path))
 
 
+@pytest.mark.parametrize("head", ["yaw_rate_radps,vx_mps", "vx [m/s],yaw"])
+def test_a_table_without_times_is_not_taken_for_one_with(tmp_path, head):
+    """Neither what has another unit nor what does not rise is a clock; without a name or a unit what rises is one."""
+    lines = "\n".join(f"{0.1 * (i % 7)},{20.0 + i}" for i in range(100))
+    (tmp_path / "a.csv").write_text(f"{head}\n{lines}")
+    with pytest.raises(ScenarioError, match="has no column of time"):
+        reading.read(tmp_path / "a.csv")
+    (tmp_path / "b.csv").write_text("stamp,yaw\n" + "\n".join(f"{0.01 * i:.2f},{i % 7}" for i in range(100)))
+    assert reading.read(tmp_path / "b.csv")["yaw"].time[-1] == pytest.approx(0.99)
+
+
+@pytest.mark.parametrize(
+    ("text", "at"),
+    [
+        ('"t","v"\n"0,00","1.234,5"\n"0,01","1.234,5"\n', (0.0, 0.01)),
+        ("t;v\n0,00;1.234,5\n0,01;1.234,5\n", (0.0, 0.01)),
+        ('t;v\n0.00;"1,234.5"\n0.01;"1,234.5"\n', (0.0, 0.01)),
+        ("t,v\n1970-01-02T00:00:00.5Z,1234.5\n1970-01-02T01:00:01+01:00,1234.5\n", (86400.5, 86401.0)),
+    ],
+    ids=["quoted decimal commas", "points between thousands", "commas between thousands", "dates"],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
+def test_numbers_as_spreadsheets_write_them(tmp_path, text, at, encoding):
+    (tmp_path / "a.csv").write_text(text, encoding=encoding)
+    found = reading.read(tmp_path / "a.csv")["v"]
+    assert found.time == pytest.approx(at) and found.values == pytest.approx([1234.5, 1234.5])
+
+
 @pytest.mark.parametrize(
     ("name", "content", "what"),
     [

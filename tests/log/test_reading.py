@@ -168,3 +168,27 @@ def smooth(time, values, span=1.0):
     """Means over a span [s] around each time."""
     count = int(span / np.median(np.diff(time)))
     return np.apply_along_axis(np.convolve, -1, values, np.ones(count) / count, "same")
+
+
+# -- clocks ----------------------------------------------------------------------------------------------
+
+
+def test_a_clock_that_jumps_back_is_refused_for_it_would_lose_a_part_of_the_drive():
+    time = np.concatenate([TIME[:300], TIME[200:400]])
+    with pytest.raises(ScenarioError, match=r"jumps back by 1\.98 s, after sample 300 of 500 \(got 5\.98 s, then 4 s\)"):
+        signal("Yaw", "rad/s", time, np.ones(500))
+
+
+def test_samples_that_come_a_little_late_are_put_in_order():
+    time = TIME.copy()
+    time[[100, 101]] = time[[101, 100]]
+    found = signal("Yaw", "rad/s", time, time)
+    assert np.array_equal(found.time, TIME) and np.array_equal(found.values, TIME)
+
+
+def test_times_that_have_lost_their_digits_are_refused_and_a_few_that_are_shared_are_not():
+    with pytest.raises(ScenarioError, match="has 399 of 500 samples at the time of another"):
+        signal("Yaw", "rad/s", np.round(TIME, 1), TIME)
+    shared = TIME.copy()
+    shared[10] = shared[9]
+    assert signal("Yaw", "rad/s", shared, TIME).values[9] == TIME[10]

@@ -57,7 +57,7 @@ def test_from_drives_to_a_validated_car(client, project):
     looked = begun(client, project, task="look", log="turn_0.csv")["looked"]
     assert {each["name"] for each in looked["ours"]} == {"road_wheel_angle", "speed", "yaw_rate", "lateral_acceleration"}
     assert looked["ours"][0]["rate"] == pytest.approx(100.0) and [each["kind"] for each in looked["cuts"]] == ["j_turn"]
-    assert all(len(each["time"]) == len(each["values"]) <= 3000 for each in looked["drawn"])
+    assert all(len(each["time"]) == len(each["values"]) <= 3000 for each in looked["drawn"]) and looked["hints"] == []
 
     refused = begun(client, project, task="validate")
     (number,) = refused["kept"]["iterations"]
@@ -81,6 +81,9 @@ def test_from_drives_to_a_validated_car(client, project):
     assert sum(inside) > 0.9 * len(inside)
     report = client.get(f"/api/validations/{project}/iterations/{judged}/report")
     assert report.status_code == 200 and report.text.count("<svg") == 2
+    paper = client.get(f"/api/validations/{project}/iterations/{judged}/report.pdf")
+    assert paper.headers["content-type"] == "application/pdf" and paper.content.startswith(b"%PDF-")
+    assert [(each["unit"], each["error_unit"]) for each in after["result"]["verdicts"][:2]] == [("rad/s", "rad/s"), ("rad/s", "1")]
     car = yaml.safe_load(client.get(f"/api/validations/{project}/iterations/{judged}/vehicle").text)
     assert car["validated"] == after["result"]["span"]["whole"]
     assert car["tyres"]["front_cornering"]["value"] == estimate["value"] and "calibrated" in car["tyres"]["front_cornering"]["source"]
@@ -222,7 +225,7 @@ def test_a_damaged_log_ends_its_own_errand_only(client, project):
 
 def test_unknown_things_are_told(client, project):
     assert client.get("/api/validations/wor").json()["problems"][0]["remedy"] == "did you mean 'worn'?"
-    for address in ("/api/iterations/999", "/api/validation-jobs/999", f"/api/validations/{project}/iterations/999/report"):
+    for address in ("/api/iterations/999", "/api/validation-jobs/999", f"/api/validations/{project}/iterations/999/report.pdf"):
         assert client.get(address).status_code == 404
     assert client.post(f"/api/validations/{project}/jobs", json={"task": "look", "log": "turn_99.csv"}).status_code == 404
     assert client.post(f"/api/validations/{project}/jobs", json={"task": "sample"}).status_code == 422

@@ -76,4 +76,7 @@ def test_the_page_about_a_run_is_kept_as_a_file(studio):
     answer = client.get(f"/api/runs/{run}/report")
     assert answer.headers["content-disposition"] == f'attachment; filename="run_{run}.html"' and answer.text.startswith("<!doctype html>")
     assert client.get(f"/api/runs/{run}").json()["state_hash"] in answer.text
-    assert client.get("/api/runs/999/report").status_code == 404
+    paper = client.get(f"/api/runs/{run}/report.pdf")
+    assert paper.headers["content-type"] == "application/pdf" and paper.content.startswith(b"%PDF-")
+    assert paper.headers["content-disposition"] == f'attachment; filename="run_{run}.pdf"'
+    assert [client.get(f"/api/runs/999/report{each}").status_code for each in ("", ".pdf")] == [404, 404]

@@ -59,13 +59,24 @@ def test_a_step_is_aligned_at_half_of_its_steady_angle():
     )
 
 
+@pytest.mark.parametrize(("late", "side"), [(0.0, 1.0), (0.1, 1.0), (0.1, -1.0)])
+def test_a_step_that_is_followed_late_has_that_lag(late, side):
+    step = lambda t: np.clip((t - 2.0) / 0.2, 0.0, 1.0)  # noqa: E731
+    run = recording(
+        8.0, speed=20.0, road_wheel_angle=lambda t: 0.02 * side * step(t), yaw_rate=lambda t: 0.2 * side * step(t - late),
+        lateral_acceleration=lambda t: 4.0 * side * step(t),
+    )  # fmt: skip
+    found = j_turn.measures(run, j_turn.marks(run))
+    assert found["yaw_rate, lag of the step"] == (pytest.approx(late, abs=0.005), "lag", "s")
+
+
 def test_extrema_and_lags_of_both_half_waves():
     """A sine of 2 s: extrema 0.5 s and 1.5 s after its beginning, half of the first one a sixth of a second after it."""
     run = STEERED.between(*known.cuts(STEERED)[1][1:])
     at = double_lane_change.marks(run)
     references = [run.start + each.since for each in at.parts]
     assert references == pytest.approx([20 + 1 / 6, 23 + 1 / 6], abs=0.01)
-    found = {name: value for name, (value, _) in double_lane_change.measures(run, at).items()}
+    found = {name: value for name, (value, *_) in double_lane_change.measures(run, at).items()}
     gains = [found[f"yaw_rate, {each} extremum"] for each in double_lane_change.ORDER]
     assert gains == pytest.approx([0.15, -0.15, -0.15, 0.15], rel=0.01)
     times = [found[f"yaw_rate, time of the {each} extremum"] for each in double_lane_change.ORDER]
@@ -111,7 +122,7 @@ def test_what_slows_down_is_found_and_measured(kind, brake, gear, slowing):
     run = log.between(begin - 1.0 if kind == "braking" else begin, end + 1.0 if kind == "braking" else end)
     module = known.find(kind)
     measured = module.measures(run, module.marks(run))
-    assert [value for value, _ in measured.values()] == pytest.approx([-slowing] * len(measured), rel=0.03)
+    assert [value for value, *_ in measured.values()] == pytest.approx([-slowing] * len(measured), rel=0.03)
 
 
 def test_gears_are_measured_one_by_one():
@@ -123,7 +134,7 @@ def test_gears_are_measured_one_by_one():
     )  # fmt: skip
     module = known.find("engine_drag")
     found = module.measures(log, module.marks(log))
-    assert {name: value for name, (value, _) in found.items()} == pytest.approx(
+    assert {name: value for name, (value, *_) in found.items()} == pytest.approx(
         {"acceleration, gear 3": -0.8, "acceleration, gear 2": -1.2}, rel=0.05
     )
     assert known.cuts(log) == [("engine_drag", 0.0, pytest.approx(8.0))]
@@ -136,7 +147,7 @@ def test_a_line_through_the_acceleration_of_each_gear():
         8.0, speed=lambda t: np.cumsum(push(t)) * PERIOD, acceleration=push, gear=lambda t: np.where(t < 4.0, 1, 2), throttle=0.5
     )
     module = known.find("acceleration")
-    found = {name: value for name, (value, _) in module.measures(log, module.marks(log)).items()}
+    found = {name: value for name, (value, *_) in module.measures(log, module.marks(log)).items()}
     assert found["gear 1, slope"] == pytest.approx(-0.4, rel=0.03) and found["gear 2, slope"] == pytest.approx(-0.2, rel=0.03)
     assert found["gear 1, midpoint"] == pytest.approx(3.0 - 0.4 * 2.5, rel=0.02)
     assert [kind for kind, _, _ in known.cuts(log)] == ["acceleration"]

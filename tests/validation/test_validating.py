@@ -1,6 +1,7 @@
 """The commands about recorded drives, as a script uses them; what is wrong is told, and keeps nothing."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,9 @@ from typer.testing import CliRunner
 from studio.cli import app
 from studio.errors import ScenarioError, StudioError
 from studio.scenario import catalogue
-from studio.validation import known, project, replay
+from studio.store import iteration
+from studio.store.runs import open_runs
+from studio.validation import calibration, known, project, replay
 from tests.validation.truth import Ground, j_turns
 
 
@@ -42,14 +45,25 @@ def test_the_way_from_a_log_to_a_car_with_its_span(path, tmp_path):
     after = studio("validate", path, "--db", db, "--out", out, "--report", page, "--json")
     result = json.loads(after.stdout)
     assert after.exit_code == 0 and result["valid"] and "two-sided" in result["interval"]
-    names = ["maneuver", "criterion", "ours", "theirs", "low", "high", "error", "limit", "verdict", "reason"]
+    names = ["maneuver", "criterion", "ours", "theirs", "low", "high", "error", "limit", "verdict", "reason", "unit", "error_unit"]
     assert list(result["verdicts"][0]) == names and {"verdicts", "span", "interval"} <= result.keys()
     car = catalogue.find_vehicle(str(out))
     assert car.values.validated.model_dump() == result["span"]["whole"]
     assert car.origins["tyres.front_cornering"].source.startswith("calibrated: Known truth; 0.8")
     text = page.read_text()
+    assert re.search(r"<td class=\"n\">0\.\d+ rad/s</td>.*?<td class=\"n\">[+-]\d[.\d]* %</td><td class=\"n\">5 %</td>", text)
     assert text.count("<svg") == 2 and "95 % confidence interval of the mean, two-sided" in text and "longitudinal acceleration" in text
     assert not any(word in text for word in ("<script", "<link", "<img", "@import", "url(http", 'src="'))
+
+
+def test_the_report_is_a_pdf_where_it_is_named_so_and_else_nothing_is_begun(path, tmp_path):
+    db = tmp_path / "runs.db"
+    refused = studio("validate", path, "--db", db, "--report", tmp_path / "report.docx")
+    assert "has an ending that no report has" in str(refused.exception) and not db.exists()
+    done = studio("validate", path, "--db", db, "--report", tmp_path / "report.pdf")
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF-")
+    row = next(line for line in done.stdout.splitlines() if "averaged simulation" in line and "yaw_rate" in line)
+    assert re.search(r"0\.\d+ rad/s .* \+\d[.\d]* % .* 5 % .* fail", row)
 
 
 def test_a_cut_is_told_as_a_project_takes_it(path):
@@ -104,6 +118,23 @@ def test_a_copy_of_a_run_under_another_name_is_found(path):
     assert "maneuvers.turn.validation[5]: was used for calibration" in told
 
 
+@pytest.mark.parametrize(
+    "alter",
+    [
+        lambda rows: np.vstack([rows[:1] + [0.0, 1e-6, *[0.0] * (rows.shape[1] - 2)], rows[1:]]),
+        lambda rows: np.round(rows, 4),
+        lambda rows: rows[:-20],
+    ],
+    ids=["one sample", "fewer digits", "the end"],
+)
+def test_a_copy_that_was_altered_a_little_is_found(path, alter):
+    original = path.with_name("turn_0.csv")
+    head, rows = original.read_text().splitlines()[0], np.loadtxt(original, delimiter=",", skiprows=1)
+    np.savetxt(path.with_name("altered.csv"), alter(rows), delimiter=",", header=head, comments="", fmt="%.9g")
+    told = refusal(path, lambda d: d["maneuvers"]["turn"]["validation"].append({"log": "altered.csv"}))
+    assert "maneuvers.turn.validation[5]: was used for calibration" in told
+
+
 def test_a_gap_in_what_is_fed_is_refused_and_one_in_what_is_judged_is_not(path):
     loaded = project.load(path)
     run = loaded.validation["turn"][0]
@@ -123,3 +154,11 @@ def test_what_is_wrong_keeps_nothing(path, tmp_path):
     for command in ("validate", "calibrate"):
         done = studio(command, bad, "--db", tmp_path / "runs.db")
         assert done.exit_code != 0 and not (tmp_path / "runs.db").exists()
+
+
+def test_a_calibration_that_does_not_converge_keeps_nothing_and_says_what_to_do(path, tmp_path, monkeypatch):
+    """One evaluation is too few to get anywhere from a start that is 18 % away."""
+    monkeypatch.setattr(calibration, "MOST", 1)
+    done = studio("calibrate", path, "--db", tmp_path / "runs.db")
+    assert done.exit_code != 0 and "does not converge; nothing was kept" in str(done.exception)
+    assert iteration.history(open_runs(tmp_path / "runs.db"), "Known truth") == []

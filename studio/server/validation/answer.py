@@ -169,6 +169,7 @@ class Looked(BaseModel):
     ours: list[SignalFacts] = Field(description="by the mapping, in SI, on one clock; none without a mapping")
     drawn: list[Drawn]
     cuts: list[Cut]
+    hints: list[str] = Field(description="what looks wrong though every signal by itself could be right")
     problem: Refusal | None = Field(description="why the mapping makes nothing of it")
 
 

@@ -18,7 +18,7 @@ from studio.scenario import file
 from studio.scenario.text import source
 from studio.scenario.text.patch import Operation, operations
 from studio.server import answer as answers
-from studio.server.routes import PAGE, AtDesk, AtOwnDesk, IfMatch, KeptRuns, expected
+from studio.server.routes import PAGE, PAPER, AtDesk, AtOwnDesk, IfMatch, KeptRuns, expected, on_paper
 from studio.server.scenarios import name as names
 from studio.server.scenarios.routes import BODY as YAML_BODY
 from studio.server.scenarios.routes import YAML, received
@@ -176,6 +176,12 @@ def found_iteration(kept: Any, number: int) -> answer.IterationDetail:
 def iteration_report(project: str, iteration: int, desk: AtDesk) -> Response:
     """The report of a validation: one page, to be kept, read and printed."""
     return HTMLResponse(result(report_of(desk.projects.find(project), iteration), iteration))
+
+
+@router.get("/validations/{project}/iterations/{iteration}/report.pdf", response_class=Response, responses=PAPER)
+def iteration_report_on_paper(project: str, iteration: int, desk: AtDesk) -> Response:
+    """The same report as PDF."""
+    return on_paper(result(report_of(desk.projects.find(project), iteration), iteration), f"validation_{iteration}.pdf")
 
 
 @router.get("/validations/{project}/iterations/{iteration}/courses")

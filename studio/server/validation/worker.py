@@ -73,6 +73,7 @@ def without(error: StudioError, order: Order) -> StudioError:
 def look(pipe: Connection, order: Order) -> dict[str, Any]:
     """What is in a log, and what a mapping makes of it; a mapping that fits badly is told beside what was recorded."""
     from studio.log import mapping, reading, recording
+    from studio.log.hint import hints
     from studio.validation import known
 
     tell(pipe, "stage", "reading", None)
@@ -80,7 +81,7 @@ def look(pipe: Connection, order: Order) -> dict[str, Any]:
     log = reading.read(order.folder / (order.job.log or ""), wanted.dbc if wanted else None)
     used = wanted.mapping.model_dump(mode="json", by_alias=True) if wanted else None
     recorded = list(map(facts, log.signals.values()))
-    found = {"log": log.name, "recorded": recorded, "mapping": used, "ours": [], "cuts": [], "problem": None}
+    found = {"log": log.name, "recorded": recorded, "mapping": used, "ours": [], "cuts": [], "hints": [], "problem": None}
     if wanted is None and not mapping.has_named(log):
         return found | {"drawn": [drawn(each) for each in log.signals.values()]}
     try:
@@ -90,7 +91,12 @@ def look(pipe: Connection, order: Order) -> dict[str, Any]:
     except StudioError as error:
         return found | {"drawn": [drawn(each) for each in log.signals.values()], "problem": without(error, order).as_json()}
     ours = [recording.Signal(name, recording.QUANTITIES[name].unit, made.time, values) for name, values in made.signals.items()]
-    return found | {"ours": [named(each) for each in made.facts()], "cuts": cuts, "drawn": [drawn(each) for each in ours]}
+    return found | {
+        "ours": [named(each) for each in made.facts()],
+        "cuts": cuts,
+        "hints": hints(made),
+        "drawn": [drawn(each) for each in ours],
+    }
 
 
 def mapping_of(folder: Path):

@@ -8,7 +8,7 @@
     ZONES           signals whose data zone is judged
     find            find(recording) -> [(since, until)] [s] of such maneuvers in a log
     marks           marks(recording) -> Marks: the reference that runs are aligned by, and what else is read off the inputs
-    measures        measures(recording, marks) -> {name: (value, rule)}, the same for a recorded and a simulated run
+    measures        measures(recording, marks) -> {name: (value, rule, unit)}, the same for a recorded and a simulated run
 
 and, where runs have to be looked at together,
 

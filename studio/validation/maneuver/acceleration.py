@@ -50,7 +50,7 @@ def line(name: str, values: np.ndarray, period: float) -> dict:
     """The regression line through values that follow each other by a period [s]."""
     known = np.flatnonzero(np.isfinite(values))
     if known.size < 3:
-        return {f"{name}, slope": (float("nan"), "gain"), f"{name}, midpoint": (float("nan"), "gain")}
+        return {f"{name}, slope": (float("nan"), "gain", "m/s³"), f"{name}, midpoint": (float("nan"), "gain", "m/s²")}
     slope, first = np.polyfit(known * period, values[known], 1)
     middle = first + slope * period * 0.5 * (values.size - 1)
-    return {f"{name}, slope": (float(slope), "gain"), f"{name}, midpoint": (float(middle), "gain")}
+    return {f"{name}, slope": (float(slope), "gain", "m/s³"), f"{name}, midpoint": (float(middle), "gain", "m/s²")}

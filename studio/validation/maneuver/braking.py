@@ -37,4 +37,4 @@ def marks(recording: Recording) -> Marks:
 
 def measures(recording: Recording, at: Marks) -> dict:
     """Steady acceleration."""
-    return {"steady acceleration": (mean(recording, "acceleration", at.since, at.until), "gain")}
+    return {"steady acceleration": (mean(recording, "acceleration", at.since, at.until), "gain", "m/s²")}

@@ -7,6 +7,7 @@ signal reaches half of its own first extremum.
 
 import numpy as np
 
+from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
 from studio.log.smooth import crossing, smooth
 from studio.validation.marks import Lobe, Marks, Part, lacking, lobes, steering
@@ -68,9 +69,9 @@ def measures(recording: Recording, at: Marks) -> dict:
         values = smooth(recording.time, recording[name])
         for h, half in enumerate(at.parts):
             gains, times, lag = extrema(recording.time, values, half)
-            found |= {f"{name}, {ORDER[2 * h + i]} extremum": (gains[i], "gain") for i in (0, 1)}
-            found |= {f"{name}, time of the {ORDER[2 * h + i]} extremum": (times[i], "time") for i in (0, 1)}
-            found[f"{name}, lag of the {half.name}"] = (lag, "lag")
+            found |= {f"{name}, {ORDER[2 * h + i]} extremum": (gains[i], "gain", QUANTITIES[name].unit) for i in (0, 1)}
+            found |= {f"{name}, time of the {ORDER[2 * h + i]} extremum": (times[i], "time", "s") for i in (0, 1)}
+            found[f"{name}, lag of the {half.name}"] = (lag, "lag", "s")
     return found
 
 

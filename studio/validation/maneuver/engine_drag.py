@@ -8,7 +8,7 @@ import numpy as np
 
 from studio.log.recording import Recording
 from studio.validation import rolling
-from studio.validation.marks import Marks, gears, lacking, mean
+from studio.validation.marks import Marks, Part, gears, lacking, mean
 
 TITLE = "Engine drag through the gears"
 STEP = "III Long-Ic"
@@ -48,7 +48,9 @@ def marks(recording: Recording) -> Marks:
 
 def measures(recording: Recording, at: Marks) -> dict:
     """Mean acceleration in each gear, the quarter after its clutch has closed left out."""
-    return {
-        f"acceleration, {part.name}": (mean(recording, "acceleration", part.since + 0.25 * (part.until - part.since), part.until), "gain")
-        for part in at.parts
-    }
+    return {f"acceleration, {part.name}": (mean(recording, "acceleration", after(part), part.until), "gain", "m/s²") for part in at.parts}
+
+
+def after(part: Part) -> float:
+    """When a quarter of a gear is over [s]."""
+    return part.since + 0.25 * (part.until - part.since)

@@ -1,9 +1,15 @@
-"""J-turn (ISO 7401, step steer): the wheel is turned quickly to an angle and held. Judged in its steady part (Lat-I)."""
+"""J-turn (ISO 7401, step steer): the wheel is turned quickly to an angle and held. Judged in its steady part (Lat-I).
+
+The zone is that of the steady part alone. So that a clock that runs late does not pass by it, the lag of the yaw rate counts too, as in a
+double lane change: from half of the steady angle to half of its own steady value. How the lateral acceleration builds up is judged in the
+double lane change alone, as the method has it.
+"""
 
 import numpy as np
 
+from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
-from studio.log.smooth import crossing
+from studio.log.smooth import crossing, smooth
 from studio.validation.marks import Lobe, Marks, lacking, lobes, mean, steering
 
 TITLE = "J-turn"
@@ -13,6 +19,7 @@ JUDGED = ("yaw_rate", "lateral_acceleration")
 HOLDS_SPEED = True
 REPEATS = True
 ZONES = JUDGED
+LATE = "yaw_rate"  # whose lag counts
 LEAD, HELD, LONGEST = 1.0, 2.5, 8.0  # [s] straight before, held at least, looked at at most
 SHARPNESS = 0.1  # [s] that smoothing reaches to both sides
 STEADY = 0.1  # [1] of the angle, by which it may vary while it is held
@@ -49,5 +56,15 @@ def marks(recording: Recording) -> Marks:
 
 
 def measures(recording: Recording, at: Marks) -> dict:
-    """Steady-state gains of yaw rate and lateral acceleration."""
-    return {f"steady {name}": (mean(recording, name, at.since, at.until), "gain") for name in JUDGED}
+    """Steady-state gains of yaw rate and lateral acceleration, and the lag of the yaw rate."""
+    steady = {name: mean(recording, name, at.since, at.until) for name in JUDGED}
+    gains = {f"steady {name}": (value, "gain", QUANTITIES[name].unit) for name, value in steady.items()}
+    return gains | {f"{LATE}, lag of the step": (lag(recording, LATE, at, steady[LATE]), "lag", "s")}
+
+
+def lag(recording: Recording, name: str, at: Marks, steady: float) -> float:
+    """How much later than the wheel a signal reaches half of its steady value [s]."""
+    if not steady:
+        return float("nan")
+    values = smooth(recording.time, recording[name]) * np.sign(steady)
+    return crossing(recording.time, values, 0.5 * abs(steady)) - at.reference

@@ -48,7 +48,7 @@ def marks(recording: Recording) -> Marks:
 
 def measures(recording: Recording, at: Marks) -> dict:
     """The final travelled distance [m]."""
-    return {"final travelled distance": (line(recording).length, "gain")}
+    return {"final travelled distance": (line(recording).length, "gain", "m")}
 
 
 def line(recording: Recording) -> Path:

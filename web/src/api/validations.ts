@@ -56,6 +56,8 @@ export const projectJob = (id: number | undefined) =>
 export const reportOf = (project: string, number: number): string =>
   `/api/validations/${encodeURIComponent(project)}/iterations/${number}/report`;
 
+export const paperOf = (project: string, number: number): string => `${reportOf(project, number)}.pdf`;
+
 /** Where the vehicle file of a validation is downloaded from. */
 export const vehicleOf = (project: string, number: number): string =>
   `/api/validations/${encodeURIComponent(project)}/iterations/${number}/vehicle`;

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { beyondOf, type Spanned, union } from "./beyond";
+import { beyondOf, beyondOfRuns, type Spanned, union } from "./beyond";
 
 const stretch = (begin: number, end: number, quantity: string, value: number, low: number, high: number, unit = "m/s") => ({ begin, end, quantity, unit, value, low, high });
 const KNOWN: Spanned[] = [
@@ -28,4 +28,16 @@ it("says what was never validated instead of a span without width", () => {
 
 it("puts parts that touch together", () => {
   expect(union([[3, 4], [0, 1], [1, 2]])).toEqual([[0, 2], [3, 4]]);
+});
+
+it("puts runs on the clock of the first, and names the one that went farthest", () => {
+  const found = beyondOfRuns([
+    { name: "#1", offset: 0, beyond: beyondOf(KNOWN, ["follower_1"]) },
+    { name: "#2", offset: 2, beyond: beyondOf(KNOWN, ["leader"]) },
+    { name: "#3", offset: 0, beyond: undefined },
+  ]);
+  expect(found?.parts).toEqual([[-1, 0], [1.5, 4]]);
+  expect(found?.worst).toBe("#2: Leader, yaw rate 0.9 rad/s, validated from −0.5 to 0.5 rad/s");
+  expect(found?.all).toContain("#1:\nFollower 1, speed 22 m/s");
+  expect(beyondOfRuns([{ name: "#1", offset: 0, beyond: undefined }])).toBeUndefined();
 });

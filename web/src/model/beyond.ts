@@ -16,6 +16,8 @@ export interface Beyond {
   worst: string;
   /** The same of every vehicle, a line each. */
   all: string;
+  /** How far the worst was outside, in the width of its span. */
+  far: number;
 }
 
 /** That of some vehicles; nothing when none of them left its span. */
@@ -29,7 +31,21 @@ export function beyondOf(known: readonly Spanned[] | undefined, vehicles?: reado
   return {
     parts: union(left.flatMap(({ stretches }) => stretches.map(({ begin, end }): Part => [begin, end]))),
     worst: inWords(worst.vehicle, worst.stretch),
+    far: farness(worst.stretch),
     all: told.map(({ vehicle, stretch, not_recorded }) => inWords(vehicle, stretch) + lacking(not_recorded)).join("\n"),
+  };
+}
+
+/** That of runs beside each other, on the clock of the first: each begins so much later [s] than that. Lines say whose they are. */
+export function beyondOfRuns(found: readonly { name: string; offset: number; beyond: Beyond | undefined }[]): Beyond | undefined {
+  const left = found.flatMap(({ name, offset, beyond }) => (beyond ? [{ name, offset, beyond }] : []));
+  if (left.length === 0) return undefined;
+  const { name, beyond } = left.reduce((a, b) => (b.beyond.far > a.beyond.far ? b : a));
+  return {
+    parts: union(left.flatMap(({ offset, beyond: { parts } }) => parts.map(([begin, end]): Part => [begin - offset, end - offset]))),
+    worst: `${name}: ${beyond.worst}`,
+    far: beyond.far,
+    all: left.map(({ name, beyond }) => `${name}:\n${beyond.all}`).join("\n"),
   };
 }
 

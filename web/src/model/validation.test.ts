@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, guesses, type Kinds, mappingText, placedAt, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
+import { addParameter, addRun, guesses, interval, type Kinds, mappingText, measured, placedAt, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -83,4 +83,14 @@ test("a mapping that was kept is written again as it was: its DBC, its lists, wh
 test("one-sided bounds of 95 % are drawn as the interval of 90 % that they are", () => {
   expect(shareOf("95 % confidence interval of the mean, two-sided, t(0.975, n - 1)")).toBe("95 % confidence interval");
   expect(shareOf("one-sided 95 % bounds of the mean, t(0.95, n - 1): a two-sided interval of 90 %")).toBe("90 % confidence interval");
+});
+
+test("a number of a verdict has its unit, a share is in per cent, and what an older studio judged has none", () => {
+  expect(measured(0.3541, "rad/s")).toBe("0.3541 rad/s");
+  expect(measured(-0.0285, "1")).toBe("\u22122.85 %");
+  expect(measured(0.07, "1")).toBe("7 %");
+  expect(measured(0.3541, undefined)).toBe("0.3541");
+  expect(measured(null, "s")).toBe("–");
+  expect(interval(0.1, 0.25, "s")).toBe("0.1 to 0.25 s");
+  expect(interval(null, 1, "s")).toBe("–");
 });

@@ -1,6 +1,7 @@
 /** Validation projects as the page shows them: what stands in them, the patches that change them, and courses as columns. */
 
 import type { Server } from "./run";
+import { formatNumber } from "./units";
 
 export type ProjectRow = Server["ProjectRow"];
 export type Project = Server["ProjectDetail"];
@@ -103,6 +104,18 @@ export function addParameter(said: Said, step: string, path: string, low: number
   return [{ op: "add", path: `/calibration/${part(step)}/parameters/${part(path)}`, value }];
 }
 
+// -- verdicts -----------------------------------------------------------------------------------------
+
+/** A number with its unit as a verdict has it; a pure number is a share, in per cent. What was judged by an older studio has no unit. */
+export const measured = (value: number | null, unit: string | undefined): string => (value === null ? "–" : `${figure(value, unit)}${behind(unit)}`);
+
+/** From where to where, with one unit. */
+export const interval = (low: number | null, high: number | null, unit: string | undefined): string =>
+  low === null || high === null ? "–" : `${figure(low, unit)} to ${figure(high, unit)}${behind(unit)}`;
+
+const figure = (value: number, unit: string | undefined): string => formatNumber(unit === "1" ? Number((100 * value).toPrecision(12)) : value);
+const behind = (unit: string | undefined): string => (unit === undefined ? "" : unit === "1" ? " %" : ` ${unit}`);
+
 // -- mapping ------------------------------------------------------------------------------------------
 
 /** Where one of our signals comes from, of several what `combine` makes of them; not taken when it comes from none. */
@@ -170,12 +183,12 @@ export function guesses(recorded: readonly { name: string; unit: string }[], kin
 }
 
 const ALIKE: Readonly<Record<string, RegExp>> = {
-  speed: /^(v|vx|vx_mps|speed|velocity|vehicle_?speed|geschwindigkeit)$/i,
+  speed: /^(v|vx|vx_mps|speed|velocity|vehicle_?speed|geschwindigkeit|tempo)$/i,
   yaw_rate: /yaw_?(rate|velocity|vel)|gierrate|psi_?dot/i,
   lateral_acceleration: /^(ay|acc_?y|a_y)(_|$)|lat(eral)?_?acc|querbeschl/i,
   acceleration: /^(ax|acc_?x|a_x)(_|$)|long(itudinal)?_?acc|l(ä|ae)ngsbeschl/i,
-  steering_wheel_angle: /steer(ing)?_?wheel|lenkrad|swa/i,
-  road_wheel_angle: /road_?wheel|^delta|wheel_?angle/i,
+  steering_wheel_angle: /steer(ing)?_?wheel|^lenkrad|swa/i,
+  road_wheel_angle: /road_?wheel|^delta|radlenk|radeinschlag|(?<!steering_?)wheel_?angle/i,
   throttle: /throttle|accelerator|pedal/i,
   brake: /^brake(_pedal)?$/i,
   gear: /gear|gang/i,

@@ -5,11 +5,12 @@ import { useQueries } from "@tanstack/react-query";
 import { Link } from "@tanstack/react-router";
 import { type ReactNode, useMemo, useState } from "react";
 import { useGlossary } from "../../api/glossary";
-import { run as runQuery, trace } from "../../api/queries";
+import { beyond as beyondQuery, run as runQuery, trace } from "../../api/queries";
 import { Stroke } from "../../charts/Stroke";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
 import { commonKinds, merged, namesOf, offsetsOf, type SideBySide } from "../../model/beside";
+import { beyondOf, beyondOfRuns } from "../../model/beyond";
 import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { carColors, paintsOf } from "../../model/palette";
 import type { Run, RunDetail } from "../../model/run";
@@ -66,7 +67,7 @@ function Charts({ found, details }: { found: SideBySide; details: readonly RunDe
         {chosen.map((name, place) => (
           <div key={place}>
             <Chart
-              runs={found.runs.map(({ run }) => run)}
+              runs={details}
               names={names}
               offsets={offsets}
               shown={quantity(name, quantities)}
@@ -182,7 +183,7 @@ function Vehicles({ colors, hidden, onHidden, plain }: VehiclesProps) {
 const NOTHING = { time: [], channels: {} };
 
 interface ChartProps {
-  runs: readonly number[];
+  runs: readonly RunDetail[];
   names: readonly string[];
   offsets: readonly number[];
   shown: Quantity;
@@ -204,13 +205,14 @@ function Chart({ runs, names, offsets, shown: { name, label, unit }, all, colors
   // A run is asked only for what it has recorded, and for the stretch of its own clock that is seen.
   const own = useMemo(() => had.map((known) => channels.filter((channel) => known.includes(channel))), [had, channels]);
   const asked = useQueries({
-    queries: runs.map((run, place) => trace(run, own[place] ?? [], { points: POINTS, span: moved(zoom.span, offsets[place] ?? 0) })),
+    queries: runs.map(({ run }, place) => trace(run, own[place] ?? [], { points: POINTS, span: moved(zoom.span, offsets[place] ?? 0) })),
   });
   const traces = asked.map(({ data }) => data ?? NOTHING);
   const version = asked.map(({ dataUpdatedAt }) => dataUpdatedAt).join(" ");
   const shift = offsets.join(" ");
   const lines = useMemo<Line[]>(() => linesOf(own, names, colors, dark), [own, names.join("\n"), colors, dark]);
   const data = useMemo<Columns>(() => merged(traces, offsets, own), [version, shift, own]);
+  const beyond = useBeyond(runs, names, offsets, own);
   const error = asked.find((each) => each.error)?.error;
   if (error) return <Failure error={error} />;
   if (channels.length === 0)
@@ -222,9 +224,24 @@ function Chart({ runs, names, offsets, shown: { name, label, unit }, all, colors
   if (asked.some(({ isLoading }) => isLoading)) return <Loading what="the traces" />;
   return (
     <div className={classes.chart}>
-      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" zoom={zoom} lead={lead} />
+      <TimeChart title={label} unit={unit} lines={lines} data={data} sync="compare" zoom={zoom} lead={lead} beyond={beyond} />
     </div>
   );
+}
+
+/** When vehicles that are drawn were outside their validated spans, in any of the runs. */
+function useBeyond(runs: readonly RunDetail[], names: readonly string[], offsets: readonly number[], own: readonly (readonly string[])[]) {
+  const asked = useQueries({ queries: runs.map((run) => beyondQuery(run)) });
+  const version = asked.map(({ dataUpdatedAt }) => dataUpdatedAt).join(" ");
+  return useMemo(() => {
+    const vehicles = own.map((channels) => channels.map((channel) => parts(channel).vehicle));
+    const found = asked.map(({ data }, place) => ({
+      name: names[place] ?? "",
+      offset: offsets[place] ?? 0,
+      beyond: beyondOf(data, vehicles[place]),
+    }));
+    return beyondOfRuns(found);
+  }, [version, names.join("\n"), offsets.join(" "), own]);
 }
 
 /** A stretch of the first run's clock on that of a run that is so much later [s]. */

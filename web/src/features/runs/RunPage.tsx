@@ -109,9 +109,7 @@ function Ways({ run }: { run: RunDetail }) {
           Compare with its parent #{run.parent}
         </Button>
       )}
-      <Button size="xs" variant="default" component="a" href={`/api/runs/${run.run}/report`} download>
-        Report
-      </Button>
+      <ExportMenu label="Report" ways={reportsOf(run.run)} />
       <ExportMenu label="Export" disabled={run.channels.length === 0} ways={exportsOf(run.run)} />
       <Button
         size="xs"
@@ -136,6 +134,12 @@ function Ways({ run }: { run: RunDetail }) {
     </Group>
   );
 }
+
+/** The run on a page, to be kept, read and printed. */
+const reportsOf = (run: number) => [
+  { label: "A page, HTML", href: `/api/runs/${run}/report` },
+  { label: "On paper, PDF", href: `/api/runs/${run}/report.pdf` },
+];
 
 /** What is recorded, in the forms that others read. */
 const exportsOf = (run: number) => [

@@ -1,6 +1,6 @@
 /** The files of a project: sent, looked at with their signals drawn, mapped to ours, cut into maneuvers. */
 
-import { ActionIcon, Button, FileButton, SegmentedControl, Text, Tooltip } from "@mantine/core";
+import { ActionIcon, Alert, Button, FileButton, SegmentedControl, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useEffect, useState } from "react";
 import { projectJob, useCancelJob, useDeleteFile, useJob, usePatch, usePutFile, validationKinds } from "../../api/validations";
@@ -149,6 +149,11 @@ function Seen({ project, said, log, found, onAgain }: LookProps & { found: Looke
   return (
     <div className={classes.stack}>
       {refused ? <Failure error={refused} /> : null}
+      {found.hints.map((each) => (
+        <Alert key={each} color="orange" variant="outline" icon={<Icon name="warning" />} py={6}>
+          {each}
+        </Alert>
+      ))}
       {said && found.ours.length > 0 ? <Cuts project={project} said={said} log={log} cuts={found.cuts} /> : null}
       <section className={classes.card} aria-label="Signals">
         <h2>

@@ -3,9 +3,9 @@
 import { Anchor, Button, Group, Modal, Text, Textarea } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
-import { courses, iteration, reportOf, usePatch, vehicleOf } from "../../api/validations";
+import { courses, iteration, paperOf, reportOf, usePatch, vehicleOf } from "../../api/validations";
 import { formatNumber, words } from "../../model/units";
-import { override, type Project, type Said } from "../../model/validation";
+import { interval, measured, override, type Project, type Said } from "../../model/validation";
 import { notify, notifyError } from "../../ui/notify";
 import { Empty, Failure, Loading } from "../../ui/State";
 import classes from "./Validation.module.css";
@@ -23,6 +23,8 @@ interface Verdict {
   limit: number | null;
   verdict: "pass" | "fail" | "overridden";
   reason: string;
+  unit?: string;
+  error_unit?: string;
 }
 
 type Spanned = Record<string, [number, number]>;
@@ -71,9 +73,14 @@ export function Verdicts({ project, said, at }: Props) {
             <Anchor size="sm" href={reportOf(project.name, shown.iteration)} target="_blank" rel="noreferrer">
               Open the report, to be read and printed
             </Anchor>
-            <Anchor size="sm" href={vehicleOf(project.name, shown.iteration)} download>
-              Download the vehicle with its span
+            <Anchor size="sm" href={paperOf(project.name, shown.iteration)} download>
+              Download the report as PDF
             </Anchor>
+            {result.span.whole ? (
+              <Anchor size="sm" href={vehicleOf(project.name, shown.iteration)} download>
+                Download the vehicle with its span
+              </Anchor>
+            ) : null}
           </Group>
         ) : null}
         <VerdictTable project={project} said={said} verdicts={result.verdicts} />
@@ -94,8 +101,6 @@ function Span({ span }: { span: Spanned | null }) {
   );
   return <Text size="sm">Validated span: {parts.join("; ")}.</Text>;
 }
-
-const number = (value: number | null) => (value === null ? "–" : formatNumber(value));
 
 function VerdictTable({ project, said, verdicts }: { project: Project; said: Said; verdicts: readonly Verdict[] }) {
   const [judging, setJudging] = useState<Verdict>();
@@ -119,11 +124,11 @@ function VerdictTable({ project, said, verdicts }: { project: Project; said: Sai
             <tr key={`${each.maneuver} ${each.criterion}`} data-verdict={each.verdict}>
               <td>{each.maneuver}</td>
               <th scope="row">{each.criterion}</th>
-              <td>{number(each.ours)}</td>
-              <td>{number(each.theirs)}</td>
-              <td>{each.low === null || each.high === null ? "–" : `${formatNumber(each.low)} to ${formatNumber(each.high)}`}</td>
-              <td>{number(each.error)}</td>
-              <td>{number(each.limit)}</td>
+              <td>{measured(each.ours, each.unit)}</td>
+              <td>{measured(each.theirs, each.unit)}</td>
+              <td>{interval(each.low, each.high, each.unit)}</td>
+              <td>{measured(each.error, each.error_unit)}</td>
+              <td>{measured(each.limit, each.error_unit)}</td>
               <td>
                 <b className={classes[each.verdict]}>{each.verdict}</b>
                 {each.reason ? (

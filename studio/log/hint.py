@@ -1,0 +1,50 @@
+"""What looks wrong in a recording though every signal by itself could be right: hints for who looks at it, no refusals.
+
+On a level road a car without much side slip has
+
+    a_y ≈ v r
+
+and turns to the side to which its wheels are turned. A speed in km/h that is taken for m/s makes the one 3.6 times the other, a sensor
+that is mounted the other way round turns a sign. A slide, a banked bend or a sensor far from the middle do not make it half or double.
+"""
+
+import numpy as np
+
+from studio.log.recording import Recording
+
+LEAST = 0.5  # [m/s²] that v r has at least in the mean square: less tells nothing
+LOW, HIGH = 0.6, 1.6  # [1] of a_y over v r
+STEERING = ("road_wheel_angle", "steering_wheel_angle")
+
+
+def hints(recording: Recording) -> list[str]:
+    """What to look at, in words."""
+    found = [sideways(recording), *(turned(recording, name) for name in STEERING)]
+    return [each for each in found if each]
+
+
+def sideways(recording: Recording) -> str:
+    """Of lateral acceleration against speed and yaw rate; nothing when they agree, or do not tell."""
+    if not {"speed", "yaw_rate", "lateral_acceleration"} <= recording.signals.keys():
+        return ""
+    turning = recording["speed"] * recording["yaw_rate"]
+    ratio = slope(turning, recording["lateral_acceleration"])
+    if not np.isfinite(ratio) or LOW < ratio < HIGH:
+        return ""
+    remedy = "is one of them turned round? Give it sign: -1" if ratio < 0.0 else "has one of the three another unit, such as km/h or g?"
+    return f"lateral_acceleration is {ratio:.2g} times speed × yaw_rate, and in a car they are nearly the same: {remedy}"
+
+
+def turned(recording: Recording, name: str) -> str:
+    """Of steering against yaw rate; nothing when they agree, or do not tell."""
+    if not {name, "speed", "yaw_rate"} <= recording.signals.keys():
+        return ""
+    ratio = slope(recording["speed"] * recording["yaw_rate"], recording[name])
+    return f"the car turns to the other side than {name}: is one of them turned round? Give it sign: -1" if ratio < 0.0 else ""
+
+
+def slope(x: np.ndarray, y: np.ndarray) -> float:
+    """Of the line through zero that fits y over x best; not a number where x hardly moves."""
+    known = np.isfinite(x) & np.isfinite(y)
+    square = float(np.square(x[known]).mean()) if known.any() else 0.0
+    return float((x[known] * y[known]).mean() / square) if square > LEAST**2 else float("nan")
