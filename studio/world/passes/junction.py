@@ -103,15 +103,14 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
 def careful_speed(v, strand, own, to_line, top, state, parameter, web, drivers, mind):
     """Speed [m/s] from which v can still stop for those who go first and are hidden yet; with a light, that lets nobody come."""
     if web.right[strand] != LANE and web.right[strand] != SIGNAL:
-        a, nose = free(v, state, drivers, mind), own + parameter[FRONT, v]
+        nose, late = own + parameter[FRONT, v], max(state[V_X, v], 0.0) * (driver.SETTLING + drivers[EXPECTED, v])
         for m in range(web.first[strand], web.first[strand + 1]):
             to_enter = web.span[OWN_ENTER, m] - nose
             if web.turn[m] != GIVE or to_enter <= 0.0 or not has_corner(m, web):
                 continue
-            soon, own_time = appears_in(m, to_enter, web), slow_arrival(v, to_enter, top, state, drivers, mind)
-            if not is_safe(v, m, to_enter, soon, web.fast[m], own_time, a, top, state, parameter, web, drivers):
+            if not is_gone(v, m, to_enter, appears_in(m, to_enter, web), web.fast[m], top, state, parameter, web, drivers, mind):
                 left = to_line - driver.STOP_CLOSE if to_line >= 0.0 else to_enter - READY
-                mind[CAREFUL, v] = min(mind[CAREFUL, v], ready_speed(left, drivers[BRAKE_COMFORT, v]))
+                mind[CAREFUL, v] = min(mind[CAREFUL, v], ready_speed(left - late, drivers[BRAKE_COMFORT, v]))
     return mind[CAREFUL, v]
 
 
@@ -310,13 +309,15 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
         return False
     its_time = mind[MISJUDGED, v] * comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
-    may_stop = at_light or feels_the_way(v, m, to_enter, to_line, state, web)
-    if turn == GIVE and (to_line >= 0.0 or may_stop):
+    feels = feels_the_way(v, m, to_enter, to_line, state, web)
+    if turn == GIVE and (to_line >= 0.0 or at_light or feels):
         if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
             return False
-        if may_stop:
+        if feels and is_gone(v, m, to_enter, its_time, state[V_X, other], top, state, parameter, web, drivers, mind):
+            return False
+        if at_light or feels:
             follow(v, number[other], to_enter, 0.0, state, drivers, mind)
-        return not may_stop
+        return not (at_light or feels)
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
     return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
@@ -324,8 +325,8 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
 
 @inlined
 def feels_the_way(v, m, to_enter, to_line, state, web):
-    """Whether v is beyond its line, slow because of a corner, and stops before it comes in somebody's way."""
-    return to_line < 0.0 and has_corner(m, web) and state[V_X, v] < CRAWL and driver.must_stop(state[V_X, v], to_enter)
+    """Whether v is beyond its line, since a corner has let it see no sooner, and can stop before it comes in somebody's way."""
+    return to_line < 0.0 and has_corner(m, web) and driver.must_stop(state[V_X, v], to_enter)
 
 
 @inlined
@@ -383,6 +384,13 @@ def is_safe(v, m, to_enter, its_time, its_speed, own_time, a, top, state, parame
         return its_time > own_time + merging_headway(its_speed, sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
     way = to_enter + web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + parameter[LENGTH, v]
     return its_time > arrival_below(way, speed, a, top) + drivers[EXPECTED, v] + AFTER
+
+
+@inlined
+def is_gone(v, m, to_enter, its_time, its_speed, top, state, parameter, web, drivers, mind):
+    """The same of one who comes with a speed [m/s] and whom v does not let go before for his comfort."""
+    own_time = slow_arrival(v, to_enter, top, state, drivers, mind)
+    return is_safe(v, m, to_enter, its_time, its_speed, own_time, free(v, state, drivers, mind), top, state, parameter, web, drivers)
 
 
 @inlined
