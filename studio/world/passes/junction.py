@@ -234,7 +234,8 @@ def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter
     gone = leaves_in(other, its_leave - its_tail, state) + AFTER
     if nose >= enter or gone < comes_in(v, enter - nose, state, drivers, mind):
         return False
-    if mind[STOOD, other] > PATIENCE and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
+    stands = state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE  # who sets off again may come in the way
+    if stands and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
         return False
     let_across(v, other, enter - nose, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind)
     return web.turn[m] != NONE and not inside
