@@ -20,7 +20,7 @@ def row(name: str, value: float) -> str:
     """One figure."""
     known = PUBLISHED[name]
     unit = "" if known.unit == "1" else f" {known.unit}"
-    return f"| {name} | {value:.3g}{unit} | {ranged(known)}{unit} | {'yes' if is_like(value, known) else 'no'} | {known.source} |"
+    return f"| {name} | {value:.4g}{unit} | {ranged(known)}{unit} | {'yes' if is_like(value, known) else 'no'} | {known.source} |"
 
 
 def ranged(known: Published) -> str:
