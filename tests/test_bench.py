@@ -100,6 +100,8 @@ def test_traffic_is_measured_with_both_dynamics(monkeypatch):
     for dynamics in ("full", "light"):
         each = figures["traffic"][dynamics]["30"]
         assert each["real_time"] == pytest.approx(each["rate"] * bench.DEFAULT_TICK / 30) and each["ratio"] > 1.0
+        assert each["prepared"] > 0.0
         cars = traffic_crowd(30, dynamics).cars
         assert len(cars) == 30 and {car.is_light for car in cars} == {dynamics == "light"}
-    assert [row[0] for row in bench_rows(figures)][:2] == ["traffic, light, 30 vehicles, one core", "times real time, light, 30 vehicles"]
+    told = ["traffic, light, 30 vehicles, one core", "times real time, light, 30 vehicles", "preparing, light, 30 vehicles"]
+    assert [row[0] for row in bench_rows(figures)][:3] == told

@@ -81,6 +81,7 @@ def bench_rows(figures: dict[str, Any]) -> list[list[str]]:
         for n, each in crowds.items():
             rows.append([f"traffic, {dynamics}, {n} vehicles, one core", f"{each['rate']:,.0f}", "vehicle ticks/s"])
             rows.append([f"times real time, {dynamics}, {n} vehicles", f"{each['real_time']:.2f}", "1"])
+            rows.append([f"preparing, {dynamics}, {n} vehicles", f"{each['prepared']:.2f}", "s"])
     if "difference" in figures:
         rows.append(["distance to the CPU's result after 10 s", f"{figures['difference']:.1e}", "m"])
     return rows

@@ -6,6 +6,7 @@ import numpy as np
 
 from studio.road.network import RIGHTS, Network
 from studio.road.ways.conflict import ACROSS, NONE
+from studio.road.ways.corner import sights_of
 from studio.road.ways.gap import critical_gap
 from studio.road.ways.meeting import Meetings, meetings_of
 from studio.road.ways.ring import onto_rings
@@ -36,6 +37,8 @@ def web_of(settings: Sequence[Setting], lines: Lines) -> tuple[Web, np.ndarray]:
         span=np.concatenate([each.span for each in met], axis=1),
         shape=np.concatenate([each.shape for each in met]),
         turn=np.concatenate([each.turn for each in met]),
+        sight=np.concatenate([sights_of(each) for each in networks], axis=1),
+        fast=np.concatenate([speeds(*each) for each in zip(networks, met, strict=True)]),
     ), counts
 
 
@@ -60,6 +63,12 @@ def rights(network: Network) -> np.ndarray:
 def gaps(network: Network) -> np.ndarray:
     """The critical gap of every strand [s], 0 of lanes."""
     return np.array([0.0] * len(network.lanes) + [critical_gap(each, network.drive_side) for each in network.connections])
+
+
+def speeds(network: Network, met: Meetings) -> np.ndarray:
+    """How fast one may come to each meeting on the partner [m/s]."""
+    lanes = [lane.speed for lane in network.lanes]
+    return np.array(lanes + [lanes[each.from_lane] for each in network.connections], dtype=float)[met.partner]
 
 
 def rooms(network: Network, strands: Strands, met: Meetings) -> np.ndarray:

@@ -140,5 +140,6 @@ def test_a_queue_is_in_the_order_of_stations(n, seed):
 def bare_web(drive, strand, count):
     """Strands on which nobody meets others."""
     none = np.zeros(0, np.int64)
-    nothing = np.zeros(count), np.zeros(count, np.int64), np.zeros(count + 1, np.int64), none, np.zeros((4, 0)), none, none
-    return Web(drive, strand, np.full(count, -1), *nothing)
+    by_strand = np.zeros(count), np.zeros(count, np.int64), np.zeros(count + 1, np.int64)
+    by_meeting = none, np.zeros((4, 0)), none, none, np.zeros((1, 0)), np.zeros(0)
+    return Web(drive, strand, np.full(count, -1), *by_strand, *by_meeting)

@@ -7,12 +7,12 @@ import yaml
 from studio import job
 from studio.road import load
 from studio.vehicle.parameter import FRONT
-from studio.vehicle.state import ACTIVE, V_X
+from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
 from studio.world.table.mind import MINDED, STATION, WAY_STATION
 from studio.world.tick import tick
 from tests.road.conftest import Draft
-from tests.road.test_priority import AHEAD, BERLIN, PERTH, RIGHT_OF, TOKYO, arms_of, crossing
+from tests.road.test_priority import AHEAD, BERLIN, PERTH, RIGHT_OF, TOKYO, arms_of, crossing, place_at
 
 MAJOR = {"west": "secondary", "east": "secondary"}
 LEFT_OF = {there: here for here, there in RIGHT_OF.items()}
@@ -21,9 +21,16 @@ LEFT_OF = {there: here for here, there in RIGHT_OF.items()}
 class Run:
     """Cars on a crossing, tick by tick: noses, speeds, and when each passed the middle and came to its line."""
 
-    def __init__(self, folder, ways, *, centre=BERLIN, starts=None, seconds=40.0, speeds=None, **drawn):
-        """`ways` are the arms that each car comes from and goes to; `starts` and `speeds` where and how each begins, else all the same."""
-        network = load(crossing(Draft(), centre, **drawn).write(folder / "cross.osm"))
+    def __init__(self, folder, ways, *, centre=BERLIN, starts=None, seconds=40.0, speeds=None, houses=(), **drawn):
+        """`ways` are the arms that each car comes from and goes to; `starts` and `speeds` where and how each begins, else all the same.
+
+        `houses` are the corners of some [m], from the middle of the crossing.
+        """
+        draft = crossing(Draft(), centre, **drawn)
+        for number, house in enumerate(houses, start=10):
+            corners = [draft.node(*place_at(centre, *corner)) for corner in house]
+            draft.way(number, [*corners, corners[0]], building="yes")
+        self.network = network = load(draft.write(folder / "cross.osm"))
         roads = {arms_of(network, c): (network.lanes[c.from_lane].road, network.lanes[c.to_lane].road) for c in network.connections}
         named = {f"car_{i}_{a}_{b}": list(roads[a, b]) for i, (a, b) in enumerate(ways)}
         starts, speeds = starts or [40.0] * len(ways), speeds or [8.0] * len(ways)
@@ -37,7 +44,7 @@ class Run:
         }  # fmt: skip
         (folder / "cross.yaml").write_text(yaml.safe_dump(scenario), encoding="utf-8")
         self.world = world = build([job.prepare(job.load(folder / "cross.yaml"))])
-        nose, speed, held, active, minded = [], [], [], [], []
+        nose, speed, held, active, minded, place = [], [], [], [], [], []
         for _ in range(round(seconds / world.clock.tick)):
             tick(world)
             nose.append(world.vehicles.mind[STATION] + world.vehicles.parameter[FRONT])
@@ -45,8 +52,9 @@ class Run:
             held.append(np.isfinite(world.vehicles.mind[WAY_STATION]))
             active.append(world.vehicles.state[ACTIVE] > 0)
             minded.append(world.vehicles.mind[MINDED].copy())
-        made = (np.array(each).T for each in (nose, speed, held, active, minded))
-        self.nose, self.speed, self.held, self.active, self.minded = made
+            place.append(world.vehicles.state[[X, Y]].copy())
+        made = (np.array(each).T for each in (nose, speed, held, active, minded, place))
+        self.nose, self.speed, self.held, self.active, self.minded, self.place = made
         r = world.roads
         self.line = np.array([r.web.drive[0, d + 1] for d in r.drive_first])  # where the way through the junction begins
         self.time = np.arange(self.nose.shape[1]) * world.clock.tick

@@ -5,6 +5,7 @@ Before the line of a way, where its strand begins, he decides whether he may go;
     sign, ring, light    who goes first by the map is let by, unless the gap before him is long enough; a full halt first where a stop sign
                          stands. With a green light one waits in the junction, where the ways meet
     equal                who comes first goes first; at an all-way stop who has stood longer
+    corners              whom a building hides is not minded; one comes so slowly that one can still stop for him, and feels one's way
     several ways         between which there is no room for the own body are decided about together, before the line of the first
     within a junction    behind a way, where another begins at once, one does not wait before its line for somebody who stands beyond, but
                          moves up to where he is: one's own rear may be in another's way
@@ -23,12 +24,14 @@ from studio.road.ways.conflict import ALONG, GIVE, NONE, SHARED, TAKE
 from studio.road.ways.path import PATH_SPACING, PATH_SPEED, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import V_X
+from studio.world.passes.corner import READY, appears_in, has_corner, is_hidden, ready_speed
 from studio.world.passes.narrow import waits_outside
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, from_station
 from studio.world.passes.regard import behind, follow, is_ahead, is_in_the_way, is_unseen, let_in
 from studio.world.table.mind import (
     BRAKE_COMFORT,
+    CAREFUL,
     COMFORT,
     EXPECTED,
     FIRST,
@@ -81,6 +84,7 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
             who = leaves_no_room(v, d, last, own, world, state, parameter, number, web, first, place, at, drivers, mind)
             must = who != NOBODY
     top = top_speed(v, d, drivers, points, path_first, path_count, web, mind)
+    top = min(top, max(careful_speed(v, strand, own, to_line, top, state, parameter, web, drivers, mind), CRAWL))
     for m in range(web.first[strand], web.first[strand + 1]):
         if own + parameter[FRONT, v] - parameter[LENGTH, v] > web.span[OWN_LEAVE, m]:
             continue
@@ -98,6 +102,21 @@ def waits(v, d, last, own, line, bumper, inside, decided, state, parameter, plac
             ):  # fmt: skip
                 must, who = True, number[other]
     return must and is_way and is_held(v, who, line, to_line, decided, state, drivers, mind)
+
+
+@inlined
+def careful_speed(v, strand, own, to_line, top, state, parameter, web, drivers, mind):
+    """Speed [m/s] from which v can still stop for those who go first and are hidden yet; with a light, that lets nobody come."""
+    if web.right[strand] != LANE and web.right[strand] != SIGNAL:
+        nose, late = own + parameter[FRONT, v], max(state[V_X, v], 0.0) * (driver.SETTLING + drivers[EXPECTED, v])
+        for m in range(web.first[strand], web.first[strand + 1]):
+            to_enter = web.span[OWN_ENTER, m] - nose
+            if web.turn[m] != GIVE or to_enter <= 0.0 or not has_corner(m, web):
+                continue
+            if not is_gone(v, m, to_enter, appears_in(m, to_enter, web), web.fast[m], top, state, parameter, web, drivers, mind):
+                left = to_line - driver.STOP_CLOSE if to_line >= 0.0 else to_enter - READY
+                mind[CAREFUL, v] = min(mind[CAREFUL, v], ready_speed(left - late, drivers[BRAKE_COMFORT, v]))
+    return mind[CAREFUL, v]
 
 
 @inlined
@@ -204,7 +223,8 @@ def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter
     if its_tail > its_leave or is_unseen(v, other, state, parameter, drivers):
         return False
     if its_nose < its_enter:
-        return nose < enter and lets_go(
+        is_seen = web.turn[m] == NONE or not is_hidden(m, enter - nose, its_enter - its_nose, web)
+        return is_seen and nose < enter and lets_go(
             v, other, m, strand, enter - nose, its_enter - its_nose, its_nose, to_line, top, state, parameter, number, entity, web, drivers,
             mind,
         )  # fmt: skip
@@ -219,7 +239,8 @@ def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter
     gone = leaves_in(other, its_leave - its_tail, state) + AFTER
     if nose >= enter or gone < comes_in(v, enter - nose, state, drivers, mind):
         return False
-    if mind[STOOD, other] > PATIENCE and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
+    stands = state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE  # who sets off again may come in the way
+    if stands and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
         return False
     let_across(v, other, enter - nose, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind)
     return web.turn[m] != NONE and not inside
@@ -294,15 +315,24 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
         return False
     its_time = mind[MISJUDGED, v] * comes_in(other, its_way, state, drivers, mind)
     at_light = web.right[strand] == SIGNAL
-    if turn == GIVE and (to_line >= 0.0 or at_light):
+    feels = feels_the_way(v, m, to_enter, to_line, state, web)
+    if turn == GIVE and (to_line >= 0.0 or at_light or feels):
         if has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, state, parameter, number, entity, web, drivers, mind):
             return False
-        if at_light:
+        if feels and is_gone(v, m, to_enter, its_time, state[V_X, other], top, state, parameter, web, drivers, mind):
+            return False
+        if at_light or feels:
             follow(v, number[other], to_enter, 0.0, state, drivers, mind)
-        return not at_light
+        return not (at_light or feels)
     if web.right[strand] == ALL_WAY_STOP and to_line >= 0.0 and not is_committed:
         return state[V_X, other] < STANDING and has_stood_longer(other, v, entity, mind)
     return comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parameter, number, entity, web, drivers, mind)
+
+
+@inlined
+def feels_the_way(v, m, to_enter, to_line, state, web):
+    """Whether v is beyond its line, since a corner has let it see no sooner, and can stop before it comes in somebody's way."""
+    return to_line < 0.0 and has_corner(m, web) and driver.must_stop(state[V_X, v], to_enter)
 
 
 @inlined
@@ -349,17 +379,24 @@ def has_time(v, other, m, strand, to_enter, its_way, its_time, to_line, top, sta
     lag = its_time - arrival_below(to_wait, max(state[V_X, v], 0.0), a, top)
     return is_enough(
         lag, wanted_gap(drivers[GAP_SHARE, v] * web.critical[strand], mind[STOOD, v]), across, state[V_X, v], drivers[COMFORT, v]
-    ) and is_safe(v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web, drivers)
+    ) and is_safe(v, m, to_enter, its_time, state[V_X, other], own_time, a, top, state, parameter, web, drivers)
 
 
 @inlined
-def is_safe(v, other, m, to_enter, its_time, own_time, a, top, state, parameter, web, drivers):
-    """Whether v has left before the other comes; where lines run together, whether he need not brake hard behind v."""
+def is_safe(v, m, to_enter, its_time, its_speed, own_time, a, top, state, parameter, web, drivers):
+    """Whether v has left before one comes; where lines run together, whether he need not brake hard behind v."""
     speed = max(state[V_X, v], 0.0)
     if web.shape[m] == ALONG:
-        return its_time > own_time + merging_headway(state[V_X, other], sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
+        return its_time > own_time + merging_headway(its_speed, sqrt(speed * speed + 2.0 * a * max(to_enter, 0.0)))
     way = to_enter + web.span[OWN_LEAVE, m] - web.span[OWN_ENTER, m] + parameter[LENGTH, v]
     return its_time > arrival_below(way, speed, a, top) + drivers[EXPECTED, v] + AFTER
+
+
+@inlined
+def is_gone(v, m, to_enter, its_time, its_speed, top, state, parameter, web, drivers, mind):
+    """The same of one who comes with a speed [m/s] and whom v does not let go before for his comfort."""
+    own_time = slow_arrival(v, to_enter, top, state, drivers, mind)
+    return is_safe(v, m, to_enter, its_time, its_speed, own_time, free(v, state, drivers, mind), top, state, parameter, web, drivers)
 
 
 @inlined

@@ -12,6 +12,7 @@ from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
     BRAKE_COMFORT,
+    CAREFUL,
     COMFORT,
     FIRST,
     FIRST_GAP,
@@ -38,7 +39,7 @@ def forget(v, mind):
     mind[AHEAD, v] = mind[MINDED, v] = -1.0
     mind[AHEAD_SPEED, v] = 0.0
     mind[FOLLOWING, v] = mind[YIELDING, v] = driver.NO_LIMIT
-    mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = inf
+    mind[FOLLOW_GAP, v] = mind[FIRST_GAP, v] = mind[CAREFUL, v] = inf
     mind[WAITED_FOR, v], mind[FIRST, v] = mind[FIRST, v], -1.0
 
 

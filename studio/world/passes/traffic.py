@@ -28,6 +28,7 @@ from studio.world.table.mind import (
     AHEAD_SPEED,
     ASIDE,
     BRAKE_COMFORT,
+    CAREFUL,
     COMFORT,
     D_PSI,
     EXPECTED,
@@ -330,8 +331,8 @@ def sees(v, state, parameter, mind):
     """What a driver of any kind sees of all this."""
     front, rear = compliance(v, L_F, L_R, C_FRONT, parameter), compliance(v, L_R, L_F, C_REAR, parameter)
     return Sees(
-        driver.foreseen_speed(state[V_X, v], mind[GAINED, v]), state[YAW_RATE, v], mind[V_DESIRED, v], mind[SEEN_GAP, v],
-        mind[SEEN_SPEED, v], mind[SEEN_FIRST_GAP, v], mind[SEEN_FIRST_SPEED, v], mind[SEEN_STOP, v],
+        driver.foreseen_speed(state[V_X, v], mind[GAINED, v]), state[YAW_RATE, v], min(mind[V_DESIRED, v], mind[CAREFUL, v]),
+        mind[SEEN_GAP, v], mind[SEEN_SPEED, v], mind[SEEN_FIRST_GAP, v], mind[SEEN_FIRST_SPEED, v], mind[SEEN_STOP, v],
         mind[FRONT_OFFSET, v] - mind[SWAYED, v] - mind[ASIDE, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v],
         parameter[STEER_RATE, v], parameter[L_F, v] + parameter[L_R, v], front - rear,
         state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v], state[V_X, v],

@@ -39,6 +39,9 @@ PATH_KAPPA = MIND.row("path_curvature", "1/m", "curvature of the path at the car
 D_PSI = MIND.row("heading_error", "rad", "heading minus path heading at the front axle")
 FRONT_OFFSET = MIND.row("front_offset", "m", "offset of the front axle from the path")
 V_DESIRED = MIND.row("desired_speed", "m/s", "speed that route and bends permit", label="Permitted speed")
+CAREFUL = MIND.row(
+    "careful_speed", "m/s", "speed from which one can still stop for somebody whom a corner hides; infinite where none matters",
+)  # fmt: skip
 GAP = MIND.row(
     "gap", "m", "bumper to bumper, to the vehicle or object ahead on the own path; not a number when there is none",
     label="Gap to the car ahead",

@@ -25,3 +25,5 @@ class Web(NamedTuple):
     span: np.ndarray  # float64[4, meeting]
     shape: np.ndarray
     turn: np.ndarray
+    sight: np.ndarray  # float64[place, meeting] [m]: how far one sees along the partner, from places before where they meet
+    fast: np.ndarray  # float64[meeting] [m/s]: as fast one may drive who comes there on the partner
