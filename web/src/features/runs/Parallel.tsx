@@ -81,6 +81,7 @@ export function Parallel({ axes, runs, shown, bounds, onRange, onHover }: Drawn)
             key={axis.column.id}
             axis={axis}
             x={x(index)}
+            end={axes.length < 2 ? undefined : index === 0 ? "first" : index === axes.length - 1 ? "last" : undefined}
             range={stroke?.axis === index ? sorted(stroke) : rangeOf(axis, bounds)}
           />
         ))}
@@ -95,15 +96,15 @@ const sorted = ({ from, to }: Stroke): Range => [Math.min(from, to), Math.max(fr
 const y = (place: number | undefined) => (place === undefined ? NONE : HEIGHT - BOTTOM - place * (HEIGHT - TOP - BOTTOM));
 const placeAt = (at: number) => Math.min(1, Math.max(0, (HEIGHT - BOTTOM - at) / (HEIGHT - TOP - BOTTOM)));
 
-/** Title above, its ends, the range that is kept, and the place of runs that have no value. */
-function AxisLine({ axis, x, range }: { axis: Axis; x: number; range: Range | undefined }) {
+/** Title above, which stays inside the picture at its `end`, the axis' own ends, the range that is kept, and the place of runs that have no value. */
+function AxisLine({ axis, x, end, range }: { axis: Axis; x: number; end: "first" | "last" | undefined; range: Range | undefined }) {
   const { column, low, high } = axis;
   return (
     <g className={classes.axis} data-axis={column.id}>
       <title>{`${column.name}: drag along the axis to keep a range, click to let all through`}</title>
       <rect x={x - GRIP} y={TOP} width={2 * GRIP} height={HEIGHT - TOP - BOTTOM} className={classes.grip} />
       <line x1={x} x2={x} y1={TOP} y2={HEIGHT - BOTTOM} />
-      <text x={x} y={12} className={classes.title}>
+      <text x={x} y={12} className={classes.title} data-end={end}>
         {short(withUnit(column.title, column.unit))}
       </text>
       <text x={x} y={TOP - 6}>
