@@ -66,7 +66,10 @@ def metric(name: str, a: Measured | None, b: Measured | None, is_ranked: bool = 
 
 
 def better(a: float, b: float, goal: Direction) -> Literal["a", "b", "same"] | None:
-    """Which of two values is better; nothing when the metric has no direction. Where chance alone may be the difference, or nobody could measure it, neither."""
+    """Which of two values is better; nothing when the metric has no direction.
+
+    Neither where chance alone may be the difference, or nobody could measure it.
+    """
     if isclose(a, b, rel_tol=ALIKE, abs_tol=FINEST):
         return "same"
     if goal is None:
