@@ -55,6 +55,7 @@ PLACES = {
     "compare_three": "/compare?runs=1,2,4",
     "compare_empty": "/compare",
     "maps": "/maps",
+    "map": "/maps/stern",
     "validate": "/validate",
     "kinds": "/kinds",
     "docs": "/docs/",

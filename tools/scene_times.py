@@ -71,7 +71,8 @@ def measure(client, opened, server: int, vehicles: int) -> dict[str, float]:
     page, _ = watched(opened, viewport={"width": 1280, "height": 800})
     page.goto(f"{client.base_url}/studio/{SCENARIO}?run={live}")
     frame = page.get_by_test_id("scene-frame").element_handle().content_frame()
-    frame.wait_for_function("window.__studioBridge?.poseOf(0) != null")
+    # asked again and again from here: the page's policy lets no text become a program, and a frame has that until it is loaded
+    until(lambda: frame.evaluate("window.__studioBridge?.poseOf(0) != null"), "the cars in the scene")
     until(lambda: client.get(f"/api/live/{live}").json()["time"] > 1.0, "the run to go on")
     found = {"updates a second": frame.evaluate(UPDATES, SECONDS)}
     client.post(f"/api/live/{live}/stop")

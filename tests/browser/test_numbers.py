@@ -188,13 +188,13 @@ def test_the_overview_of_a_motorway_goes_along(page):
     page.goto(f"/studio/{MOTORWAY}?run={OTHER}&time=0.5")
     expect(page.get_by_role("status", name="The scene is loading")).to_have_count(0)
     scene = page.get_by_test_id("scene-frame").element_handle().content_frame()
-    scene.wait_for_function("window.__studioBridge.poseOf(0) && window.__studioBridge.view.middle")
+    until(lambda: scene.evaluate("Boolean(window.__studioBridge?.poseOf(0) && window.__studioBridge.view.middle)"), "the cars in the scene")
     first = until(lambda: (now := scene.evaluate(LEADER_IN_PICTURE)) == scene.evaluate(LEADER_IN_PICTURE) and now, "the scene to rest")
     assert abs(first[0]) < 0.7 and abs(first[1]) < 0.7
     time_entry = page.get_by_role("toolbar", name="Playback").get_by_label("Time", exact=True)
     time_entry.fill("4")
     time_entry.press("Enter")
-    scene.wait_for_function("before => Math.abs(window.__studioBridge.poseOf(0).x - before) > 100", arg=first[2])
+    until(lambda: abs(scene.evaluate(LEADER_IN_PICTURE)[2] - first[2]) > 100, "the leader a hundred metres on")
     then = until(lambda: (now := scene.evaluate(LEADER_IN_PICTURE)) == scene.evaluate(LEADER_IN_PICTURE) and now, "the scene to rest")
     assert then[:2] == pytest.approx(first[:2], abs=0.1)
 
