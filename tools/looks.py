@@ -5,6 +5,7 @@ python -m tools.looks FOLDER --url http://… --only runs,board    of a server t
 """
 
 import argparse
+import re
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -96,6 +97,7 @@ def settled(page) -> None:
     """Until a place shows all that it has: its scene too, where there is one."""
     page.wait_for_timeout(SETTLING_MS)
     expect(page.get_by_role("status", name="The scene is loading")).to_have_count(0)
+    expect(page.get_by_text(re.compile("^Loading "))).to_have_count(0)
     page.wait_for_timeout(SETTLING_MS)
 
 
