@@ -146,13 +146,18 @@ def test_the_plan_rests_and_still_shows_what_changes(page):
     """For a second nobody asks for a frame; a tree that is placed then is drawn all the same."""
     until(lambda: page.evaluate(FRAMES) == 0, "the plan to rest")
     x, y = beside(page, "vehicles.first", 60, 0)
-    clip = {"x": x - 4, "y": y - 4, "width": 8, "height": 8}
-    bare = pixels(page.screenshot(clip=clip))
+    bare = pixels(page.screenshot(clip=square(x, y)))
     add(page, "Tree")
     page.mouse.click(x, y)
     done(page, "Add tree", "tree")
     page.mouse.move(5, 5)
-    until(lambda: np.abs(pixels(page.screenshot(clip=clip)) - bare).mean() > 10.0, "the tree in the picture")
+    # the plan is lower now, and the tree elsewhere on the screen
+    until(lambda: np.abs(pixels(page.screenshot(clip=square(*spot(page, "script.tree")))) - bare).mean() > 10.0, "the tree in the picture")
+
+
+def square(x, y):
+    """Eight pixels around a place on the screen."""
+    return {"x": round(x) - 4, "y": round(y) - 4, "width": 8, "height": 8}
 
 
 def test_a_car_is_dragged_along_its_way(page, path):
