@@ -103,7 +103,16 @@ def test_tables_for_people(folder):
     assert "min TTC [s]" in studio("runs", cwd=cwd)[1]
     assert "min_gap [m]" in studio("show", 1, cwd=cwd)[1]
     compared = studio("compare", 1, 2, cwd=cwd)[1]
-    assert "headway" in compared and "same: differs by less than 1 %" in compared
+    assert "applications.platoon.parameters.headway [s]" in compared and "same: differs by less than 1 %" in compared
+
+
+def test_goals_are_told_with_what_was_wanted(folder):
+    """The sample wants two things; a third that no run can keep is told as not met, with its value."""
+    cwd, run, _ = folder
+    assert run["unmet"] == []
+    assert "2 of 2 goals met" in studio("show", 1, cwd=cwd)[1]
+    compared = studio("compare", 1, 2, cwd=cwd)[1]
+    assert "run 1: 2 of 2 goals met" in compared and "run 2: 2 of 2 goals met" in compared
 
 
 def test_explain(sample, tmp_path):

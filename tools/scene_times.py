@@ -7,13 +7,17 @@ updates a second     poses that reach the scene of a live run at real time, what
 playhead to scene    from asking for another time of a run that is over until its cars stand there, median
 click to echo        from a click at a car until the camera has it, median
 frames at rest       drawn in some seconds in which nothing changes, with a car followed; and while another page covers the scene
+processor at rest    of one core, while nothing changes: by the server, and by the browser with the scene, and with another page over it
 """
 
 import argparse
 import statistics
 import sys
 import tempfile
+import time
 from pathlib import Path
+
+import psutil
 
 from tests.browser.browser import browser, watched
 from tests.patience import until
@@ -60,14 +64,15 @@ FRAMES = """async (seconds) => {
 }"""
 
 
-def measure(client, opened, vehicles: int) -> dict[str, float]:
-    """All figures of one server and browser."""
+def measure(client, opened, server: int, vehicles: int) -> dict[str, float]:
+    """All figures of a server, by the number of its process, and a browser."""
     changes = {"traffic.count": vehicles - NAMED, "recording.traffic": True, "clock.duration": 60}
     live = client.post("/api/live", json={"scenario": SCENARIO, "set": changes, "pace": 1.0}).json()["run"]
     page, _ = watched(opened, viewport={"width": 1280, "height": 800})
     page.goto(f"{client.base_url}/studio/{SCENARIO}?run={live}")
     frame = page.get_by_test_id("scene-frame").element_handle().content_frame()
-    frame.wait_for_function("window.__studioBridge?.poseOf(0) != null")
+    # asked again and again from here: the page's policy lets no text become a program, and a frame has that until it is loaded
+    until(lambda: frame.evaluate("window.__studioBridge?.poseOf(0) != null"), "the cars in the scene")
     until(lambda: client.get(f"/api/live/{live}").json()["time"] > 1.0, "the run to go on")
     found = {"updates a second": frame.evaluate(UPDATES, SECONDS)}
     client.post(f"/api/live/{live}/stop")
@@ -78,10 +83,32 @@ def measure(client, opened, vehicles: int) -> dict[str, float]:
     page.get_by_role("combobox", name="Follow a car").select_option("0")
     until(lambda: frame.evaluate(FRAMES, 3) == 0, "the scene to rest")
     found[f"frames at rest, of a followed car, in {SECONDS} s"] = frame.evaluate(FRAMES, SECONDS)
+    found |= idle("scene", server)
     found["click to echo, median [ms]"] = statistics.median(clicked(page, frame))
     page.get_by_role("link", name="Runs", exact=True).first.click()
     found[f"frames under another page in {SECONDS} s"] = frame.evaluate(FRAMES, SECONDS)
-    return found
+    return found | idle("another page", server)
+
+
+def idle(shown: str, server: int) -> dict[str, float]:
+    """The share of one core [%] that the server and the browser take while nothing is asked of them."""
+    browsers = [each for each in psutil.Process().children(recursive=True) if "chrom" in each.name()]
+    begun, groups = time.monotonic(), {"server": family(server), "browser": browsers}
+    before = {name: spent(group) for name, group in groups.items()}
+    time.sleep(SECONDS)
+    lasted = time.monotonic() - begun
+    return {f"{name} at rest, {shown} [% of a core]": 100.0 * (spent(group) - before[name]) / lasted for name, group in groups.items()}
+
+
+def family(process: int) -> list[psutil.Process]:
+    """A process and all that it has begun."""
+    first = psutil.Process(process)
+    return [first, *first.children(recursive=True)]
+
+
+def spent(processes: list[psutil.Process]) -> float:
+    """Time of processors [s] that processes have taken; one that has ended takes no more."""
+    return sum(each.cpu_times().user + each.cpu_times().system for each in processes if each.is_running())
 
 
 def clicked(page, frame) -> list[float]:
@@ -100,8 +127,8 @@ def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--vehicles", type=int, default=100)
     wanted = arguments.parse_args()
-    with tempfile.TemporaryDirectory() as folder, browser() as opened, served(Path(folder), "--scenarios", SAMPLES) as (client, _, _):
-        for name, value in measure(client, opened, wanted.vehicles).items():
+    with tempfile.TemporaryDirectory() as folder, browser() as opened, served(Path(folder), "--scenarios", SAMPLES) as (client, _, server):
+        for name, value in measure(client, opened, server.pid, wanted.vehicles).items():
             sys.stdout.write(f"{name:50} {value:8.1f}\n")
         opened.close()
 

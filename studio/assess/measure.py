@@ -71,6 +71,12 @@ def unmet(goals: dict[str, Goal], metrics: dict[str, Measured]) -> list[str]:
     return [text for name, goal in goals.items() if (text := failing(name, goal, metrics.get(name)))]
 
 
+def asked(goal: Goal) -> str:
+    """What a goal wants, in words."""
+    ends = (("at least", goal.least), ("at most", goal.most))
+    return " and ".join(f"{word} {end:g}" for word, end in ends if end is not None) or "nothing"
+
+
 def failing(name: str, goal: Goal, found: Measured | None) -> str:
     """Why a goal is not met, or nothing."""
     if found is None or found.value is None:

@@ -143,6 +143,7 @@ def show(
         print_json(run_json(row) | events_json(runs.events(run)))
     else:
         print_run(row)
+        print_goals(row, runs.document(row))
         print_events(runs.events(run))
 
 
@@ -177,19 +178,22 @@ def compare(
     """Compares two runs: the parameters that differ, and every metric."""
     from studio.store.comparison import compare as compared
 
-    result = compared(existing(db), a, b)
+    runs = existing(db)
+    result = compared(runs, a, b)
     if as_json:
         print_json(result)
         return
     print_table(
         ["parameter", f"run {a}", f"run {b}"],
-        [[each["path"], text(each["a"]), text(each["b"])] for each in result["parameters"]],
+        [[with_unit(each["path"], each["unit"]), text(each["a"]), text(each["b"])] for each in result["parameters"]],
     )
     print_table(
-        ["metric", f"run {a}", f"run {b}", "difference", "better"],
-        [[f"{each['name']} [{each['unit']}]", text(each["a"]), text(each["b"]), signed(each["difference"]),
+        ["metric", f"run {a}", f"run {b}", "difference", "wanted", "better"],
+        [[with_unit(each["name"], each["unit"]), text(each["a"]), text(each["b"]), signed(each["difference"]), each["goal"] or "",
           {"a": f"run {a}", "b": f"run {b}"}.get(each["better"], each["better"] or "")] for each in result["metrics"]],
     )  # fmt: skip
+    for each in (runs.find(a), runs.find(b)):
+        print(f"run {each.run}: {goals_met(each, runs.document(each))}")
     print(result["unranked"] or f"same: differs by less than {100 * result['alike']:g} %")
 
 
@@ -377,13 +381,51 @@ def print_run(row) -> None:
         print(f"{name:9} {value}")
     if row.error:
         print(f"\n{row.error}")
-    for each in row.unmet:
-        print(f"goal not met: {each}")
     if row.metrics:
         print_table(
             ["metric", "value", "whom and when", "better"],
-            [[f"{name} [{each.unit}]", text(each.value), each.about, each.goal or ""] for name, each in row.metrics.items()],
+            [[with_unit(name, each.unit), text(each.value), each.about, each.goal or ""] for name, each in row.metrics.items()],
         )
+
+
+def with_unit(name: str, unit: str) -> str:
+    """A name with its unit; numbers without one have none."""
+    return f"{name} [{unit}]" if unit and unit != "1" else name
+
+
+def print_goals(row, document: dict[str, Any]) -> None:
+    """What was wanted of a run, and whether it was met."""
+    from studio.assess.measure import asked, failing
+
+    print(goals_met(row, document))
+    rows = []
+    for name, goal in goals_of(document).items():
+        found, why = row.metrics.get(name), failing(name, goal, row.metrics.get(name))
+        rows.append(
+            [with_unit(name, found.unit if found else ""), asked(goal), text(found.value if found else None), "no" if why else "yes"]
+        )
+    if rows:
+        print_table(["goal", "wanted", "value", "met"], rows)
+    print("".join(f"goal not met: {each}\n" for each in row.unmet), end="")
+
+
+def goals_met(row, document: dict[str, Any]) -> str:
+    """How many of its goals a run meets, in words."""
+    from studio.assess.measure import unmet
+
+    goals = goals_of(document)
+    if not goals:
+        return "no goals are set"
+    if not row.metrics:
+        return f"{len(goals)} goals, and nothing was measured"
+    return f"{len(goals) - len(unmet(goals, row.metrics))} of {len(goals)} goals met"
+
+
+def goals_of(document: dict[str, Any]) -> dict[str, Any]:
+    """The goals of a scenario, by metric."""
+    from studio.scenario.schema import Goal
+
+    return {name: Goal.model_validate(goal) for name, goal in document.get("goals", {}).items()}
 
 
 def print_sources(row, texts: dict[str, dict[str, str]], patches: dict[str, str]) -> None:

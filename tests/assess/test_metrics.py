@@ -95,10 +95,18 @@ def test_goals():
         (100.0, 102.0, "higher", "b"),
         (-30.0, -30.1, "higher", "same"),
         (0.0, 3e-17, "lower", "same"),  # rounding
+        (1e-6, 7e-6, "lower", "same"),  # m: nobody measures that
+        (0.0, 0.002, "lower", "a"),
     ],
 )
 def test_better(a, b, goal, better):
     assert compare.better(a, b, goal) == better
+
+
+def test_a_share_of_what_nobody_could_measure_is_none():
+    none, some = (compare.metric("x", Measured(a, "m", "lower"), Measured(0.5, "m", "lower")) for a in (1e-6, 0.25))
+    assert (none.difference, none.relative, none.better) == (pytest.approx(0.5, abs=1e-5), None, "a")
+    assert (some.difference, some.relative, some.better) == (0.25, 1.0, "a")
 
 
 def test_a_metric_on_one_side_only():

@@ -3,11 +3,12 @@
 import re
 import shutil
 
+import numpy as np
 import pytest
 import yaml
 from playwright.sync_api import expect
 
-from tests.browser.browser import browser, drawn, watched
+from tests.browser.browser import browser, drawn, pixels, watched
 from tests.patience import until
 from tests.server.server import served
 
@@ -131,6 +132,32 @@ def test_a_tree_is_placed_undone_and_done_again(page, path):
     page.keyboard.press("Delete")
     expect(row(page, "tree")).to_have_count(0)
     assert path.read_bytes() == before
+
+
+FRAMES = """() => new Promise((resolve) => {
+  const ask = window.requestAnimationFrame;
+  let count = 0;
+  window.requestAnimationFrame = (call) => (count++, ask(call));
+  setTimeout(() => ((window.requestAnimationFrame = ask), resolve(count)), 1000);
+})"""
+
+
+def test_the_plan_rests_and_still_shows_what_changes(page):
+    """For a second nobody asks for a frame; a tree that is placed then is drawn all the same."""
+    until(lambda: page.evaluate(FRAMES) == 0, "the plan to rest")
+    x, y = beside(page, "vehicles.first", 60, 0)
+    bare = pixels(page.screenshot(clip=square(x, y)))
+    add(page, "Tree")
+    page.mouse.click(x, y)
+    done(page, "Add tree", "tree")
+    page.mouse.move(5, 5)
+    # the plan is lower now, and the tree elsewhere on the screen
+    until(lambda: np.abs(pixels(page.screenshot(clip=square(*spot(page, "script.tree")))) - bare).mean() > 10.0, "the tree in the picture")
+
+
+def square(x, y):
+    """Eight pixels around a place on the screen."""
+    return {"x": round(x) - 4, "y": round(y) - 4, "width": 8, "height": 8}
 
 
 def test_a_car_is_dragged_along_its_way(page, path):

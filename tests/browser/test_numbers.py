@@ -176,6 +176,29 @@ def test_a_needle_is_outside_and_told(page, studio):
     expect(figure.get_by_role("button", name=re.compile("inside"))).to_have_attribute("aria-pressed", "true")
 
 
+LEADER_IN_PICTURE = """() => {
+  const { poseOf, toThree, client } = window.__studioBridge, pose = poseOf(0);
+  const at = client().camera.position.clone().set(...toThree([pose.x, pose.y, pose.z])).project(client().camera);
+  return [at.x, at.y, pose.x];
+}"""
+
+
+def test_the_overview_of_a_motorway_goes_along(page):
+    """The leader drives 105 m in 3.5 s, and stays where he is in the picture."""
+    page.goto(f"/studio/{MOTORWAY}?run={OTHER}&time=0.5")
+    expect(page.get_by_role("status", name="The scene is loading")).to_have_count(0)
+    scene = page.get_by_test_id("scene-frame").element_handle().content_frame()
+    until(lambda: scene.evaluate("Boolean(window.__studioBridge?.poseOf(0) && window.__studioBridge.view.middle)"), "the cars in the scene")
+    first = until(lambda: (now := scene.evaluate(LEADER_IN_PICTURE)) == scene.evaluate(LEADER_IN_PICTURE) and now, "the scene to rest")
+    assert abs(first[0]) < 0.7 and abs(first[1]) < 0.7
+    time_entry = page.get_by_role("toolbar", name="Playback").get_by_label("Time", exact=True)
+    time_entry.fill("4")
+    time_entry.press("Enter")
+    until(lambda: abs(scene.evaluate(LEADER_IN_PICTURE)[2] - first[2]) > 100, "the leader a hundred metres on")
+    then = until(lambda: (now := scene.evaluate(LEADER_IN_PICTURE)) == scene.evaluate(LEADER_IN_PICTURE) and now, "the scene to rest")
+    assert then[:2] == pytest.approx(first[:2], abs=0.1)
+
+
 def test_a_metric_says_whom_when_and_what(page):
     """Its title opens the definition, its time leads to where it was so."""
     page.goto(f"/runs/{WHOLE}")

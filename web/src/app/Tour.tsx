@@ -8,9 +8,9 @@ import { useEffect, useRef, useState } from "react";
 import { answer, client } from "../api/client";
 import { runs, scenario as scenarioQuery } from "../api/queries";
 import { useDraft } from "../features/studio/draft";
-import type { ListedRun, Server, Tree } from "../model/run";
+import { isLive, type ListedRun, type Server, type Tree } from "../model/run";
 import { isTree } from "../model/schema";
-import { examples, isDone, type Seen, STEPS } from "../model/tour";
+import { examples, isDone, type Seen, STEPS, toldOf } from "../model/tour";
 import { lastScenario } from "../ui/memory";
 import { notifyError } from "../ui/notify";
 import classes from "./Tour.module.css";
@@ -67,7 +67,8 @@ function Guide({ step, all, onStep }: GuideProps) {
   const navigate = useNavigate();
   const making = useExamples(id, all.length === 0 && step === 0);
   const seen = useSeen(id, all, step);
-  const box = useBox(now?.at);
+  const told = now && toldOf(now, seen);
+  const box = useBox(told?.at);
   const goTo = (next: number) => {
     const there = STEPS[next];
     if (!there) return onStep("over");
@@ -93,7 +94,7 @@ function Guide({ step, all, onStep }: GuideProps) {
           <CloseButton size="sm" aria-label="End the tour" onClick={() => onStep("over")} />
         </Group>
         <Text size="sm" my={6}>
-          {now.text}
+          {told?.text}
         </Text>
         <Progress size="xs" mb={8} value={(100 * (step + 1)) / STEPS.length} aria-label={`Step ${step + 1} of ${STEPS.length}`} />
         <Group gap="xs">
@@ -122,6 +123,7 @@ function useSeen(id: string, all: readonly ListedRun[], step: number): Seen {
   return {
     path: pathname,
     ...now,
+    going: all.some(({ scenario, status }) => scenario === id && isLive(status)),
     before: begun.current.runs,
     decidedBefore: begun.current.decided,
     changed: Object.keys(draft.changes).length,

@@ -124,6 +124,14 @@ const BEYOND_BAR = "#ae3ec9";
 /** In a low chart the unit stands at the ticks, which saves the line of the label. */
 const withSecond = (_chart: uPlot, ticks: number[]): string[] => ticks.map((tick) => `${tick} s`);
 
+/** [px] Of the label's mean letter, and of what is no plot above and below it. */
+const LETTER = 6.3;
+const AROUND = 32;
+
+/** The label of an axis: with its unit alone where the chart is too low for all of it, for the quantity is named above. */
+const fitting = (chart: uPlot, title: string, unit: string): string =>
+  LETTER * withUnit(title, unit).length < chart.height - AROUND ? withUnit(title, unit) : `[${unitText(unit) || "1"}]`;
+
 /** Below this height [px] a chart is low. */
 const LOW = 120;
 
@@ -222,7 +230,7 @@ function options(
     },
     axes: [
       { ...axis, size: 24, space: 60, ...(low ? { values: withSecond } : { label: "Time [s]" }) },
-      { ...axis, size: AXIS_WIDTH - 16, label: withUnit(title, unit), space: 28 },
+      { ...axis, size: AXIS_WIDTH - 16, label: (chart: uPlot) => fitting(chart, title, unit), space: 28 },
       ...(rightUnit === undefined
         ? []
         : [{ ...axis, scale: RIGHT, side: 1 as const, size: AXIS_WIDTH - 16, label: `[${unitText(rightUnit) || "1"}]`, grid: { show: false } }]),

@@ -37,6 +37,11 @@ describe("the limits of an axis", () => {
     expect(limitsOf([time, noisy])).toMatchObject({ above: 900, below: -700, low: expect.closeTo(-1, 1), high: expect.closeTo(1, 1) });
   });
 
+  it("tell of no needle that is hardly a pixel long: a car that stands and rocks by 3 mm/s", () => {
+    const stop = curve((t) => (t < 10 ? 12 - 1.2 * t : t === time[510] ? -0.003 : 0));
+    expect(limitsOf([time, stop])).toEqual({ low: -0.003, high: 12 });
+  });
+
   it.each([0.3, 1, 5])("hold a brake of %s s as a whole", (lasts) => {
     const ramp = 0.1;
     const brake = (t: number) =>

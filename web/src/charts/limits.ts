@@ -24,6 +24,9 @@ const SLENDER = 0.01;
 /** [1] Of a tail's time: the outer half of a needle holds less. */
 const THINNER = 1 / 3;
 
+/** [1] Of the axis: what reaches beyond it by less is hardly a pixel, and belongs to it. */
+const SLIGHT = 0.02;
+
 /** A straight piece of a curve: its lower and its upper value, and how long it takes [s]. */
 type Piece = readonly [low: number, high: number, time: number];
 
@@ -32,11 +35,13 @@ export function limitsOf([time, ...columns]: Columns, span?: Span): Limits | und
   const [first, last] = seen(time, span);
   const curves = columns.map((column) => pieces(time, column, first, last)).filter((curve) => curve.length > 0);
   if (curves.length === 0) return undefined;
-  const low = -Math.max(...curves.map((curve) => upper(negative(curve))));
-  const high = Math.max(...curves.map(upper));
-  const least = -Math.max(...curves.map((curve) => greatestOf(negative(curve))));
-  const greatest = Math.max(...curves.map(greatestOf));
-  return { low, high, ...(least < low ? { below: least } : {}), ...(greatest > high ? { above: greatest } : {}) };
+  const [least, low] = [greatestOf, upper].map((end) => -Math.max(...curves.map((curve) => end(negative(curve))))) as [number, number];
+  const [greatest, high] = [greatestOf, upper].map((end) => Math.max(...curves.map(end))) as [number, number];
+  const slight = SLIGHT * (high - low);
+  return {
+    ...(low - least > slight ? { low, below: least } : { low: least }),
+    ...(greatest - high > slight ? { high, above: greatest } : { high: greatest }),
+  };
 }
 
 /** The samples between two times, from the first up to before the last. */

@@ -63,6 +63,10 @@ describe("how a run stands against the first", () => {
     expect(changeOf(metric({ values: [0, 1e-17], relative: [0, null] }), 1)).toEqual({ difference: 0, relative: 0 });
     expect(changeOf(metric({}), 1)).toEqual({ difference: 1, relative: 1 });
   });
+  it("is none where nobody could measure it, and no share where that is many times the baseline", () => {
+    expect(changeOf(metric({ values: [1e-6, 7e-6], relative: [0, 6] }), 1)).toEqual({ difference: 0, relative: 0 });
+    expect(changeOf(metric({ values: [0.002, 0.502], relative: [0, 250] }), 1)).toEqual({ difference: 0.5, relative: null });
+  });
 });
 
 const happened = (...events: [string, number][]) => events.map(([kind, time]) => ({ kind, time }) as RunEvent);

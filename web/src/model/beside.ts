@@ -1,6 +1,7 @@
 /** Several runs beside each other: what each is called, how each stands, and their traces on one time axis. */
 
 import { type Filled, type Json, type Run, type RunEvent, type Server, shortNames, type Trace } from "./run";
+import { FINEST } from "./standing";
 import { formatValue, words } from "./units";
 
 export type Beside = Filled<Server["Beside"], { values: Json[] }>;
@@ -86,15 +87,16 @@ export function merged(traces: readonly Trace[], offsets: readonly number[], cha
   return [time, ...columns];
 }
 
-/** [1] Of the greater value: a smaller difference is what rounding has left. */
-const ROUNDING = 1e-9;
+/** [1] A difference of more than so many times the baseline is told in its unit: nobody sees anything in 24 900 %. */
+const MANY = 10;
 
-/** The difference to the first run, and that over its value, without what rounding has left of equal values. */
+/** The difference to the first run, and that over its value where that tells something; none where nobody could measure it. */
 export function changeOf({ values, relative }: MetricBeside, place: number): { difference: number | null; relative: number | null } {
   const [first, own] = [values[0] ?? null, values[place] ?? null];
   if (first === null || own === null) return { difference: null, relative: null };
-  const equal = Math.abs(own - first) <= ROUNDING * Math.max(Math.abs(first), Math.abs(own), 1);
-  return equal ? { difference: 0, relative: 0 } : { difference: own - first, relative: relative[place] ?? null };
+  if (Math.abs(own - first) <= FINEST) return { difference: 0, relative: 0 };
+  const share = relative[place] ?? null;
+  return { difference: own - first, relative: share !== null && Math.abs(share) > MANY ? null : share };
 }
 
 /** Whether a metric says something of these runs: one has it and another not, or some differ by more than chance. */

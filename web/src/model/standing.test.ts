@@ -23,6 +23,10 @@ describe("a metric against the baseline", () => {
     const plain = finished({ run: 2, metrics: { min_gap: metric(3, "m", null) } });
     expect(standing(plain, base, "min_gap", 0.01)).toBeUndefined();
   });
+  it("takes what nobody could measure for the same", () => {
+    expect(standing(run(2, 7e-6), run(1, 1e-6), "min_gap", 0.01)).toBe("same");
+    expect(standing(run(2, 0.002), run(1, 0), "min_gap", 0.01)).toBe("better");
+  });
   it("takes what rounding has left of zero for zero", () => {
     expect(standing(run(2, 1e-17), run(1, 0), "min_gap", 0.01)).toBe("same");
   });

@@ -4,8 +4,8 @@ import { isWhole, type ListedRun } from "./run";
 
 export type Standing = "better" | "worse" | "same";
 
-/** In any unit: nearer than this to each other are values that only rounding has parted. */
-const ROUNDING = 1e-9;
+/** In any unit, as the server has it: nobody measures finer on the road. */
+export const FINEST = 1e-3;
 
 /**
  * Better, worse or the same, as the server compares; nothing where one has no value, ended early, or no direction is better.
@@ -16,7 +16,7 @@ export function standing(run: ListedRun, base: ListedRun | undefined, metric: st
   const [own, other] = [run.metrics[metric], base.metrics[metric]];
   const [a, b] = [other?.value ?? null, own?.value ?? null];
   if (a === null || b === null) return undefined;
-  if (Math.abs(b - a) <= Math.max(alike * Math.max(Math.abs(a), Math.abs(b)), ROUNDING)) return "same";
+  if (Math.abs(b - a) <= Math.max(alike * Math.max(Math.abs(a), Math.abs(b)), FINEST)) return "same";
   if (!own?.goal) return undefined;
   return b > a === (own.goal === "higher") ? "better" : "worse";
 }

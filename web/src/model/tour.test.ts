@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { examples, isDone, type Seen, STEPS } from "./tour";
+import { examples, isDone, type Seen, STEPS, toldOf } from "./tour";
 
-const seen = (part: Partial<Seen>): Seen => ({ path: "/studio/x", runs: 0, before: 0, changed: 0, decided: 0, decidedBefore: 0, ...part });
+const seen = (part: Partial<Seen>): Seen => ({ path: "/studio/x", runs: 0, before: 0, going: false, changed: 0, decided: 0, decidedBefore: 0, ...part });
 const step = (title: string) => STEPS.find((each) => each.title === title) as (typeof STEPS)[number];
 
 describe("a step of the tour is over", () => {
@@ -16,6 +16,15 @@ describe("a step of the tour is over", () => {
     ["Which one is better?", { path: "/compare" }, false],
   ] as [string, Partial<Seen>, boolean][])("%s with %o: %s", (title, part, expected) => {
     expect(isDone(step(title), seen(part))).toBe(expected);
+  });
+});
+
+describe("who is to run again", () => {
+  it("hears how the run before is over soon, while that goes on, and is shown the pace", () => {
+    const again = step("Run it again");
+    expect(toldOf(again, seen({ going: true }))).toMatchObject({ at: "[data-testid='pace']", text: expect.stringContaining("as fast as possible") });
+    expect(toldOf(again, seen({}))).toBe(again);
+    expect(toldOf(step("Run it"), seen({ going: true }))).toBe(step("Run it"));
   });
 });
 

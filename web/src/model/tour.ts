@@ -7,6 +7,8 @@ export interface Step {
   at?: string;
   /** Where it is. */
   place: "studio" | "runs" | "compare" | "scenarios";
+  /** What has to be over before it can be done, while that goes on. */
+  first?: { while: (seen: Seen) => boolean; at: string; text: string };
   /** What shows that it is done. */
   done?: (seen: Seen) => boolean;
 }
@@ -18,6 +20,8 @@ export interface Seen {
   runs: number;
   /** Runs that there were when the step began. */
   before: number;
+  /** Whether one of them goes on. */
+  going: boolean;
   /** Parameters that differ from the file. */
   changed: number;
   /** Runs about which something was decided. */
@@ -51,6 +55,11 @@ export const STEPS: readonly Step[] = [
     at: "[data-testid='run']",
     title: "Run it again",
     text: "The new run is a child of the one before: it is kept what was changed on the way.",
+    first: {
+      while: ({ going }) => going,
+      at: "[data-testid='pace']",
+      text: "The run before still goes on, at the pace of real time. Choose here: as fast as possible, and it is over in seconds. Then press Run again.",
+    },
     done: ({ runs, before }) => runs > before,
   },
   {
@@ -80,6 +89,9 @@ export const STEPS: readonly Step[] = [
     text: "Make one from a template on a map, or duplicate this one. Everything else is a key away: ? lists them, Ctrl+K goes anywhere.",
   },
 ];
+
+/** What is told now, and what is pointed at: of the step, or of what has to be over before. */
+export const toldOf = (step: Step, seen: Seen): Pick<Step, "text" | "at"> => (step.first?.while(seen) ? step.first : step);
 
 /** Whether a step is over by what somebody has done. */
 export const isDone = (step: Step, seen: Seen): boolean => step.done?.(seen) ?? false;

@@ -7,9 +7,17 @@ export function formatNumber(value: number): string {
   if (!Number.isFinite(value)) return "–";
   if (Number.isInteger(value)) return signed(String(value));
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return signed(value.toExponential(3).replace(/\.?0+e/, "e"));
+  if (size >= 1e6 || size < 1e-4) return signed(powerOfTen(value));
   return signed(String(Number(value.toPrecision(4))));
 }
+
+/** 8.905e+6 as a person writes it: 8.905·10⁶. */
+function powerOfTen(value: number): string {
+  const [mantissa = "", exponent = ""] = value.toExponential(3).split("e");
+  return `${Number(mantissa)}·10${[...exponent.replace("+", "")].map((each) => RAISED[each] ?? each).join("")}`;
+}
+
+const RAISED: Record<string, string> = { ...Object.fromEntries([..."⁰¹²³⁴⁵⁶⁷⁸⁹"].entries()), "-": "⁻" };
 
 const signed = (text: string) => text.replace(/^-/, MINUS);
 

@@ -6,7 +6,7 @@ import { useGlossary } from "../../api/glossary";
 import { changeOf, differs, type MetricBeside, type SideBySide, type Stand, standOf, tally } from "../../model/beside";
 import { explained, titleOf } from "../../model/measure";
 import { whom } from "../../model/scope";
-import { formatDifference, formatNumber, formatRelative, formatTime, withUnit, words } from "../../model/units";
+import { formatDifference, formatNumber, formatRelative, formatTime, unitText, withUnit, words } from "../../model/units";
 import classes from "./Compare.module.css";
 import { Heads } from "./Differences";
 
@@ -34,7 +34,7 @@ export function Metrics({ found, everything }: Props) {
       <h2>
         Metrics{" "}
         <Text span size="xs" c="dimmed">
-          each against the baseline; {formatNumber(100 * alike)} % and less may be chance
+          each against the baseline; {formatNumber(100 * alike)} % and less may be chance, a thousandth of the unit nobody measures
         </Text>
       </h2>
       {[...new Set(unranked.filter(Boolean))].map((why) => (
@@ -139,9 +139,10 @@ function MetricCell({ metric, found, place }: { metric: MetricBeside; found: Sid
   );
 }
 
-/** The difference to the baseline: relative, or in its unit where the baseline is zero; nothing where there is none. */
+/** The difference to the baseline: relative, or in its unit where a share would tell nothing; nothing where there is none. */
 function against(metric: MetricBeside, place: number): string {
   const { difference, relative } = changeOf(metric, place);
   if (!difference) return "";
-  return relative === null ? formatDifference(Number(difference.toPrecision(4))) : formatRelative(relative);
+  if (relative !== null) return formatRelative(relative);
+  return [formatDifference(Number(difference.toPrecision(4))), unitText(metric.unit)].filter(Boolean).join(" ");
 }

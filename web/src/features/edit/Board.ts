@@ -38,10 +38,21 @@ export interface Picture {
   dark: boolean;
 }
 
+/** What of deck.gl's loop is not told to the outside. */
+interface Loop {
+  _requestAnimationFrame?: () => void;
+}
+
+/** [ms] After something was told, in which deck.gl may still have something to draw. */
+const AWAKE_MS = 1000;
+
 type Colour = [number, number, number, number];
 
 export class Board {
   private readonly deck: Deck<OrthographicView>;
+  /** When something was told last [ms]. */
+  private told = 0;
+  private wake = () => undefined as void;
   private ground: { of: Plan; dark: boolean; layers: Layer[] } | undefined;
 
   constructor(canvas: HTMLCanvasElement, size: { width: number; height: number }) {
@@ -55,7 +66,26 @@ export class Board {
       getCursor: () => "inherit",
       // Nothing is drawn while nothing changes.
       _animate: false,
+      onLoad: () => this.rest(),
     });
+  }
+
+  /** deck.gl asks at every frame whether there is something to draw; it rests until it is told something, a moment after the last time. */
+  private rest(): void {
+    const loop = (this.deck as unknown as { animationLoop?: Loop }).animationLoop;
+    if (!loop?._requestAnimationFrame) return;
+    const next = loop._requestAnimationFrame.bind(loop);
+    let asleep = false;
+    loop._requestAnimationFrame = () => {
+      asleep = performance.now() > this.told + AWAKE_MS && !this.deck.needsRedraw({ clearRedrawFlags: false });
+      if (!asleep) next();
+    };
+    this.wake = () => {
+      this.told = performance.now();
+      if (asleep) next();
+      asleep = false;
+    };
+    this.wake();
   }
 
   close(): void {
@@ -64,16 +94,19 @@ export class Board {
 
   resize(width: number, height: number): void {
     this.deck.setProps({ width, height });
+    this.wake();
   }
 
   look({ x, y, scale }: View): void {
     this.deck.setProps({ viewState: { target: [x, y, 0], zoom: Math.log2(scale) } as never });
+    this.wake();
   }
 
   show(picture: Picture): void {
     const { plan, dark } = picture;
     if (this.ground?.of !== plan || this.ground.dark !== dark) this.ground = { of: plan, dark, layers: groundLayers(plan, dark) };
     this.deck.setProps({ layers: [...this.ground.layers, ...thingLayers(picture)] });
+    this.wake();
   }
 }
 

@@ -81,6 +81,8 @@ export function Parallel({ axes, runs, shown, bounds, onRange, onHover }: Drawn)
             key={axis.column.id}
             axis={axis}
             x={x(index)}
+            room={axes.length < 2 ? width : x(1) - x(0) - 12}
+            end={axes.length < 2 ? undefined : index === 0 ? "first" : index === axes.length - 1 ? "last" : undefined}
             range={stroke?.axis === index ? sorted(stroke) : rangeOf(axis, bounds)}
           />
         ))}
@@ -95,16 +97,25 @@ const sorted = ({ from, to }: Stroke): Range => [Math.min(from, to), Math.max(fr
 const y = (place: number | undefined) => (place === undefined ? NONE : HEIGHT - BOTTOM - place * (HEIGHT - TOP - BOTTOM));
 const placeAt = (at: number) => Math.min(1, Math.max(0, (HEIGHT - BOTTOM - at) / (HEIGHT - TOP - BOTTOM)));
 
-/** Title above, its ends, the range that is kept, and the place of runs that have no value. */
-function AxisLine({ axis, x, range }: { axis: Axis; x: number; range: Range | undefined }) {
+interface AxisProps {
+  axis: Axis;
+  x: number;
+  end: "first" | "last" | undefined;
+  /** [px] For its title. */
+  room: number;
+  range: Range | undefined;
+}
+
+/** Title above, which stays inside the picture at its `end`, the axis' own ends, the range that is kept, and the place of runs that have no value. */
+function AxisLine({ axis, x, end, room, range }: AxisProps) {
   const { column, low, high } = axis;
   return (
     <g className={classes.axis} data-axis={column.id}>
       <title>{`${column.name}: drag along the axis to keep a range, click to let all through`}</title>
       <rect x={x - GRIP} y={TOP} width={2 * GRIP} height={HEIGHT - TOP - BOTTOM} className={classes.grip} />
       <line x1={x} x2={x} y1={TOP} y2={HEIGHT - BOTTOM} />
-      <text x={x} y={12} className={classes.title}>
-        {short(withUnit(column.title, column.unit))}
+      <text x={x} y={12} className={classes.title} data-end={end}>
+        {short(withUnit(column.title, column.unit), room)}
       </text>
       <text x={x} y={TOP - 6}>
         {formatNumber(high)}
@@ -119,7 +130,11 @@ function AxisLine({ axis, x, range }: { axis: Axis; x: number; range: Range | un
   );
 }
 
-const short = (text: string) => (text.length > 24 ? `${text.slice(0, 23)}…` : text);
+/** [px] Of a title's mean letter. */
+const LETTER = 6.6;
+
+/** As much of a title as there is room for. */
+const short = (text: string, room: number) => (LETTER * text.length > room ? `${text.slice(0, Math.max(6, room / LETTER - 1))}…` : text);
 
 const points = (run: ListedRun, axes: readonly Axis[], x: (index: number) => number) =>
   axes.map((axis, index) => `${x(index)},${y(placeOn(axis, run))}`).join(" ");

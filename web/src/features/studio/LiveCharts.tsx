@@ -28,7 +28,7 @@ import { bandsOf } from "../../model/wanted";
 import { useDark } from "../../ui/dark";
 import { Icon } from "../../ui/Icon";
 import { QuantitySelect } from "../../ui/QuantitySelect";
-import { Empty } from "../../ui/State";
+import { Empty, Loading } from "../../ui/State";
 import type { Playhead } from "./playhead";
 import classes from "./Studio.module.css";
 
@@ -48,6 +48,8 @@ interface Shared {
 }
 
 interface Props extends Omit<Shared, "samples"> {
+  /** Whether a run is shown, whose samples come. */
+  coming: boolean;
   samples: Samples | undefined;
   /** What there is to choose from. */
   channels: readonly Channel[];
@@ -55,16 +57,20 @@ interface Props extends Omit<Shared, "samples"> {
   onLayout: (layout: Layout) => void;
 }
 
-export function LiveCharts({ samples, channels, layout, onLayout, ...shared }: Props) {
+export function LiveCharts({ coming, samples, channels, layout, onLayout, ...shared }: Props) {
   const glossary = useGlossary().channels;
   const quantities = useMemo(() => recorded(channels, glossary), [channels, glossary]);
   const names = useMemo(() => channels.map(({ name }) => name), [channels]);
   if (!samples || channels.length === 0) {
     return (
       <div className={classes.charts} data-empty>
-        <Empty icon="chart" title="No samples yet">
-          Press Run, or space: the platoon's speeds and gaps are drawn here while the run goes.
-        </Empty>
+        {coming ? (
+          <Loading what="what was recorded" />
+        ) : (
+          <Empty icon="chart" title="No samples yet">
+            Press Run, or space: the platoon's speeds and gaps are drawn here while the run goes.
+          </Empty>
+        )}
       </div>
     );
   }

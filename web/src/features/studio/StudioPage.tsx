@@ -107,6 +107,7 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
       {active ? (
         <div className={classes.bottom}>
           <LiveCharts
+            coming={shown.coming}
             samples={shown.samples}
             channels={shown.channels}
             layout={layout}

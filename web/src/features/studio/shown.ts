@@ -36,6 +36,8 @@ export function useShownRun(run: number | undefined, layout: Layout, span: Span 
     detail,
     channels: live?.channels ?? detail?.channels ?? NONE,
     samples: live?.samples ?? samples,
+    /** Whether the run is over and its samples are on their way. */
+    coming: run !== undefined && !live && !stored.error && (detail === undefined || (!going && detail.channels.length > 0)) && !samples,
     version: live?.version ?? 0,
     events: live?.events ?? detail?.events ?? NONE,
     spanned,
