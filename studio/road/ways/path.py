@@ -32,7 +32,7 @@ ROOM_REACH = 10.0  # [m] before and behind the bend
 GENTLER = (0.93, 0.87)  # [1] times the lock, for which a swing is made again where smoothing has sharpened it
 NEARLY_SHARP = 0.9  # [1] times the lock: where one swings, one does so in bends as sharp as this
 SWING_WAVELENGTH = 1.0  # [1] over the lock: shorter waves of a swing are where its arcs meet
-HAND = 0.15  # [1/(m s)] how fast the curvature that is driven may change: wheels that turn by 0.4 rad/s, 2.7 m apart
+HAND = 0.15  # [1/(m s)] how fast a car's curvature may change: wheels that turn by 0.4 rad/s, 2.7 m apart; a truck's as its lock is less
 LOWEST_SPEED = 2.0  # [m/s] the sharpest bend is still driven
 PROJECTION_REACH = 5  # [m] how far `project` looks from its guess
 
@@ -118,7 +118,8 @@ def made(network: Network, lane_path: LanePath, lateral_acceleration: float, dec
     if points.shape[1] < 2:
         raise RouteError(f"{network.name}: the route is too short to be driven, less than {PATH_SPACING:g} m")
     limit = limits(draft, points)
-    points[PATH_SPEED] = speeds(points[PATH_CURVATURE], limit, lateral_acceleration, deceleration)
+    hand = HAND * min(lock / curve.LOCK, 1.0)
+    points[PATH_SPEED] = speeds(points[PATH_CURVATURE], limit, lateral_acceleration, deceleration, hand)
     stops = located(points, [mark for mark, _ in draft.stop_lines])
     starts = located(points, [mark for mark, _ in draft.stations])
     return Path(
@@ -301,11 +302,11 @@ def limits(draft: Draft, points: np.ndarray) -> np.ndarray:
     return np.array(draft.limits)[np.clip(np.searchsorted(starts, at, side="right") - 1, 0, None)]
 
 
-def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float) -> np.ndarray:
+def speeds(curvature: np.ndarray, limit: np.ndarray, lateral_acceleration: float, deceleration: float, hand: float) -> np.ndarray:
     """The speed for every point: the limit, what the bend and the turning of the wheels allow, and what can be slowed down from in
     time [m/s]."""
     bend = np.sqrt(lateral_acceleration / np.maximum(np.abs(curvature), 1e-6))
-    turning = HAND / np.maximum(np.abs(np.gradient(curvature, PATH_SPACING)), 1e-6)
+    turning = hand / np.maximum(np.abs(np.gradient(curvature, PATH_SPACING)), 1e-6)
     speed = np.maximum(np.minimum(np.minimum(limit, bend), turning), LOWEST_SPEED)
     for i in range(len(speed) - 2, -1, -1):
         speed[i] = min(speed[i], np.sqrt(speed[i + 1] ** 2 + 2.0 * deceleration * PATH_SPACING))
