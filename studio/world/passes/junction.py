@@ -236,14 +236,25 @@ def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter
                 number, drivers, mind,
             )  # fmt: skip
         return False
+    if nose >= enter:
+        if web.turn[m] != NONE and is_less_far(v, other, nose - enter, its_nose - its_enter, entity):
+            if not stands_aside(v, other, 0.0, parameter, places, points, path_first, path_count, mind):
+                follow(v, number[other], 0.0, 0.0, state, drivers, mind)
+        return False
     gone = leaves_in(other, its_leave - its_tail, state) + AFTER
-    if nose >= enter or gone < comes_in(v, enter - nose, state, drivers, mind):
+    if gone < comes_in(v, enter - nose, state, drivers, mind):
         return False
     stands = state[V_X, other] < STANDING and mind[STOOD, other] > PATIENCE  # who sets off again may come in the way
     if stands and stands_aside(v, other, enter - nose, parameter, places, points, path_first, path_count, mind):
         return False
     let_across(v, other, enter - nose, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind)
     return web.turn[m] != NONE and not inside
+
+
+@inlined
+def is_less_far(v, other, own_way, its_way, entity):
+    """Whether v, of two who have come onto a place at once, has come less far onto it: then the other leaves first."""
+    return own_way < its_way or (own_way == its_way and entity[v] > entity[other])
 
 
 @inlined
