@@ -237,9 +237,12 @@ def meet(v, other, m, strand, own, there, to_line, top, inside, state, parameter
             )  # fmt: skip
         return False
     if nose >= enter:
-        if web.turn[m] != NONE and is_less_far(v, other, nose - enter, its_nose - its_enter, entity):
-            if not stands_aside(v, other, 0.0, parameter, places, points, path_first, path_count, mind):
-                follow(v, number[other], 0.0, 0.0, state, drivers, mind)
+        if (
+            web.turn[m] != NONE
+            and is_less_far(v, other, nose - enter, its_nose - its_enter, entity)
+            and not stands_aside(v, other, 0.0, parameter, places, points, path_first, path_count, mind)
+        ):
+            follow(v, number[other], 0.0, 0.0, state, drivers, mind)
         return False
     gone = leaves_in(other, its_leave - its_tail, state) + AFTER
     if gone < comes_in(v, enter - nose, state, drivers, mind):
