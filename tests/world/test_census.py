@@ -10,11 +10,26 @@ from studio import job
 from studio.assess.measure import measure_all
 from studio.errors import StudioError
 from studio.execution.simulation import simulation
+from studio.model.driver import NO_LIMIT
 from studio.road import load
+from studio.vehicle.parameter import PARAMETER
 from studio.vehicle.state import ACTIVE, V_X, VEHICLE
 from studio.world.passes import census
-from studio.world.passes.census import C_KIND, C_VALUE, C_WHO, CENSUS, EVERY, RING
-from studio.world.table.mind import MIND, MINDED
+from studio.world.passes.census import (
+    C_KIND,
+    C_VALUE,
+    C_WHO,
+    CENSUS,
+    EVERY,
+    MOST,
+    P_BRAKED,
+    P_COMES,
+    P_LEAVES,
+    P_OTHER,
+    PAIR,
+    RING,
+)
+from studio.world.table.mind import FOLLOWING, MIND, MINDED, YIELDING
 from tests.conftest import ROOT
 from tests.road.conftest import Draft
 from tests.road.test_priority import BERLIN, arms_of, crossing
@@ -92,6 +107,22 @@ def test_who_is_steered_off_leaves_the_road(tmp_path):
     script = {"off": {"when": {"kind": "time", "at": 0.5}, "do": {"kind": "steer", "vehicle": "first", "angle": -0.06, "duration": 2.0}}}
     assert measured(tmp_path, [("west", "east")], [20], script, seconds=4.0)["left_road"].value == 1
     assert measured(tmp_path, [("west", "east")], [20], {}, seconds=4.0)["left_road"].value == 0
+
+
+@pytest.mark.parametrize(("permitted", "braked"), [(1.4, 0.0), (-0.5, 3.5), (-3.8, 3.5)])
+def test_who_slows_yet_for_somebody_else_is_not_hindered(permitted, braked):
+    """The second minds the first in this tick and loses 3.5 m/s² in it. Brakes let go late: if the first permits it to accelerate, it slows
+    for whom it minded before, as where a queue sets off in jerks; if he asks for braking, however gently, it slows for him."""
+    state, mind, parameter = (np.zeros((len(rows), 2)) for rows in (VEHICLE, MIND, PARAMETER))
+    pairs, table, count = np.full((len(PAIR), MOST, 2), np.nan), np.zeros((len(CENSUS), 8)), np.zeros(1, np.int64)
+    state[ACTIVE], mind[MINDED], mind[YIELDING], mind[FOLLOWING, 1] = 1.0, [-1.0, 0.0], NO_LIMIT, permitted
+    state[V_X, 1], tick, before = 1.0, 0.02, np.array([0.0, 1.07])
+    pairs[P_OTHER], pairs[P_BRAKED] = -1.0, 0.0
+    pairs[P_OTHER, 0, 0], pairs[P_LEAVES, 0, 0], pairs[P_COMES, 0, 0] = 1.0, 10.0, 20.0  # none of them is there in this tick
+    census.watch(
+        0, 5.0, tick, state, parameter, mind, np.zeros(2, np.int64), np.arange(2), before, np.ones(2, np.int64), pairs, table, count
+    )
+    assert pairs[P_BRAKED, 0, 0] == pytest.approx(braked)
 
 
 # -- rings -----------------------------------------------------------------------------------------

@@ -34,7 +34,7 @@ from studio.world.passes.notice import has_passed_red
 from studio.world.passes.queue import EARLY, KEY, NEAR, WHO, first_drive, from_station, station_on
 from studio.world.passes.traffic import ARRIVAL
 from studio.world.table.chart import LANE_WIDTH, LANES_LEFT, LANES_RIGHT
-from studio.world.table.mind import MINDED, OFFSET, RED_STATION, STATION, STOOD
+from studio.world.table.mind import FOLLOWING, MINDED, OFFSET, RED_STATION, STATION, STOOD, YIELDING
 from studio.world.table.web import ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE
 from studio.world.world import World
 
@@ -55,7 +55,7 @@ P_BEGAN = PAIR.row("began", "s", "when the other one entered")
 P_LEAVES = PAIR.row("leaves", "m", "station of its front when it has left")
 P_COMES = PAIR.row("comes", "m", "station of the front of the one that goes first, when it is there")
 P_LEFT = PAIR.row("left", "s", "when the first had left; not a number before")
-P_BRAKED = PAIR.row("braked", "m/s²", "hardest braking of the one that goes first while it minded the other")
+P_BRAKED = PAIR.row("braked", "m/s²", "hardest braking of the one that goes first while the other asked it to")
 P_ACROSS = PAIR.row("across", "1", "1 where one crosses the other's way")
 
 MOST = 6  # others whom one that enters is watched with
@@ -267,7 +267,8 @@ def watch(v, now, tick, state, parameter, mind, world_of, number, speed, watched
         if pairs[P_OTHER, i, v] < 0.0:
             continue
         other = int(pairs[P_OTHER, i, v])
-        if mind[MINDED, other] == number[v]:
+        is_asked = min(mind[FOLLOWING, other], mind[YIELDING, other]) < 0.0  # or it slows yet for somebody else, as brakes let go late
+        if mind[MINDED, other] == number[v] and is_asked:
             pairs[P_BRAKED, i, v] = max(pairs[P_BRAKED, i, v], (speed[other] - state[V_X, other]) / tick)
         if pairs[P_LEFT, i, v] != pairs[P_LEFT, i, v] and mind[STATION, v] + parameter[FRONT, v] >= pairs[P_LEAVES, i, v]:
             pairs[P_LEFT, i, v] = now
