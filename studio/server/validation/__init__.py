@@ -281,7 +281,8 @@ def told(each: Iteration) -> str:
     """What came out, in a line."""
     if each.step == VALIDATION:
         verdicts = [verdict["verdict"] for verdict in each.result["verdicts"]]
-        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met"
+        doubt = f", {count} by a wide interval alone" if (count := each.result.get("doubtful", 0)) else ""
+        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met{doubt}"
     return ", ".join(f"{found['path']} {found['value']:.5g} ± {2 * found['spread']:.2g}" for found in each.result["estimates"])
 
 
