@@ -33,7 +33,7 @@ def show(current) -> None:
     from rich.progress import MofNCompleteColumn
 
     with bar(MofNCompleteColumn()) as shown:
-        told("compiling once, less than a minute ..." if shown.disable else "")
+        told("compiling once, minutes on a slow or busy machine ..." if shown.disable else "")
         task = shown.add_task("compiling once", total=None)
         current.wait(lambda now: shown.update(task, description=f"compiling once: {now.latest}", total=now.of, completed=now.done))
 

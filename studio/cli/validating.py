@@ -204,13 +204,19 @@ def validate(
 
 def print_validated(number: int, step, found) -> None:
     """Verdicts, and the span in words."""
-    from studio.validation import span, table
+    from studio.validation import report, span, table
     from studio.validation.zone import WORDS
 
     before = f"with the values of iteration {step.before.iteration}" if step.before else "as the project names it"
     print(f"iteration {number}: {step.loaded.model.name}, {before}; {WORDS[found.confidence]}")
     print_table(["maneuver", *table.HEAD], [[each.maneuver, *table.cells(each)] for each in found.verdicts])
+    for name, left in found.unjudged.items():
+        print(f"Not judged in {name}:", "; ".join(left))
     print("Validated span:", "; ".join(span.told(found.span)))
+    for each in found.hints:
+        told(f"hint: {each}")
+    if found.doubtful:
+        told(f"hint: {report.doubtful(found.doubtful)}")
 
 
 def print_report(out: Path, step, found, runs, number: int) -> None:

@@ -23,6 +23,7 @@ DIGITS = 9  # after the point, to which numbers are compared
 Rule = Literal["gain", "time", "lag", "fit", "final"]
 PASS, FAIL, OVERRIDDEN = "pass", "fail", "overridden"
 WIDE = "says little, for the interval is wider than the limit: record more runs, and see whether one of these differs"
+LENIENT = f"met by nothing but the width of its interval, and {WIDE}"
 ALONE = "one run only: there is no interval; record the maneuver again"
 
 
@@ -68,6 +69,11 @@ class Verdict:
     reason: str = ""
     unit: str = "1"
     error_unit: str = "1"
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether it is met by nothing but the width of an interval that is wider than its limit."""
+        return self.verdict == PASS and self.reason == LENIENT
 
     def as_json(self) -> dict[str, Any]:
         """Plain data, in which what is not a number is none."""
@@ -127,9 +133,10 @@ def inside(asked: Verdict) -> Verdict:
 
 
 def doubted(found: Verdict, limit: float) -> Verdict:
-    """A verdict by an interval that is so wide on each side that nearly anything passes says so."""
+    """A verdict by an interval that is so wide on each side that nearly anything passes says so, and whether it passes by that alone."""
     is_wide = found.low is not None and found.high is not None and abs(found.high - found.low) > 2.0 * limit
-    return replace(found, reason=WIDE) if is_wide else found
+    is_lenient = found.verdict == PASS and round(abs(found.error) - limit, DIGITS) > 0.0
+    return replace(found, reason=LENIENT if is_lenient else WIDE) if is_wide else found
 
 
 def within(maneuver: str, name: str, ours: float, theirs: float, limit: float, unit: str, over: float | None = None) -> Verdict:

@@ -5,7 +5,7 @@ result.verdicts, result.span, result.comparisons
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isfinite
 from types import ModuleType
 from typing import Any
@@ -17,7 +17,7 @@ from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
 from studio.log.smooth import smooth
 from studio.scenario.vehicle import Span
-from studio.validation import known, replay, span
+from studio.validation import known, outlier, replay, span
 from studio.validation.criterion import FAIL, PASS, Measure, Verdict, overridden, verdicts
 from studio.validation.marks import Marks
 from studio.validation.project import Loaded
@@ -59,13 +59,24 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Result:
-    """What a validation found."""
+    """What a validation found; `hints` tell what a person should look at, though no verdict changes by it."""
 
     verdicts: list[Verdict]
     span: Span | None
     spans: dict[str, Span]
     comparisons: list[Comparison]
     confidence: Confidence
+    hints: list[str] = field(default_factory=list)
+
+    @property
+    def unjudged(self) -> dict[str, list[str]]:
+        """What nobody judged, maneuver by maneuver."""
+        return {each.name: known.unjudged(each.module, each.theirs) for each in self.comparisons}
+
+    @property
+    def doubtful(self) -> int:
+        """How many criteria are met by nothing but an interval that is wider than their limit."""
+        return sum(each.is_doubtful for each in self.verdicts)
 
     @property
     def is_valid(self) -> bool:
@@ -81,6 +92,9 @@ class Result:
             "span": whole,
             "interval": WORDS[self.confidence],
             "valid": self.is_valid,
+            "doubtful": self.doubtful,
+            "hints": self.hints,
+            "unjudged": self.unjudged,
         }
 
 
@@ -90,11 +104,14 @@ def validate(loaded: Loaded, progress: Callable[[float], None] = lambda share: N
         problem = Problem("maneuvers", "have no runs for validation", remedy="name runs under `validation` that calibration does not use")
         raise ScenarioError(f"{loaded.path.name} has nothing to validate with.", [problem])
     compared = comparisons(loaded, loaded.validation, progress)
-    found = [each for comparison in compared for each in judged(comparison, loaded)]
+    asked = {each.name: quantities(each) for each in compared}
+    found = [verdict for each in compared for verdict in judged(each, asked[each.name], loaded)]
     found = overridden(found, loaded.project.overrides)
+    limits = loaded.project.criteria
+    hints = [hint for each in compared if each.module.REPEATS for hint in outlier.hints(each.name, each.theirs, asked[each.name], limits)]
     met = [each for each in compared if all(verdict.verdict != FAIL for verdict in found if verdict.maneuver == each.name)]
     spans = {each.name: found_span for each in met if (found_span := span.span(each.theirs))}
-    return Result(found, span.span(run for each in met for run in each.theirs), spans, compared, loaded.project.confidence)
+    return Result(found, span.span(run for each in met for run in each.theirs), spans, compared, loaded.project.confidence, hints)
 
 
 def comparisons(
@@ -116,14 +133,17 @@ def comparisons(
 # -- one maneuver ----------------------------------------------------------------------------------------
 
 
-def judged(compared: Comparison, loaded: Loaded) -> list[Verdict]:
+def quantities(compared: Comparison) -> list[Measure]:
+    """All quantities of a maneuver: of every run alone, and of runs that are looked at together."""
+    module = compared.module
+    together = module.compare(compared.theirs, compared.ours, compared.averaged) if hasattr(module, "compare") else ()
+    return [*measured(compared), *together]
+
+
+def judged(compared: Comparison, asked: Sequence[Measure], loaded: Loaded) -> list[Verdict]:
     """All criteria of a maneuver."""
     limits, confidence = loaded.project.criteria, loaded.project.confidence
-    quantities = [
-        *measured(compared),
-        *(compared.module.compare(compared.theirs, compared.ours, compared.averaged) if hasattr(compared.module, "compare") else ()),
-    ]
-    found = [verdict for each in quantities for verdict in verdicts(compared.name, each, limits, confidence)]
+    found = [verdict for each in asked for verdict in verdicts(compared.name, each, limits, confidence)]
     return [*found, *zones(compared, limits.zone, confidence)]
 
 

@@ -1,6 +1,7 @@
 """The maneuvers there are, by name: files of studio/validation/maneuver."""
 
 import pkgutil
+from collections.abc import Sequence
 from functools import cache
 from importlib import import_module
 from types import ModuleType
@@ -8,6 +9,9 @@ from types import ModuleType
 from studio.errors import Problem, ScenarioError, UnknownError, nearest
 from studio.log.recording import Recording
 from studio.validation import maneuver
+
+# How a car answers; the other signals are what is done to it, or are held.
+ANSWERS = ("lateral_speed", "acceleration", "lateral_acceleration", "yaw_rate", "roll_rate", "engine_speed")
 
 
 @cache
@@ -33,6 +37,12 @@ def missing(recording: Recording, module: ModuleType) -> list[str]:
     """Our signals that a maneuver needs and that are not there."""
     wanted = [*module.FED, *module.JUDGED]
     return [each for each in wanted if not any(name in recording.signals for name in each.split("|"))]
+
+
+def unjudged(module: ModuleType, runs: Sequence[Recording]) -> list[str]:
+    """What a maneuver does not judge: parts of its own signals, and signals that every run has and that it leaves aside."""
+    recorded = [name for name in ANSWERS if name not in module.JUDGED and all(name in run.signals for run in runs)]
+    return [*module.UNJUDGED, *(f"{name.replace('_', ' ')}, which was recorded" for name in recorded)]
 
 
 def check(recording: Recording, module: ModuleType) -> None:

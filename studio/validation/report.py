@@ -47,7 +47,14 @@ def summary(found: Result, failed: Sequence[Verdict]) -> str:
     count = f"{passed} of {len(found.verdicts)} criteria are met"
     others = [f"{len(failed)} failed" if failed else "", f"{n} overridden" if (n := len(found.verdicts) - passed - len(failed)) else ""]
     word = '<b class="good">valid</b>' if found.is_valid else '<b class="bad">not valid</b>'
-    return f"<p>The vehicle is {word} for what these maneuvers ask: {count}{''.join(f', {each}' for each in others if each)}.</p>"
+    doubt = f" {doubtful(found.doubtful)}" if found.doubtful else ""
+    verdict = f"<p>The vehicle is {word} for what these maneuvers ask: {count}{''.join(f', {each}' for each in others if each)}.{doubt}</p>"
+    return verdict + listed(found.hints)
+
+
+def doubtful(count: int) -> str:
+    """What is to be thought of criteria that pass by the width of their interval alone."""
+    return f"Of those that are met, {count} by nothing but an interval that is wider than the limit: they prove little."
 
 
 def limits(found: Result) -> str:
@@ -88,8 +95,9 @@ def maneuver(compared: Comparison, found: Result) -> str:
     """Verdicts and figures of a maneuver."""
     runs = f"<p>{len(compared.theirs)} runs: {escape(', '.join(each.name for each in compared.theirs))}</p>"
     rows = [row(each) for each in found.verdicts if each.maneuver == compared.name]
+    left = f'<p class="dim">Not judged here: {escape("; ".join(found.unjudged[compared.name]))}.</p>'
     pictures = "".join(picture for _, picture in figure.figures(compared, found.confidence))
-    return runs + table(verdict.HEAD[:-1], rows, numeric=verdict.NUMERIC) + pictures
+    return runs + table(verdict.HEAD[:-1], rows, numeric=verdict.NUMERIC) + left + pictures
 
 
 def row(each: Verdict) -> tuple[str, ...]:

@@ -130,10 +130,10 @@ def test_a_new_project_gets_its_files_and_loses_none(client, running):
 def test_a_title_is_of_one_project(client, project):
     title = detail(client, project)["document"]["title"]
     made = client.post("/api/validations", json={"name": "same", "title": title, "vehicle": "bmw_320i"}).json()
-    assert made["document"]["title"] == f"{title}_2" and made["iterations"] == []
+    assert made["document"]["title"] == f"{title}, 2" and made["iterations"] == []
     refused = client.patch("/api/validations/same", json=[{"op": "replace", "path": "/title", "value": title}], headers=PATCH)
     assert refused.status_code == 409 and "iterations are kept by title" in refused.text
-    put = client.put("/api/validations/same/text", content=made["text"].replace(f"{title}_2", title).encode())
+    put = client.put("/api/validations/same/text", content=made["text"].replace(f"{title}, 2", title).encode())
     assert put.status_code == 409 and detail(client, "same")["text"] == made["text"]
     kept = client.patch("/api/validations/same", json=[{"op": "add", "path": "/confidence", "value": "one-sided"}], headers=PATCH)
     assert kept.status_code == 200

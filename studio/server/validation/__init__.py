@@ -11,6 +11,7 @@ import json
 from collections.abc import Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import chain, count
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from threading import Lock
 from typing import Any
@@ -129,7 +130,9 @@ class Projects:
 
     def free_title(self, title: str) -> str:
         """The title, or with a number behind it when another project has it."""
-        return names.free(title[:LONGEST_TITLE], self.titles())
+        short_title, taken = title[:LONGEST_TITLE], {each.casefold() for each in self.titles()}
+        numbered = chain([short_title], (f"{short_title}, {i}" for i in count(2)))
+        return next(each for each in numbered if each.casefold() not in taken)
 
     def titles(self, but: str = "") -> list[str]:
         """The titles of all projects that can be read, but for one."""
@@ -281,7 +284,8 @@ def told(each: Iteration) -> str:
     """What came out, in a line."""
     if each.step == VALIDATION:
         verdicts = [verdict["verdict"] for verdict in each.result["verdicts"]]
-        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met"
+        doubt = f", {wide} by a wide interval alone" if (wide := each.result.get("doubtful", 0)) else ""
+        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met{doubt}"
     return ", ".join(f"{found['path']} {found['value']:.5g} ± {2 * found['spread']:.2g}" for found in each.result["estimates"])
 
 

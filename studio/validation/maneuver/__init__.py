@@ -6,6 +6,7 @@
     HOLDS_SPEED     whether the recorded speed is held in the simulation, for the driver did so
     REPEATS         whether its runs are repetitions, which can be averaged
     ZONES           signals whose data zone is judged
+    UNJUDGED        what its criteria say nothing about, in words, so that nobody takes all of them for everything
     find            find(recording) -> [(since, until)] [s] of such maneuvers in a log
     marks           marks(recording) -> Marks: the reference that runs are aligned by, and what else is read off the inputs
     measures        measures(recording, marks) -> {name: (value, rule, unit)}, the same for a recorded and a simulated run

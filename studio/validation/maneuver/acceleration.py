@@ -16,6 +16,7 @@ JUDGED = ("acceleration",)
 HOLDS_SPEED = False
 REPEATS = True
 ZONES = ()
+UNJUDGED = ("the changes of gear, and the quarter of each gear after its clutch has closed", "course of the speed")
 PEDAL, CHANGE = 0.05, 0.1  # [1] that is pressed, and by which it may vary
 LEAST, LEAST_RISE = 2.0, 3.0  # [s], [m/s]
 

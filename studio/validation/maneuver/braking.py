@@ -14,6 +14,7 @@ JUDGED = ("acceleration",)
 HOLDS_SPEED = False
 REPEATS = True
 ZONES = JUDGED
+UNJUDGED = ("how the deceleration builds up", "course of the speed", "way to standstill")
 BUILT_UP = 0.5  # [s] until the deceleration is steady
 SLOW = 1.0  # [m/s]
 

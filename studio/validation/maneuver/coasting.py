@@ -10,6 +10,7 @@ JUDGED = ("acceleration",)
 HOLDS_SPEED = False
 REPEATS = True
 ZONES = JUDGED
+UNJUDGED = ("beginning and end of the roll", "course of the speed", "way to standstill")
 marks, measures = rolling.marks, rolling.measures
 
 

@@ -19,6 +19,7 @@ JUDGED = ("yaw_rate", "lateral_acceleration")
 HOLDS_SPEED = True
 REPEATS = True
 ZONES = JUDGED
+UNJUDGED = ("the way to the side", "course of the speed, which is held as it was recorded")
 LEAD, SETTLE, LONGEST, QUIET = 1.0, 0.8, 15.0, 0.8  # [s] before the first half, after the second, all of it, between two maneuvers
 HALVES = ("first half wave", "second half wave")
 ORDER = ("first", "second", "third", "fourth")

@@ -17,6 +17,7 @@ JUDGED = ("acceleration",)
 HOLDS_SPEED = False
 REPEATS = True
 ZONES = ()
+UNJUDGED = ("the changes of gear, and the quarter of each gear after its clutch has closed", "course of the speed")
 LEAST_GEARS = 2
 IDLE_PEDAL = 0.02  # [1]
 

@@ -19,6 +19,7 @@ JUDGED = ("yaw_rate", "lateral_acceleration")
 HOLDS_SPEED = True
 REPEATS = True
 ZONES = JUDGED
+UNJUDGED = ("lag of the lateral acceleration", "course of yaw rate and lateral acceleration before they are steady")
 LATE = "yaw_rate"  # whose lag counts
 LEAD, HELD, LONGEST = 1.0, 2.5, 8.0  # [s] straight before, held at least, looked at at most
 SHARPNESS = 0.1  # [s] that smoothing reaches to both sides

@@ -22,6 +22,7 @@ JUDGED = ("x", "y")
 HOLDS_SPEED = True
 REPEATS = True
 ZONES = ()
+UNJUDGED = ("when the car is where", "yaw rate and accelerations on the way")
 HEADING = 2.0  # [m] from which the first heading is taken
 ROUND = 1.7 * np.pi  # [rad] that a lap turns
 CLOSE = 5.0  # [m] between beginning and end of a lap

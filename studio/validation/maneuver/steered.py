@@ -19,6 +19,7 @@ JUDGED = ("yaw_rate", "lateral_acceleration")
 HOLDS_SPEED = True
 REPEATS = False
 ZONES = ()
+UNJUDGED = ("lags by themselves", "whether another drive would be followed as well")
 
 
 def find(recording: Recording) -> list[tuple[float, float]]:

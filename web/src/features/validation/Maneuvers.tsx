@@ -21,17 +21,31 @@ interface Props {
 export function Maneuvers({ project, said, onLog }: Props) {
   const kinds = useQuery(validationKinds).data?.maneuvers ?? [];
   const patch = usePatch(project.name, project.digest);
-  const change = (operations: Parameters<typeof patch.mutate>[0]) => patch.mutate(operations, { onError: notifyError });
+  const [last, setLast] = useState<Awaited<ReturnType<typeof patch.mutateAsync>>>();
+  const change = (operations: Parameters<typeof patch.mutate>[0]) => patch.mutateAsync(operations).then(setLast).catch(notifyError);
+  // What was changed elsewhere since then is not undone by what was meant for the text before.
+  const back =
+    last && last.digest === project.digest ? (
+      <Button
+        size="xs"
+        variant="default"
+        loading={patch.isPending}
+        onClick={() => patch.mutateAsync(last.inverse).then(() => setLast(undefined)).catch(notifyError)}
+      >
+        Take back the last change
+      </Button>
+    ) : null;
   const names = Object.keys(said.maneuvers);
   if (names.length === 0) {
     return (
-      <Empty icon="table" title="No maneuvers yet">
+      <Empty icon="table" title="No maneuvers yet" action={back}>
         Send logs under Logs, say there which signal is which, and take the maneuvers that are found in them.
       </Empty>
     );
   }
   return (
     <div className={classes.stack}>
+      {back ? <div className={classes.row}>{back}</div> : null}
       {names.map((name) => {
         const trial = said.maneuvers[name];
         const kind = kinds.find((each) => each.name === trial?.kind);
@@ -67,7 +81,7 @@ export function Maneuvers({ project, said, onLog }: Props) {
                       set={set}
                       run={run}
                       onLog={() => onLog(run.log)}
-                      onRun={(next) => patch.mutateAsync(cutRun(name, set, place, next)).catch(notifyError)}
+                      onRun={(next) => change(cutRun(name, set, place, next))}
                       onRemove={() => change(removeRun(said, name, set, place))}
                     />
                   )),

@@ -4,12 +4,18 @@ import { Button, Progress, Text } from "@mantine/core";
 import { useCancelJob } from "../../api/validations";
 import type { ProjectJob } from "../../model/validation";
 import { formatDuration } from "../../model/units";
-import { notifyError } from "../../ui/notify";
+import { notify, notifyError } from "../../ui/notify";
 import { Failure } from "../../ui/State";
 import classes from "./Validation.module.css";
 
 export function Progressing({ job, onDismiss }: { job: ProjectJob; onDismiss?: () => void }) {
   const cancel = useCancelJob();
+  // Told by the promise: this part of the page is gone once the job is.
+  const end = () =>
+    cancel
+      .mutateAsync(job.id)
+      .then(({ status }) => status === "cancelled" && notify("Cancelled", "Of the step that went on nothing was kept.", "gray"))
+      .catch(notifyError);
   if (job.status === "failed" && job.problem) {
     const error = Object.assign(new Error(job.problem.message), { problems: job.problem.problems });
     return <Failure error={error} {...(onDismiss ? { onDismiss } : {})} />;
@@ -27,7 +33,7 @@ export function Progressing({ job, onDismiss }: { job: ProjectJob; onDismiss?: (
         value={100 * (job.share ?? 1)}
         aria-label={`How far: ${job.stage}`}
       />
-      <Button size="compact-xs" variant="default" onClick={() => cancel.mutate(job.id, { onError: notifyError })}>
+      <Button size="compact-xs" variant="default" loading={cancel.isPending} onClick={end}>
         Cancel
       </Button>
     </div>

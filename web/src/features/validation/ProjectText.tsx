@@ -2,9 +2,10 @@
 
 import { Button, Text } from "@mantine/core";
 import type { EditorView } from "@codemirror/view";
+import { useQuery } from "@tanstack/react-query";
 import { useBlocker } from "@tanstack/react-router";
 import { useEffect, useRef, useState } from "react";
-import { usePutText } from "../../api/validations";
+import { usePutText, validation } from "../../api/validations";
 import { Refusal } from "../../api/client";
 import type { Project } from "../../model/validation";
 import { LeaveQuestion } from "../../ui/LeaveQuestion";
@@ -12,6 +13,9 @@ import { ProblemList } from "../../ui/Problems";
 import { useSaveKey } from "../../ui/shortcut";
 import { mark, openEditor, replaceAll } from "../../ui/editor";
 import classes from "./Validation.module.css";
+
+/** How often somebody else's change is looked for while the text is open [ms]. */
+const LOOK = 5000;
 
 const PLACE = /, line (\d+), column (\d+)/;
 
@@ -23,6 +27,7 @@ export function ProjectText({ project }: { project: Project }) {
   const [now, setNow] = useState(project.text);
   const put = usePutText(project.name);
   const dirty = now !== read.text;
+  useQuery({ ...validation(project.name), refetchInterval: LOOK });
   const isOther = project.digest !== read.digest;
   useEffect(() => {
     if (!place.current) return;
@@ -72,6 +77,7 @@ export function ProjectText({ project }: { project: Project }) {
         </Button>
         <Text size="xs" c="dimmed" role="status">
           {dirty ? "not saved" : "saved"}
+          {dirty && isOther && !put.isPending ? "; the project has been changed elsewhere meanwhile" : ""}
         </Text>
       </div>
       {put.error ? (

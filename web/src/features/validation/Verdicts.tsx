@@ -1,6 +1,6 @@
 /** What a validation found: the span, every criterion, and the recorded zones with the simulations in them. */
 
-import { Anchor, Button, Group, Modal, Text, Textarea } from "@mantine/core";
+import { Alert, Anchor, Button, Group, Modal, Text, Textarea } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { courses, iteration, paperOf, reportOf, usePatch, vehicleOf } from "../../api/validations";
@@ -34,6 +34,10 @@ interface Result {
   span: { whole: Spanned | null; maneuvers: Record<string, Spanned> };
   interval: string;
   valid: boolean;
+  /** These three are not there in what an older studio judged. */
+  doubtful?: number;
+  hints?: string[];
+  unjudged?: Record<string, string[]>;
 }
 
 interface Props {
@@ -68,6 +72,7 @@ export function Verdicts({ project, said, at }: Props) {
           {data.parent === null ? "The car is as the project names it." : `With the values of iteration ${data.parent}.`}
         </Text>
         <Span span={result.span.whole} />
+        <Doubts result={result} />
         {shown.has_report ? (
           <Group gap="lg">
             <Anchor size="sm" href={reportOf(project.name, shown.iteration)} target="_blank" rel="noreferrer">
@@ -84,6 +89,11 @@ export function Verdicts({ project, said, at }: Props) {
           </Group>
         ) : null}
         <VerdictTable project={project} said={said} verdicts={result.verdicts} />
+        {Object.entries(result.unjudged ?? {}).map(([maneuver, left]) => (
+          <Text key={maneuver} size="sm" c="dimmed">
+            Not judged in {maneuver}: {left.join("; ")}.
+          </Text>
+        ))}
       </section>
       {shown.has_report ? <Zones project={project.name} number={shown.iteration} /> : null}
     </div>
@@ -100,6 +110,22 @@ function Span({ span }: { span: Spanned | null }) {
       : `${words(name).toLowerCase()} ${formatNumber(low)} to ${formatNumber(high)} ${UNITS[name] ?? "m/s²"}`,
   );
   return <Text size="sm">Validated span: {parts.join("; ")}.</Text>;
+}
+
+/** What a person should look at, though no verdict changes by it. */
+function Doubts({ result: { doubtful = 0, hints = [] } }: { result: Result }) {
+  const wide = `Of the criteria that are met, ${doubtful} by nothing but an interval that is wider than the limit: they prove little.`;
+  const found = [...hints, ...(doubtful > 0 ? [wide] : [])];
+  if (found.length === 0) return null;
+  return (
+    <Alert color="yellow" title="Look at these" role="note">
+      {found.map((each) => (
+        <Text key={each} size="sm">
+          {each}
+        </Text>
+      ))}
+    </Alert>
+  );
 }
 
 function VerdictTable({ project, said, verdicts }: { project: Project; said: Said; verdicts: readonly Verdict[] }) {
