@@ -346,7 +346,7 @@ def lets_go(v, other, m, strand, to_enter, its_way, its_nose, to_line, top, stat
 @inlined
 def feels_the_way(v, m, to_enter, to_line, state, web):
     """Whether v is beyond its line, since a corner has let it see no sooner, and can stop before it comes in somebody's way."""
-    return to_line < 0.0 and has_corner(m, web) and driver.must_stop(state[V_X, v], to_enter)
+    return to_line < 0.0 and has_corner(m, web) and driver.can_stop(state[V_X, v], to_enter - READY)
 
 
 @inlined
