@@ -29,7 +29,7 @@ SHORT = ("--set", "clock.duration=3")
 def folder(tmp_path_factory, sample):
     """A working folder with a run of 3 s and its child with another headway."""
     cwd = tmp_path_factory.mktemp("work")
-    first = studio("run", sample, *SHORT, "--json", cwd=cwd)
+    first = studio("run", sample, *SHORT, "--json", cwd=cwd, patience=COMPILING)  # it may be the first of all that needs anything
     child = studio("run", sample, *SHORT, "--set", "applications.platoon.parameters.headway=0.9", "--parent", 1, "--json", cwd=cwd)
     assert first[0] == child[0] == 0, first[2] + child[2]
     return cwd, json.loads(first[1]), json.loads(child[1])
