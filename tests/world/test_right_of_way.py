@@ -10,6 +10,7 @@ from studio.vehicle.parameter import FRONT
 from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.build import build
 from studio.world.table.mind import MINDED, STATION, WAY_STATION
+from studio.world.table.web import ITS_ENTER, OWN_ENTER, START
 from studio.world.tick import tick
 from tests.road.conftest import Draft
 from tests.road.test_priority import AHEAD, BERLIN, PERTH, RIGHT_OF, TOKYO, arms_of, crossing, place_at
@@ -92,6 +93,20 @@ def test_four_at_once(tmp_path):
     """Everybody would have to wait for the one on the right; all get through, one after the other, without a collision."""
     run = Run(tmp_path, [(arm, AHEAD[arm]) for arm in RIGHT_OF])
     assert run.is_fine() and max(run.passes(i) for i in range(4)) < 35.0
+
+
+@pytest.mark.parametrize(("one", "other"), [(0.1, 0.4), (0.4, 0.1), (0.2, 0.2), (0.1, 0.9)])
+def test_of_two_who_have_come_onto_a_place_at_once_one_leaves_first(tmp_path, one, other):
+    """Both stand with so many metres of their noses where their ways meet: who has come less far lets the other leave."""
+    ways = [("south", "north"), ("west", "east")]
+    run = Run(tmp_path, ways, seconds=0.1)
+    web, drives, front = run.world.roads.web, run.world.roads.drive_first + 1, run.world.vehicles.parameter[FRONT]
+    (m,) = (m for m in range(*web.first[web.strand[drives[0]] + [0, 1]]) if web.partner[m] == web.strand[drives[1]])
+    enter = run.line + web.span[[OWN_ENTER, ITS_ENTER], m] - web.drive[START, drives]
+    run = Run(tmp_path, ways, starts=[float(each) for each in enter + [one, other] - front], speeds=[0.0, 0.0])
+    assert run.is_fine()
+    first, last = sorted((run.passes(i, beyond=20.0), i) for i in range(2))
+    assert first[0] + 0.5 < last[0] < np.inf and (one == other or first[1] == int(other > one))
 
 
 def test_who_turns_across_waits_for_who_comes_from_ahead(tmp_path):
