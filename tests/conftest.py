@@ -14,12 +14,6 @@ settings.register_profile("patient", deadline=None)  # the first call compiles, 
 settings.load_profile("patient")
 
 
-def pytest_xdist_auto_num_workers() -> int:
-    """Processes: half as many again as there are cores, as tests wait half of their time, for a browser or a process of their own."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return cores + cores // 2
-
-
 @pytest.fixture(scope="session")
 def root() -> Path:
     """The project's folder."""
