@@ -3,7 +3,6 @@
  * The page posts     {studio: "follow", vehicle: index|null}
  *                    {studio: "view", preset: "overview"|"top"|"driver"}
  *                    {studio: "theme", dark: bool}
- *                    {studio: "cast", cars: [{name, index}]}   who drives there
  *                    {studio: "rest", rest: bool}   nobody sees the scene: nothing is drawn
  * The bridge posts   {studio: "ready", follow: bool}, {studio: "picked", vehicle: index},
  *                    {studio: "key", key, code, ctrlKey, metaKey, shiftKey, altKey}
@@ -20,7 +19,6 @@
   const VEHICLES = "/vehicles/shadows"; // instance i is vehicle i
   // flat layers carry their light in their colours
   const LEVEL = ["/city/ground", "/city/areas", "/city/shoulder", "/city/road", "/city/markings"];
-  const WIDE = "/map/wide"; // is there when the map is too large for one look
   const HIDDEN_BELOW = -100;
   const CHASE = { distance: 13, polar: 1.28, height: 1.1 };
   const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
@@ -28,7 +26,7 @@
   const YAW_LAG = 0.35; // [s]
   const KEYS_OF_THE_CAMERA = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Tab"]);
 
-  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false, own: [], middle: null };
+  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false };
   let ready = false;
   let shownCity = null;
   let painted = null;
@@ -95,8 +93,7 @@
     const controls = client()?.cameraControl, camera = client()?.camera;
     if (!controls || !camera) return;
     adaptNear(camera);
-    if (view.vehicle === null) return accompany(controls, camera);
-    const pose = poseOf(view.vehicle);
+    const pose = view.vehicle === null ? null : poseOf(view.vehicle);
     if (!pose) return;
     const now = performance.now() / 1000;
     const target = lookedAt(pose);
@@ -110,23 +107,6 @@
     camera.updateMatrixWorld();
     controls.moveTo(...target, false);
     view.target = target;
-  }
-
-  // A map that is too large to be seen as a whole is seen around the cars that are no traffic, and the overview goes along with them.
-  function accompany(controls, camera) {
-    const poses = view.own.map(poseOf).filter(Boolean);
-    if (!tree()[WIDE] || poses.length === 0 || typeof controls.getTarget !== "function") return;
-    const mean = (axis) => poses.reduce((sum, pose) => sum + pose[axis], 0) / poses.length;
-    const middle = toThree([mean("x"), mean("y"), 0]);
-    const target = controls.getTarget(camera.position.clone());
-    const before = view.middle ?? [target.x, middle[1], target.z];
-    const [dx, dy, dz] = middle.map((value, i) => value - before[i]);
-    view.middle = middle;
-    // who is told to move asks for another picture
-    if (dx * dx + dy * dy + dz * dz < 1e-8) return;
-    camera.position.set(camera.position.x + dx, camera.position.y + dy, camera.position.z + dz);
-    camera.updateMatrixWorld();
-    controls.moveTo(target.x + dx, target.y + dy, target.z + dz, false);
   }
 
   function start(controls, pose, target, now) {
@@ -158,7 +138,6 @@
   function show(preset) {
     if (preset === "overview") {
       follow(null);
-      view.middle = null;
       client()?.resetCameraPose?.(true);
     } else if (preset === "driver" || preset === "chase") {
       view.mode = preset === "driver" ? DRIVER : CHASE;
@@ -266,7 +245,6 @@
       if (view.mode === TOP && vehicle !== null) view.mode = CHASE;
       follow(vehicle);
     }
-    if (studio === "cast") view.own = event.data.cars.filter(({ name }) => !name.startsWith("traffic")).map(({ index }) => index);
     if (studio === "view") show(preset);
     if (studio === "theme") {
       view.dark = dark === true;

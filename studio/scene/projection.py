@@ -66,8 +66,6 @@ class Scene:
             self._clear_city()
             self._city = [self._add(layer) for layer in made.layers]
             self._city += tree.plant(self._server, made.trees, foot=city.AREA, shade=city.TREE_SHADOW)
-            if _is_wide(network):
-                self._city.append(self._server.scene.add_frame("/map/wide", visible=False))  # the overview goes along with the cars
             # comes after everything else: who finds it has the rest of this map
             self._city.append(self._server.scene.add_frame(f"/map/{network.digest}", visible=False))
             self._lamps = Lamps(self._server, network) if len(network.signals) else None
@@ -205,15 +203,10 @@ def _reach(network: Network) -> float:
     return max(60.0, 0.8 * float(np.percentile(np.hypot(*points), 90)))
 
 
-def _is_wide(network: Network) -> bool:
-    """Whether a map is too large to be seen at one look."""
-    return _reach(network) > COMPACT
-
-
 def _overview(network: Network, around: np.ndarray | None) -> tuple[np.ndarray, float, np.ndarray]:
     """What the overview looks at [m], the half extent of it, and from how far away: from where no house hides it."""
     middle, reach = np.zeros(2), _reach(network)
-    if _is_wide(network) and around is not None and around.size:
+    if reach > COMPACT and around is not None and around.size:
         middle, reach = around.mean(axis=1), CLOSER
     places = [reach * _turned(FROM, angle) for angle in TURNS]
     return middle, reach, min(places, key=lambda away: _hidden(network, middle, away))  # of equal ones the first

@@ -176,39 +176,6 @@ def test_a_needle_is_outside_and_told(page, studio):
     expect(figure.get_by_role("button", name=re.compile("inside"))).to_have_attribute("aria-pressed", "true")
 
 
-LEADER_IN_PICTURE = """() => {
-  const { poseOf, toThree, client } = window.__studioBridge, pose = poseOf(0);
-  const at = client().camera.position.clone().set(...toThree([pose.x, pose.y, pose.z])).project(client().camera);
-  return [at.x, at.y, pose.x];
-}"""
-
-
-def test_the_overview_of_a_motorway_goes_along(page, client):
-    """The leader drives 105 m in 3.5 s, and stays where he is in the picture."""
-    trace = client.get(f"/api/runs/{OTHER}/trace", params={"channels": "leader.x"}).json()
-    x = dict(zip(trace["time"], trace["channels"]["leader.x"]["values"], strict=True))
-    assert abs(x[4.0] - x[0.5]) > 100.0
-    page.goto(f"/studio/{MOTORWAY}?run={OTHER}&time=0.5")
-    expect(page.get_by_role("status", name="The scene is loading")).to_have_count(0)
-    scene = page.get_by_test_id("scene-frame").element_handle().content_frame()
-    until(lambda: scene.evaluate("Boolean(window.__studioBridge?.poseOf(0) && window.__studioBridge.view.middle)"), "the cars in the scene")
-
-    def in_picture(time):
-        """Where the leader is in the picture at a time, in halves of it, once he is there and it rests."""
-
-        def look():
-            now, again = scene.evaluate(LEADER_IN_PICTURE), scene.evaluate(LEADER_IN_PICTURE)
-            return now == again and abs(now[2] - x[time]) < 0.5 and abs(now[0]) < 0.7 and abs(now[1]) < 0.7 and now[:2]
-
-        return until(look, f"the leader at {time} s")
-
-    first, entry = in_picture(0.5), page.get_by_role("toolbar", name="Playback").get_by_label("Time", exact=True)
-    entry.fill("4")
-    entry.press("Enter")
-    in_picture(4.0)
-    until(lambda: np.abs(np.subtract(in_picture(4.0), first)).max() < 0.1, "the leader where he was in the picture")
-
-
 def test_a_metric_says_whom_when_and_what(page):
     """Its title opens the definition, its time leads to where it was so."""
     page.goto(f"/runs/{WHOLE}")
