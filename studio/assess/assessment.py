@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from studio.assess.danger import with_dangers
-from studio.assess.measure import measure_all, unmet
+from studio.assess.goal import unmet
+from studio.assess.measure import measure_all
 from studio.assess.metric import Measured
 from studio.execution.record import Record
 from studio.scenario.schema import Scenario

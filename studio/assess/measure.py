@@ -1,4 +1,4 @@
-"""Measuring: every metric of a record, as usual and as the scenario asks for it, and the goals that are not met."""
+"""Measuring: every metric of a record, as usual and as the scenario asks for it."""
 
 import math
 import traceback
@@ -11,7 +11,6 @@ from studio.execution.record import Record
 from studio.kind import registry
 from studio.kind.metric import Found, Scope
 from studio.kind.registry import Kind
-from studio.scenario.schema import Goal
 
 
 def measure_all(
@@ -64,26 +63,3 @@ def told(kind: Kind, found: Found, time: float | None) -> str:
     fits = names and names.count("{") == len(found.subject)
     who = names.format(*found.subject) if fits else " and ".join(found.subject)
     return f"{who} at {time:.2f} s".strip() if time is not None else who
-
-
-def unmet(goals: dict[str, Goal], metrics: dict[str, Measured]) -> list[str]:
-    """Sentences about the goals that are not met."""
-    return [text for name, goal in goals.items() if (text := failing(name, goal, metrics.get(name)))]
-
-
-def asked(goal: Goal) -> str:
-    """What a goal wants, in words."""
-    ends = (("at least", goal.least), ("at most", goal.most))
-    return " and ".join(f"{word} {end:g}" for word, end in ends if end is not None) or "nothing"
-
-
-def failing(name: str, goal: Goal, found: Measured | None) -> str:
-    """Why a goal is not met, or nothing."""
-    if found is None or found.value is None:
-        return f"{name} could not be measured" + (f": {found.about}" if found and found.about else "")
-    about = f" ({found.about})" if found.about else ""
-    if goal.least is not None and found.value < goal.least:
-        return f"{name} is {found.value:.4g} {found.unit}{about}, at least {goal.least:g} is wanted"
-    if goal.most is not None and found.value > goal.most:
-        return f"{name} is {found.value:.4g} {found.unit}{about}, at most {goal.most:g} is wanted"
-    return ""

@@ -395,7 +395,7 @@ def with_unit(name: str, unit: str) -> str:
 
 def print_goals(row, document: dict[str, Any]) -> None:
     """What was wanted of a run, and whether it was met."""
-    from studio.assess.measure import asked, failing
+    from studio.assess.goal import asked, failing, goals_of
 
     print(goals_met(row, document))
     rows = []
@@ -411,7 +411,7 @@ def print_goals(row, document: dict[str, Any]) -> None:
 
 def goals_met(row, document: dict[str, Any]) -> str:
     """How many of its goals a run meets, in words."""
-    from studio.assess.measure import unmet
+    from studio.assess.goal import goals_of, unmet
 
     goals = goals_of(document)
     if not goals:
@@ -419,13 +419,6 @@ def goals_met(row, document: dict[str, Any]) -> str:
     if not row.metrics:
         return f"{len(goals)} goals, and nothing was measured"
     return f"{len(goals) - len(unmet(goals, row.metrics))} of {len(goals)} goals met"
-
-
-def goals_of(document: dict[str, Any]) -> dict[str, Any]:
-    """The goals of a scenario, by metric."""
-    from studio.scenario.schema import Goal
-
-    return {name: Goal.model_validate(goal) for name, goal in document.get("goals", {}).items()}
 
 
 def print_sources(row, texts: dict[str, dict[str, str]], patches: dict[str, str]) -> None:

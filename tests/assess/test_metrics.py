@@ -5,7 +5,8 @@ import pytest
 
 from studio.assess import compare
 from studio.assess.following import time_to_collision
-from studio.assess.measure import measure_all, unmet
+from studio.assess.goal import unmet
+from studio.assess.measure import measure_all
 from studio.assess.metric import Measured
 from studio.execution.happening import happening
 from studio.execution.record import Body, Chain, Record

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from studio import job
-from studio.assess.measure import measure_all, unmet
+from studio.assess.goal import unmet
+from studio.assess.measure import measure_all
 from studio.errors import ScenarioError
 from studio.execution.happening import happening
 from studio.execution.record import Chain
