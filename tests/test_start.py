@@ -32,7 +32,8 @@ def folder(tmp_path_factory):
 
     cwd = tmp_path_factory.mktemp("work")
     open_runs(cwd / "runs.db").begin(
-        scenario="stern", title="Stern", document={"goals": {"min_ttc": {"least": 1.0}}}, scenario_hash="0" * 64, map_digest="", parent=None, seed=1,
+        scenario="stern", title="Stern", document={"goals": {"min_ttc": {"least": 1.0}}}, scenario_hash="0" * 64, map_digest="",
+        parent=None, seed=1,
         parameters={}, provenance=Provenance((), "1", "host", {}, ()),
     )  # fmt: skip
     return cwd
