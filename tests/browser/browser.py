@@ -45,7 +45,9 @@ def watched(opened: Browser | BrowserContext, *, tour: bool = False, **options: 
     page.set_default_timeout(PATIENCE_MS)
     expect.set_options(timeout=PATIENCE_MS)
     complaints: list[str] = []
-    page.on("console", lambda message: complaints.append(message.text) if message.type == "error" else None)
+    page.on(
+        "console", lambda message: complaints.append(f"{message.text} ({message.location['url']})") if message.type == "error" else None
+    )
     page.on("pageerror", lambda error: complaints.append(str(error)))
     return page, complaints
 

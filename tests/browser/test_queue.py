@@ -58,13 +58,15 @@ def test_runs_wait_are_seen_and_cancelled(studio):
 
 
 def test_a_run_of_the_studio_waits_too(studio):
-    """The bar says its place, and stop takes it out."""
+    """The bar says its place, and stop takes it out; as it has nothing to play back, the scene shows the scenario again."""
     page, _, client = studio
     goes = ask(client, "live", paused=True)
     page.goto(f"{client.base_url}/studio/{SCENARIO}")
     page.get_by_test_id("run").click()
     expect(page.get_by_test_id("position")).to_have_text("place 1")
-    page.get_by_test_id("stop").click()
+    with page.expect_response(lambda each: each.url.endswith("/api/scene")) as shown:
+        page.get_by_test_id("stop").click()
+    assert shown.value.status == 200 and shown.value.request.post_data_json["scenario"] == SCENARIO, shown.value.text()
     expect(page.get_by_test_id("history-row").first).to_contain_text("cancelled")
     client.post(f"/api/runs/{goes}/cancel")
     until(lambda: client.get("/api/queue").json() == [], "the end of all")

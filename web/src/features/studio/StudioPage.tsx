@@ -58,7 +58,9 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
   const status = shown.progress?.status;
   const over = run !== undefined && shown.detail?.run === run && !isLive(shown.detail.status) && !isLive(status);
   const playable = over && shown.channels.length > 0;
-  const scene = useScene(id, draft.changes, playable || shown.live ? run : undefined, over, form.ok || playable, ghosts, align, form.blocked);
+  // A run that was cancelled while it waited has left nothing to play back: then the scenario stands there, as before it.
+  const seen = over ? playable : shown.live !== undefined;
+  const scene = useScene(id, draft.changes, seen ? run : undefined, over, form.ok || playable, ghosts, align, form.blocked);
   const sight = useSight(shown.live, scene.vehicles);
   const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
   useSeekOnce(id, { run, ghosts, align }, head, time);
