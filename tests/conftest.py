@@ -58,7 +58,7 @@ def own_kinds():
 LONGEST_FIRST = (
     "tests/world/test_random_routes.py",
     "tests/test_readme.py",
-    "tests/test_cli.py",
+    "tests/test_portable.py",
     "tests/world",
     "tests/vehicle",
     "tests/browser",

@@ -67,15 +67,6 @@ def test_a_fresh_process_gives_the_same_bits(folder, sample):
     assert other["state_hash"] != run["state_hash"] and child["state_hash"] != run["state_hash"]
 
 
-def test_freshly_compiled_code_gives_the_same_bits(folder, sample, tmp_path, monkeypatch):
-    """A machine that compiles everything, map and paths too, ends where one with kept code ends."""
-    cwd, run, _ = folder
-    monkeypatch.setenv("STUDIO_CACHE", str(tmp_path / "cache"))
-    fresh = json.loads(studio("run", sample, *SHORT, "--json", "--db", "fresh.db", cwd=cwd, patience=COMPILING)[1])
-    assert fresh["state_hash"] == run["state_hash"]
-    assert (tmp_path / "cache" / "compiled").is_dir()
-
-
 def test_python_finds_the_same(folder, sample):
     """The example of the package's docstring; its run has the command line's bits."""
     import studio as package
