@@ -37,16 +37,16 @@ def import_(
     A gap stays a gap. What cannot be right (a yaw rate of 500 rad/s) is refused, with the unit that was taken for it.
     """
     from studio.log import recording
-    from studio.log.hint import hints
+    from studio.log.hint import contradictions, hints
 
     load_kinds(kinds)
-    log, made = taken(file, mapping, dbc)
+    log, made, used = taken(file, mapping, dbc)
     if out is not None and made is None:
         problem = Problem("--out", "is of our signals, and nobody says which they are", remedy="give --mapping")
         raise ScenarioError("There is nothing to write.", [problem])
     recorded = [each.facts() for each in log.signals.values()]
     ours = made.facts() if made else []
-    doubts = hints(made) if made else []
+    doubts = [*(contradictions(used, log) if used else []), *(hints(made) if made else [])]
     if as_json:
         print_json({"log": log.name, "signals": recorded, "ours": ours, "period": recording.PERIOD if made else None, "hints": doubts})
     else:
@@ -59,15 +59,15 @@ def import_(
 
 
 def taken(file: Path, mapping: Path | None, dbc: Path | None):
-    """The log, and our signals where a mapping says which they are, or their names do."""
+    """The log, our signals where a mapping says which they are, or their names do, and the mapping."""
     from studio.log import mapping as maps
     from studio.log import reading, recording
 
     known = maps.read(mapping) if mapping else None
     log = reading.read(file, dbc or (known.dbc if known else None))
     if known is None and not maps.has_named(log):
-        return log, None
-    return log, recording.of_log(log, known.mapping if known else None)
+        return log, None, None
+    return log, recording.of_log(log, known.mapping if known else None), known.mapping if known else None
 
 
 def facts(each: dict[str, Any]) -> list[str]:
@@ -82,7 +82,7 @@ def cut(file: LogFile, mapping: MappingFile = None, dbc: DbcFile = None, kinds: 
     from studio.validation import known
 
     load_kinds(kinds)
-    _, made = taken(file, mapping, dbc)
+    _, made, _ = taken(file, mapping, dbc)
     if made is None:
         raise ScenarioError(
             "Nobody says what was recorded.", [Problem("--mapping", "is missing", remedy="say which signal is which of ours")]

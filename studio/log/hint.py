@@ -6,10 +6,17 @@ On a level road a car without much side slip has
 
 and turns to the side to which its wheels are turned. A speed in km/h that is taken for m/s makes the one 3.6 times the other, a sensor
 that is mounted the other way round turns a sign. A slide, a banked bend or a sensor far from the middle do not make it half or double.
+
+A log that says its units is believed unless the mapping says others: then one of the two is wrong, though the values may be possible
+in both. A lane change on a motorway takes 1.3 deg at the wheels; read as 1.3 rad it is still an angle that wheels can have.
 """
 
 import numpy as np
 
+from studio.kind.log import Log
+from studio.log import unit
+from studio.log.mapping import Mapping, names
+from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
 
 LEAST = 0.5  # [m/s²] that v r has at least in the mean square: less tells nothing
@@ -21,6 +28,23 @@ def hints(recording: Recording) -> list[str]:
     """What to look at, in words."""
     found = [sideways(recording), *(turned(recording, name) for name in STEERING)]
     return [each for each in found if each]
+
+
+def contradictions(used: Mapping, log: Log) -> list[str]:
+    """Units of a mapping that are not those of the log, in words; the mapping's are taken."""
+    return [
+        f"{each} is recorded in {log[each].unit}, and the mapping takes it in {source.unit}: if the log is right, leave the unit out"
+        for name, source in used.signals.items()
+        for each in names(source)
+        if source.unit and differ(log[each].unit, source.unit, QUANTITIES[name].unit)
+    ]
+
+
+def differ(recorded: str, said: str, ours: str) -> bool:
+    """Whether two units of a quantity are two; one that nobody reads, or that the log leaves open, is none."""
+    known = unit.plain(ours)
+    one, other = known.get(recorded.strip().lower()), known.get(said.strip().lower())
+    return bool(recorded.strip()) and one is not None and one != other
 
 
 def sideways(recording: Recording) -> str:

@@ -24,11 +24,15 @@ FACTORS = {  # our unit: what is read as well, with its factor to ours
 
 def factor(unit: str, ours: str, where: str) -> float:
     """How many of our unit one of `unit` is; raises ScenarioError that names the units which are read for it."""
-    known = FACTORS[ours]
-    plain = {each.lower(): value for each, value in known.items()}
-    if unit.strip().lower() not in plain:
+    known, readable = FACTORS[ours], plain(ours)
+    if unit.strip().lower() not in readable:
         kind = next((our for our, units in FACTORS.items() if unit.strip().lower() in {each.lower() for each in units}), None)
         what = "is not a unit of this quantity" if kind else "is not a unit that is read"
         problem = Problem(where, what, unit or "none", ", ".join(known), nearest(unit, known) if unit else "say its unit in the mapping")
         raise ScenarioError("A signal has a unit that does not fit.", [problem])
-    return plain[unit.strip().lower()]
+    return readable[unit.strip().lower()]
+
+
+def plain(ours: str) -> dict[str, float]:
+    """What is read for a unit of ours, in small letters, with its factor."""
+    return {each.lower(): value for each, value in FACTORS[ours].items()}

@@ -5,7 +5,7 @@ import pytest
 
 from studio.kind.log import Log, signal
 from studio.log import mapping, recording
-from studio.log.hint import hints
+from studio.log.hint import contradictions, hints
 from studio.scenario.text import source
 
 TIME = np.arange(0.0, 10.0, 0.01)
@@ -49,3 +49,16 @@ def test_a_car_as_it_is_gives_none():
 def test_a_mapping_without_one_of_them_gives_none():
     made = mapping.of_text(source.read("signals: {yaw_rate: {from: yaw_rate, unit: rad/s}}", "mapping"))
     assert hints(recording.of_log(Log("drive", {"yaw_rate": signal("yaw_rate", "rad/s", TIME, RATE)}), made)) == []
+
+
+def test_a_mapping_that_takes_another_unit_than_the_log_says_is_told():
+    """Though 1.3 deg and 0.023 rad are both angles that a wheel may have; another spelling of the same unit is none."""
+    log = Log("drive", {"Steer": signal("Steer", "deg", TIME, RATE), "Rate": signal("Rate", "°/s", TIME, RATE)})
+
+    def told_of(steer, rate):
+        text = f"signals: {{road_wheel_angle: {{from: Steer{steer}}}, yaw_rate: {{from: Rate{rate}}}}}"
+        return contradictions(mapping.of_text(source.read(text, "mapping")), log)
+
+    (only,) = told_of(", unit: rad", ", unit: deg/s")
+    assert only.startswith("Steer is recorded in deg, and the mapping takes it in rad")
+    assert told_of("", "") == told_of(", unit: deg", ", unit: deg/s") == []

@@ -73,7 +73,7 @@ def without(error: StudioError, order: Order) -> StudioError:
 def look(pipe: Connection, order: Order) -> dict[str, Any]:
     """What is in a log, and what a mapping makes of it; a mapping that fits badly is told beside what was recorded."""
     from studio.log import mapping, reading, recording
-    from studio.log.hint import hints
+    from studio.log.hint import contradictions, hints
     from studio.validation import known
 
     tell(pipe, "stage", "reading", None)
@@ -94,7 +94,7 @@ def look(pipe: Connection, order: Order) -> dict[str, Any]:
     return found | {
         "ours": [named(each) for each in made.facts()],
         "cuts": cuts,
-        "hints": hints(made),
+        "hints": [*(contradictions(wanted.mapping, log) if wanted else []), *hints(made)],
         "drawn": [drawn(each) for each in ours],
     }
 

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, guesses, interval, type Kinds, mappingText, measured, placedAt, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
+import { addParameter, addRun, chosen, guesses, interval, type Kinds, mappingText, measured, placedAt, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -50,6 +50,13 @@ test("a mapping is guessed by name, with the unit of the log where it is one", (
   const found = guesses([{ name: "Gierrate", unit: "deg/s" }, { name: "VehicleSpeed", unit: "mph?" }], kinds);
   expect(found.yaw_rate).toMatchObject({ from: ["Gierrate"], unit: "deg/s" });
   expect(found.speed).toMatchObject({ from: ["VehicleSpeed"], unit: "m/s" });
+});
+
+test("a signal that is chosen by hand comes in the unit that the log gives it", () => {
+  const recorded = [{ name: "Rate", unit: "deg/s" }, { name: "Bare", unit: "" }];
+  expect(chosen("Rate", recorded, ["rad/s", "deg/s"])).toMatchObject({ from: ["Rate"], unit: "deg/s" });
+  expect(chosen("Bare", recorded, ["rad/s", "deg/s"])).toEqual({ from: ["Bare"], combine: "mean" });
+  expect(chosen("", recorded, ["rad/s", "deg/s"]).from).toEqual([]);
 });
 
 test("a mapping is written without what goes without saying", () => {

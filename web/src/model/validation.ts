@@ -201,6 +201,12 @@ function guess(ours: string, units: readonly string[], recorded: readonly { name
   return { from: found ? [found.name] : [], unit, combine: "mean", sign: 1, offset: 0, delay: 0 };
 }
 
+/** A recorded signal that a person chooses, in the unit that the log gives it; where that is none, in the one that the form has. */
+export function chosen(name: string, recorded: readonly { name: string; unit: string }[], units: readonly string[]): Partial<SourceEntry> {
+  const { unit } = recorded.find((each) => each.name === name) ?? { unit: "" };
+  return { from: name === "" ? [] : [name], combine: "mean", ...(units.includes(unit) ? { unit } : {}) };
+}
+
 // -- courses ------------------------------------------------------------------------------------------
 
 /** The columns of a course in the order in which they are drawn: abscissa, bounds, and lines. */

@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { usePatch, usePutFile, validationKinds } from "../../api/validations";
 import { words } from "../../model/units";
-import { guesses, type Kinds, type Mapping, mappingText, PLACED, placedAt, type Project, type Said, type SourceEntry, sourcesOf } from "../../model/validation";
+import { chosen, guesses, type Kinds, type Mapping, mappingText, PLACED, placedAt, type Project, type Said, type SourceEntry, sourcesOf } from "../../model/validation";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { notify, notifyError } from "../../ui/notify";
 import { Loading } from "../../ui/State";
@@ -81,7 +81,7 @@ function Form({ project, said, recorded, mapping, kinds, onSaved }: Props & { ki
                       aria-label={`${words(name)} comes from`}
                       value={keyOf(source)}
                       data={[{ value: "", label: "–" }, ...severalOf(source, recorded), ...recorded.map((each) => ({ value: each.name, label: each.name }))]}
-                      onChange={({ currentTarget: { value } }) => value !== keyOf(source) && set(name, { from: value === "" ? [] : [value], combine: "mean" })}
+                      onChange={({ currentTarget: { value } }) => value !== keyOf(source) && set(name, chosen(value, recorded, units))}
                     />
                   </td>
                   <td>
