@@ -21,6 +21,7 @@ MOST_WAITING = 16
 MOST_KEPT = 50  # errands that are over, with what came out
 END_PATIENCE = 3.0  # [s] for a process to end by itself
 COMPILING, WAITING = "waiting for the first compilation", "waiting for others"
+MODELLESS = ("look",)  # what a log holds is seen without any vehicle, and so while the first compilation goes on
 PAUSE = 0.1  # [s] between two looks at the compilation
 
 
@@ -53,8 +54,8 @@ class ProjectJob(Errand):
                 self.sweep()
 
     def work(self) -> None:
-        """Runs it in a process, once the models are compiled."""
-        while not self.is_compiled() and not self.is_over:
+        """Runs it in a process, once the models are compiled if it drives any."""
+        while self.order.job.task not in MODELLESS and not self.is_compiled() and not self.is_over:
             self.note(COMPILING, None)
             time.sleep(PAUSE)
         try:
