@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, chosen, guesses, interval, type Kinds, mappingText, measured, placedAt, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
+import { addParameter, addRun, chosen, guesses, interval, type Kinds, mappingText, measured, placedAt, removeParameter, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -44,6 +44,16 @@ test("a parameter makes its step where there is none", () => {
   expect(addParameter(said(), "lateral", "body.mass", 1000, 2000)[0]?.path).toBe("/calibration");
   const having = said({ calibration: { lateral: { parameters: {}, maneuvers: [] } } });
   expect(addParameter(having, "lateral", "body.mass", 1, 2)[0]?.path).toBe("/calibration/lateral/parameters/body.mass");
+});
+
+test("the last parameter of a step takes the step with it, and the last step all of calibration", () => {
+  const range = { low: 0, high: 1, prior: null, spread: null };
+  const two = { "body.mass": range, "tyres.front_cornering": range };
+  const having = said({ calibration: { lateral: { parameters: two, maneuvers: [] }, drag: { parameters: { "body.mass": range }, maneuvers: [] } } });
+  expect(removeParameter(having, "lateral", "body.mass")).toEqual([{ op: "remove", path: "/calibration/lateral/parameters/body.mass" }]);
+  expect(removeParameter(having, "drag", "body.mass")).toEqual([{ op: "remove", path: "/calibration/drag" }]);
+  const last = said({ calibration: { drag: { parameters: { "body.mass": range }, maneuvers: [] } } });
+  expect(removeParameter(last, "drag", "body.mass")).toEqual([{ op: "remove", path: "/calibration" }]);
 });
 
 test("a mapping is guessed by name, with the unit of the log where it is one", () => {

@@ -104,6 +104,13 @@ export function addParameter(said: Said, step: string, path: string, low: number
   return [{ op: "add", path: `/calibration/${part(step)}/parameters/${part(path)}`, value }];
 }
 
+/** The patch that looks for a parameter no longer; a step without parameters goes with the last of them. */
+export function removeParameter(said: Said, step: string, path: string): Operation[] {
+  const others = Object.keys(said.calibration[step]?.parameters ?? {}).length - 1;
+  if (others > 0) return [{ op: "remove", path: `/calibration/${part(step)}/parameters/${part(path)}` }];
+  return [{ op: "remove", path: Object.keys(said.calibration).length > 1 ? `/calibration/${part(step)}` : "/calibration" }];
+}
+
 // -- verdicts -----------------------------------------------------------------------------------------
 
 /** A number with its unit as a verdict has it; a pure number is a share, in per cent. What was judged by an older studio has no unit. */

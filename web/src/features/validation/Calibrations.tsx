@@ -1,11 +1,11 @@
 /** What is looked for, and what was found: values with their uncertainty, how well the car follows, and what these runs cannot tell. */
 
-import { Alert, Button, Group, Text, TextInput } from "@mantine/core";
+import { ActionIcon, Alert, Button, Group, Text, TextInput } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { iteration, usePatch } from "../../api/validations";
 import { formatNumber, unitText, words } from "../../model/units";
-import { addParameter, type Project, type Said } from "../../model/validation";
+import { addParameter, removeParameter, type Project, type Said } from "../../model/validation";
 import { Icon } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { notifyError } from "../../ui/notify";
@@ -22,6 +22,7 @@ interface Props {
 }
 
 export function Calibrations({ project, said, at, busy, onStart }: Props) {
+  const patch = usePatch(project.name, project.digest);
   const calibrations = project.iterations.filter(({ valid }) => valid === null);
   const shown = calibrations.find((each) => each.iteration === at) ?? calibrations[0];
   return (
@@ -41,6 +42,7 @@ export function Calibrations({ project, said, at, busy, onStart }: Props) {
                 <th scope="col">Lowest</th>
                 <th scope="col">Highest</th>
                 <th scope="col">Known before</th>
+                <td />
               </tr>
             </thead>
             <tbody>
@@ -50,6 +52,18 @@ export function Calibrations({ project, said, at, busy, onStart }: Props) {
                   <td>{formatNumber(low)}</td>
                   <td>{formatNumber(high)}</td>
                   <td>{prior === null ? "–" : `${formatNumber(prior)} ± ${formatNumber(spread ?? 0)}`}</td>
+                  <td>
+                    <ActionIcon
+                      size="sm"
+                      variant="subtle"
+                      color="gray"
+                      aria-label={`Look for ${path} no longer`}
+                      disabled={busy || patch.isPending}
+                      onClick={() => patch.mutate(removeParameter(said, step, path), { onError: notifyError })}
+                    >
+                      <Icon name="trash" />
+                    </ActionIcon>
+                  </td>
                 </tr>
               ))}
             </tbody>
