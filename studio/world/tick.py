@@ -277,7 +277,7 @@ def pass_by(world: World) -> Link:
     things = (o.sweep, o.sweep_first, o.sweep_count, o.table, o.standing, o.first, world.lanes.facing)
     view = (r.web, q.first, q.place, q.at, r.place_of, r.shadow)
     every = max(round(oncoming.EVERY / world.clock.tick), 1)
-    own = (every, v.state, v.parameter, g.places, *numbers, *things, *view, v.drivers, v.mind)
+    own = (world.clock.tick, every, v.state, v.parameter, g.places, *numbers, *things, *view, v.drivers, v.mind)
     return link(oncoming.pass_by, *own, takes=("k",))
 
 

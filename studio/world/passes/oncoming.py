@@ -20,7 +20,7 @@ from studio.vehicle.state import ACTIVE, V_X, X, Y
 from studio.world.passes.junction import LONG, NEAREST, comes_in
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, bucket_of, first_drive, from_station, is_met, station_on
-from studio.world.passes.regard import STANDING, follow
+from studio.world.passes.regard import STANDING, follow, let_in
 from studio.world.passes.traffic import ELBOW_ROOM, PREVIEW
 from studio.world.table.mind import (
     AHEAD,
@@ -43,6 +43,7 @@ from studio.world.table.mind import (
     SIGHT,
     STANDSTILL,
     STATION,
+    STUCK,
     V_DESIRED,
     WAY_STATION,
 )  # fmt: skip
@@ -56,7 +57,8 @@ REACH = 100.0  # [m] what stands is looked for so far ahead
 IDLE = 1.5  # [s] who stands longer though he could drive on is passed
 BESIDE, KERB = 0.5, 0.15  # [m] kept beside what is passed, and beside the far edge of the other lane
 SHARE = 0.8  # [1] of the way out has been driven when the front comes to what stands: 94 % of it
-OVER, HURRIED, SHORTEST = 3.0, 2.0, 15.0  # [s], [s], [m] for the way out: 1.5 m/s² across, at most 3.5 m/s²
+OVER, HURRIED, SHORTEST, SHORT = 3.0, 2.0, 15.0, 2.0  # [s], [s], [m], [m] for the way out; shorter by so much if room is short
+BACK = 2.5  # [s] one drives no faster than this asks for on the way back
 WIDE, BEND, LOCK = 3.0, 5.8, 0.8  # [m] goes nobody farther out; greatest second derivative of the quintic; share of the lock
 TAIL = 1.5  # [m] the own rear is beyond before one comes back
 EASY, NEARLY = 0.8, 0.9  # [1] times the comfortable acceleration and the wanted speed, with which one reckons
@@ -67,7 +69,7 @@ STEP, VERGE, TOP = 10.0, 40.0, 1.0  # [m] between places looked at; so far aside
 
 
 @lean
-def pass_by(every, state, parameter, places, points, path_first, path_count, world_of, number, first_of, entity, drive_first, drive_count,
+def pass_by(tick, every, state, parameter, places, points, path_first, path_count, world_of, number, first_of, entity, drive_first, drive_count,
             sweep, sweep_first, sweep_count, table, standing, first_object, facing, web, first, place, at, place_of, shadow, drivers, mind,
             k):  # fmt: skip
     """Who passes on the oncoming lane, or waits for it."""
@@ -75,6 +77,7 @@ def pass_by(every, state, parameter, places, points, path_first, path_count, wor
         if facing.passes[v] == 0:
             continue
         mind[OUT_SLOPE, v] = mind[OUT_BEND, v] = 0.0
+        stuck, mind[STUCK, v] = mind[STUCK, v], 0.0
         if state[ACTIVE, v] == 0.0:
             stay_in(v, mind)
             continue
@@ -89,11 +92,12 @@ def pass_by(every, state, parameter, places, points, path_first, path_count, wor
         is_asked = (k + entity[v]) % every == 0 and mind[AWAY, v] == 0.0
         if not is_meant or (is_asked and not is_out):
             mind[OUT_BY, v] = 0.0
-            consider(
+            is_too_near = consider(
                 v, d, is_asked, SURE if is_meant else SPARE, state, parameter, places, points, path_first[v], path_count[v], world_of[v],
                 number, first_object[world_of[v]], sweep, sweep_first[v], sweep_count[v], table, standing, facing, web, first, place, at,
                 place_of[world_of[v]], shadow, drivers, mind,
             )  # fmt: skip
+            mind[STUCK, v] = stuck + tick if is_too_near else 0.0
         if mind[OUT_BY, v] != 0.0:
             go_on(v, state, parameter, mind)
         if mind[OUT_BY, v] != 0.0 and mind[STATION, v] >= mind[OUT_FROM, v]:
@@ -109,10 +113,13 @@ def stay_in(v, mind):
 
 @inlined
 def has_before_him(v, first_of, mind):
-    """Whether the nearest ahead is somebody who idles, or an object."""
+    """Whether the nearest ahead is an object, somebody who idles, or one who passes what is ahead of him."""
     if not mind[GAP, v] < REACH or mind[AHEAD, v] == -1.0:
         return False
-    return mind[AHEAD, v] < 0.0 or mind[IDLED, first_of + int(mind[AHEAD, v])] > IDLE
+    if mind[AHEAD, v] < 0.0:
+        return True
+    ahead = first_of + int(mind[AHEAD, v])
+    return max(mind[IDLED, ahead], mind[STUCK, ahead]) > IDLE or mind[OUT_BY, ahead] != 0.0
 
 
 @inlined
@@ -164,6 +171,7 @@ def go_on(v, state, parameter, mind):
     if mind[STATION, v] >= mind[BACK_FROM, v] + mind[BACK_OVER, v]:
         stay_in(v, mind)
         return
+    mind[V_DESIRED, v] = min(mind[V_DESIRED, v], mind[BACK_OVER, v] / BACK)
     axle = mind[STATION, v] + parameter[L_F, v]
     mind[ASIDE, v], mind[OUT_SLOPE, v], _ = aside_at(axle, v, mind)
     mind[OUT_BEND, v] = aside_at(axle + PREVIEW * state[V_X, v], v, mind)[2]
@@ -201,49 +209,79 @@ def hold_others(v, d, world, state, parameter, number, facing, web, first, place
 @lean
 def consider(v, d, is_asked, spare, state, parameter, places, points, path_first, path_count, world, number, first_object, sweep,
              sweep_first, sweep_count, table, standing, facing, web, first, place, at, map_, shadow, drivers, mind):  # fmt: skip
-    """Whether one passes what stands ahead, so that one is back `spare` [s] before others are there; if not, one keeps room to go out."""
+    """Whether one stands too near behind something to pass it; decides whether one does, as fast as one may or slowly.
+
+    One is back `spare` [s] before others are there; who has to wait for that keeps room to go out.
+    """
     strand, station = web.strand[d], mind[STATION, v]
     own, bumper, speed = station_on(d, station, web), station + parameter[FRONT, v], max(state[V_X, v], 0.0)
     key = world * web.right.size + strand
     gap, who = first_ahead(
         v, own, bumper, key, state, parameter, number, first_object, sweep, sweep_first, sweep_count, standing, first, place, at, mind
     )
-    if not NEAREST < gap < REACH:
-        return
-    top, a = NEARLY * mind[V_DESIRED, v], EASY * drivers[COMFORT, v]
+    if not 0.0 < gap < REACH:
+        return False
     least = max(SHORTEST, sqrt(BEND * WIDE * (parameter[L_F, v] + parameter[L_R, v]) / (LOCK * parameter[STEER_MAX, v])))
-    back_over = max(least, OVER * min(max(top, 1.0), sqrt(speed * speed + 2.0 * a * (gap + 2.0 * least))))
-    needed = parameter[LENGTH, v] + TAIL + back_over + drivers[STANDSTILL, v]
+    slow, top = least / OVER, max(NEARLY * mind[V_DESIRED, v], 1.0)
+    is_possible = False
+    for pace in (top, min(slow, top)):
+        fits, out_by, out_from, over, back_from, back_over = plan(
+            v, own, bumper, gap, pace, least, key, strand, state, parameter, places, points, path_first, path_count, sweep, sweep_first,
+            sweep_count, table, standing, facing, first, place, at, drivers, mind,
+        )  # fmt: skip
+        is_possible = is_possible or fits
+        if not fits or not is_asked or over < max(least - SHORT, HURRIED * speed):
+            continue
+        if is_free(
+            v, own, back_from + back_over - station, pace, spare, strand, world, state, parameter, points, path_first, path_count, facing,
+            web, first, place, at, map_, shadow, drivers, mind,
+        ):  # fmt: skip
+            mind[OUT_BY, v], mind[OUT_FROM, v], mind[OUT_OVER, v], mind[BACK_FROM, v], mind[BACK_OVER, v] = (
+                out_by, out_from, over, back_from, back_over,
+            )  # fmt: skip
+            return False
+    if is_possible and gap > SHARE * least - SHORT:
+        let_in(v, who, max(gap - SHARE * least + 1.0, NEAREST), 0.0, state, drivers, mind)
+    return gap < SHARE * (least - SHORT) and speed < STANDING
+
+
+@lean
+def plan(v, own, bumper, gap, pace, least, key, strand, state, parameter, places, points, path_first, path_count, sweep, sweep_first,
+         sweep_count, table, standing, facing, first, place, at, drivers, mind):  # fmt: skip
+    """Whether there is room to pass with a pace [m/s] what stands `gap` [m] ahead, and the way: how far aside, from where and over how
+    many metres out, and back."""
+    station, speed, a, length = mind[STATION, v], max(state[V_X, v], 0.0), EASY * drivers[COMFORT, v], parameter[LENGTH, v]
+    back_over = max(least, OVER * min(pace, sqrt(speed * speed + 2.0 * a * (gap + 2.0 * least))))
     far, edge = extent(
-        v, own, bumper + gap, needed, facing.room[strand] > 0.0, key, state, parameter, places, points, path_first, path_count, sweep,
-        sweep_first, sweep_count, table, standing, first, place, at, mind,
+        v, own, bumper + gap, length + TAIL + back_over + drivers[STANDSTILL, v], facing.room[strand] > 0.0, key, state, parameter, places,
+        points, path_first, path_count, sweep, sweep_first, sweep_count, table, standing, first, place, at, mind,
     )  # fmt: skip
     out_by = edge + BESIDE + 0.5 * parameter[WIDTH, v]
-    wanted = max(least, OVER * min(max(top, 1.0), sqrt(speed * speed + 2.0 * a * max(gap - SHARE * least, 0.0))))
+    wanted = max(least, OVER * min(max(pace, speed), sqrt(speed * speed + 2.0 * a * max(gap - SHARE * least, 0.0))))
     over = min(wanted, gap / SHARE)
     out_from = station + max(gap - SHARE * wanted, 0.0)
-    back_from = max(far + parameter[LENGTH, v] - parameter[FRONT, v] + TAIL, out_from + over)
-    way = back_from + back_over - station
-    x_end = own + way + parameter[FRONT, v]
-    is_narrow = out_by + 0.5 * parameter[WIDTH, v] + KERB > abs(facing.room[strand])
-    if is_narrow or x_end > facing.span[OWN_TO, strand] or own + out_from - station < facing.span[OWN_FROM, strand]:
-        return
-    if spare == SPARE and gap > SHARE * least - 2.0:
-        follow(v, who, max(gap - SHARE * least + 1.0, NEAREST), 0.0, state, drivers, mind)
-    if not is_asked or over < max(least - 2.0, HURRIED * speed) or min(mind[RED_STATION, v], mind[WAY_STATION, v]) < station + way:
-        return
-    time = arrival_below(way, speed, a, max(top, 1.0)) + drivers[EXPECTED, v] + spare
-    lane = facing.lane[strand]
+    back_from = max(far + length - parameter[FRONT, v] + TAIL, out_from + over)
+    fits = out_by + 0.5 * parameter[WIDTH, v] + KERB <= abs(facing.room[strand])
+    fits = fits and own + back_from + back_over - station + parameter[FRONT, v] <= facing.span[OWN_TO, strand]
+    fits = fits and own + out_from - station >= facing.span[OWN_FROM, strand]
+    return fits, out_by if facing.room[strand] > 0.0 else -out_by, out_from, over, back_from, back_over
+
+
+@lean
+def is_free(v, own, way, pace, spare, strand, world, state, parameter, points, path_first, path_count, facing, web, first, place, at, map_,
+            shadow, drivers, mind):  # fmt: skip
+    """Whether nobody comes for so many metres, and no line is there to wait at, as far as one sees and has to see."""
+    station, nose, lane = mind[STATION, v], own + parameter[FRONT, v], facing.lane[strand]
+    if min(mind[RED_STATION, v], mind[WAY_STATION, v]) < station + way:
+        return False
+    time = arrival_below(way, max(state[V_X, v], 0.0), EASY * drivers[COMFORT, v], pace) + drivers[EXPECTED, v] + spare
     reach = facing.limit[lane] * time
-    if not is_in_sight(
-        v, min(way + reach, facing.length[strand] - own), state, points, path_first, path_count, map_, shadow, drivers, mind
-    ):
-        return
-    y_end, y_nose = over_there(x_end, strand, facing), over_there(own + parameter[FRONT, v], strand, facing)
+    seen = min(way + reach, facing.length[strand] - own)
+    if not is_in_sight(v, seen, state, points, path_first, path_count, map_, shadow, drivers, mind):
+        return False
+    y_end, y_nose = over_there(nose + way, strand, facing), over_there(nose, strand, facing)
     comes, _, _ = first_comer(v, lane, y_end, y_nose, 2.0 * reach, world, state, parameter, facing, web, first, place, at, drivers, mind)
-    if mind[MISJUDGED, v] * comes > time:
-        mind[OUT_BY, v] = out_by if facing.room[strand] > 0.0 else -out_by
-        mind[OUT_FROM, v], mind[OUT_OVER, v], mind[BACK_FROM, v], mind[BACK_OVER, v] = out_from, over, back_from, back_over
+    return mind[MISJUDGED, v] * comes > time
 
 
 @lean
@@ -261,16 +299,17 @@ def first_ahead(v, own, bumper, key, state, parameter, number, first_object, swe
         other, there, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]] - own - parameter[FRONT, v], i + 1
         if other != v and place[THERE, i - 1] != 0:
             its_gap = there - parameter[LENGTH, other]
-            if its_gap < gap:
+            if its_gap >= gap:
+                break
+            if mind[OUT_BY, other] == 0.0:
                 return (its_gap, number[other]) if is_idle(other, state, mind) else (inf, 0)
-            break
     return gap, who
 
 
 @inlined
 def is_idle(other, state, mind):
-    """Whether somebody stands though nothing keeps him, or is held by one who passes him."""
-    return abs(state[V_X, other]) < STANDING and mind[IDLED, other] > IDLE
+    """Whether somebody stands though nothing keeps him, or cannot get away from behind such a one."""
+    return abs(state[V_X, other]) < STANDING and max(mind[IDLED, other], mind[STUCK, other]) > IDLE
 
 
 @lean
@@ -287,7 +326,7 @@ def extent(v, own, begin, needed, is_left, key, state, parameter, places, points
         i, end = from_station(key, own, first, place, at)
         while i < end and place[KEY, i] == key:
             other, nose, i = place[WHO, i], at[i] + parameter[FRONT, place[WHO, i]] + shift, i + 1
-            if other == v or place[THERE, i - 1] == 0 or nose <= far:
+            if other == v or place[THERE, i - 1] == 0 or nose <= far or (mind[OUT_BY, other] != 0.0 and state[V_X, other] >= STANDING):
                 continue
             if nose - parameter[LENGTH, other] > far + needed:
                 break

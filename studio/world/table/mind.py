@@ -115,6 +115,7 @@ OUT_FROM = MIND.row("out_from", "m", "station from which he goes out to it", rol
 OUT_OVER = MIND.row("out_over", "m", "over so long a way", role=Role.STATE)
 BACK_FROM = MIND.row("back_from", "m", "station from which he comes back", role=Role.STATE)
 BACK_OVER = MIND.row("back_over", "m", "over so long a way", role=Role.STATE)
+STUCK = MIND.row("stuck", "s", "how long he has stood so near behind what stands that he cannot go out to pass it", role=Role.STATE)
 OUT_SLOPE = MIND.row("out_slope", "1", "of this way to the path, at the front axle")
 OUT_BEND = MIND.row("out_bend", "1/m", "curvature of this way beyond that of the path, where the car is about to be")
 IDLED = MIND.row("idled", "s", "how long he has stood though no line, light, car or object kept him from driving", role=Role.STATE)
