@@ -21,8 +21,10 @@ def facing_of(settings: Sequence[Setting]) -> Facing:
     found = [oncoming_of(each) for each in maps]
     base = starts(np.array([each.lane.size for each in found], dtype=np.int64)) if found else []
     counts = np.concatenate([np.zeros(1, dtype=np.int64), *(np.diff(each.into_first) for each in found)])
+    watched = [int(any(car.changes_lanes for car in each.cars)) for each in settings for _ in each.cars]
     return Facing(
         passes=passes,
+        watched=np.array(watched, dtype=np.int64),
         lane=np.concatenate([np.zeros(0, dtype=np.int64), *(shifted(each.lane, at) for each, at in zip(found, base, strict=True))]),
         span=np.concatenate([np.zeros((4, 0)), *(each.span for each in found)], axis=1),
         room=np.concatenate([np.zeros(0), *(each.room for each in found)]),

@@ -201,8 +201,8 @@ def look(world: World) -> Iterator[Link]:
         yield mind_movers(world)
     if world.obstacles.movers.zebra.size:
         yield let_cross(world)
-    if world.lanes.any_beside or world.lanes.any_facing:
-        yield link(lane.idle, world.clock.tick, world.vehicles.state, world.vehicles.mind)
+    if world.lanes.facing.watched.any():
+        yield link(lane.idle, world.clock.tick, world.vehicles.state, world.lanes.facing.watched, world.vehicles.mind)
     if world.lanes.any_beside:
         yield choose_lanes(world)
     if world.lanes.any_facing:

@@ -176,10 +176,11 @@ def begin(v, guess, state, points, first, count, mind):
 
 
 @lean
-def idle(tick, state, mind):
-    """How long everybody has stood for nothing."""
+def idle(tick, state, watched, mind):
+    """How long everybody has stood for nothing, in worlds in which somebody changes lanes."""
     for v in range(state.shape[1]):
-        mind[IDLED, v] = mind[IDLED, v] + tick if idles(v, state, mind) else 0.0
+        if watched[v] != 0:
+            mind[IDLED, v] = mind[IDLED, v] + tick if idles(v, state, mind) else 0.0
 
 
 @lean

@@ -69,9 +69,9 @@ STEP, VERGE, TOP = 10.0, 40.0, 1.0  # [m] between places looked at; so far aside
 
 
 @lean
-def pass_by(tick, every, state, parameter, places, points, path_first, path_count, world_of, number, first_of, entity, drive_first, drive_count,
-            sweep, sweep_first, sweep_count, table, standing, first_object, facing, web, first, place, at, place_of, shadow, drivers, mind,
-            k):  # fmt: skip
+def pass_by(tick, every, state, parameter, places, points, path_first, path_count, world_of, number, first_of, entity, drive_first,
+            drive_count, sweep, sweep_first, sweep_count, table, standing, first_object, facing, web, first, place, at, place_of, shadow,
+            drivers, mind, k):  # fmt: skip
     """Who passes on the oncoming lane, or waits for it."""
     for v in range(state.shape[1]):
         if facing.passes[v] == 0:
@@ -154,7 +154,7 @@ def gone(share):
 
 @inlined
 def aside_at(station, v, mind):
-    """How far aside [m] one wants to be at a station, the slope of this way to the path, and its curvature beyond that of the path [1/m]."""
+    """How far aside one wants to be at a station [m], the slope of this way to the path, its curvature beyond that of the path [1/m]."""
     p, p1, p2 = gone((station - mind[OUT_FROM, v]) / mind[OUT_OVER, v])
     q, q1, q2 = gone((station - mind[BACK_FROM, v]) / mind[BACK_OVER, v])
     a, b, by = 1.0 / mind[OUT_OVER, v], 1.0 / mind[BACK_OVER, v], mind[OUT_BY, v]

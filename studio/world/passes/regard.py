@@ -109,5 +109,10 @@ def is_unseen(v, other, state, parameter, drivers):
 
 @inlined
 def is_passed(v, other, rear, state, parameter, mind):
-    """Whether v passes another on the oncoming lane, whose rear is at a station [m]: he stands, and v comes back behind him only."""
+    """Whether v passes another on the oncoming lane, whose rear is at a station [m]: he stands, and v comes back behind him only.
+
+    Or the other way round: who passes one who stands is not ahead of him yet.
+    """
+    if mind[OUT_BY, other] != 0.0 and abs(state[V_X, v]) < STANDING:
+        return True
     return mind[OUT_BY, v] != 0.0 and abs(state[V_X, other]) < STANDING and rear + parameter[LENGTH, other] <= mind[BACK_FROM, v]

@@ -11,6 +11,7 @@ class Facing(NamedTuple):
     """Per strand, and which vehicles may pass on the lane of the others."""
 
     passes: np.ndarray  # int64[vehicle]: 1 of one that changes lanes where nothing asks for it
+    watched: np.ndarray  # int64[vehicle]: 1 in a world in which somebody does
     lane: np.ndarray  # int64[strand]: the lane that comes towards it, -1 for none
     span: np.ndarray  # float64[4, strand]
     room: np.ndarray  # float64[strand]: from the own line to the far edge of that lane [m], left positive
