@@ -169,7 +169,9 @@ class Vehicle(Part, defer_build=True):
     speed: float = number(..., unit="m/s", title="Initial speed", ge=0, le=70)
     driver: AnyDriver = Field(default_factory=dict, validate_default=True, title="Driver")
     lane_changes: bool = Field(
-        False, title="Lane changes", description="whether the driver changes to a better lane where the route asks for none"
+        False,
+        title="Lane changes",
+        description="whether the driver changes to a better lane where the route asks for none, and passes who stands",
     )
     intervention: Intervention = Field(default_factory=Intervention, title="Driver's intervention")
     sensors: Sensors = Field(

@@ -27,6 +27,7 @@ from studio.world.car import Car, pose
 from studio.world.chart import chart_of
 from studio.world.deed import deeds_of
 from studio.world.effect import Slippery
+from studio.world.facing import facing_of
 from studio.world.line import Lines, detours_of, lines_of, starts, stops_of, table_of
 from studio.world.mail import mail_of
 from studio.world.obstacle import movers, obstacles_of
@@ -251,7 +252,7 @@ def roads_of(settings: Sequence[Setting], lines: Lines, table: np.ndarray, stops
 
 def lanes_of(settings: Sequence[Setting], lines: Lines, detours: Detours) -> Lanes:
     """Everybody on his usual lanes."""
-    beside, n = beside_of(settings, lines, detours), len(lines.home)
+    beside, facing, n = beside_of(settings, lines, detours), facing_of(settings), len(lines.home)
     return Lanes(
         block=np.array([each.start for each in lines.home], dtype=np.int64),
         asked=np.full(n, -1),
@@ -259,6 +260,8 @@ def lanes_of(settings: Sequence[Setting], lines: Lines, detours: Detours) -> Lan
         left_count=np.zeros(n, dtype=np.int64),
         beside=beside,
         any_beside=bool((beside.home >= 0).any()),
+        facing=facing,
+        any_facing=bool((facing.lane >= 0).any()),
     )
 
 

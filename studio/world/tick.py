@@ -22,7 +22,7 @@ from studio.world.board.own import carry
 from studio.world.board.post import Post, draw_lots, taking_turns
 from studio.world.board.post import lay as lay_open
 from studio.world.board.sensing import Mounted
-from studio.world.passes import collision, control, entry, ground, lane, neighbour, percept, queue, traffic, zebra
+from studio.world.passes import collision, control, entry, ground, lane, neighbour, oncoming, percept, queue, traffic, zebra
 from studio.world.seat import Seats
 from studio.world.table.mind import STATION
 from studio.world.world import Units, World
@@ -201,8 +201,12 @@ def look(world: World) -> Iterator[Link]:
         yield mind_movers(world)
     if world.obstacles.movers.zebra.size:
         yield let_cross(world)
+    if world.lanes.facing.watched.any():
+        yield link(lane.idle, world.clock.tick, world.vehicles.state, world.lanes.facing.watched, world.vehicles.mind)
     if world.lanes.any_beside:
         yield choose_lanes(world)
+    if world.lanes.any_facing:
+        yield pass_by(world)
 
 
 def orient(world: World) -> Link:
@@ -262,8 +266,19 @@ def choose_lanes(world: World) -> Link:
     lines = (r.stop_first, r.stop_count, *world.obstacles.swept, r.drive_first, r.drive_count, d.base, d.work, d.choice)
     queues = (r.web, q.first, q.place, q.at, g.found)
     every = max(round(lane.EVERY / world.clock.tick), 1)
-    own = (world.clock.tick, every, v.state, v.parameter, g.places, *numbers, *moving, *lines, *queues, v.drivers, v.mind)
+    own = (every, v.state, v.parameter, g.places, *numbers, *moving, *lines, *queues, v.drivers, v.mind)
     return link(lane.choose, *own, takes=("k",))
+
+
+def pass_by(world: World) -> Link:
+    """Who passes on the oncoming lane what stands."""
+    v, r, q, w, o, g = world.vehicles, world.roads, world.queues, world.worlds, world.obstacles, world.neighbours
+    numbers = (r.points, r.path_first, r.path_count, w.of, w.number, w.first, w.entity, r.drive_first, r.drive_count)
+    things = (o.sweep, o.sweep_first, o.sweep_count, o.table, o.standing, o.first, world.lanes.facing)
+    view = (r.web, q.first, q.place, q.at, r.place_of, r.shadow)
+    every = max(round(oncoming.EVERY / world.clock.tick), 1)
+    own = (world.clock.tick, every, v.state, v.parameter, g.places, *numbers, *things, *view, v.drivers, v.mind)
+    return link(oncoming.pass_by, *own, takes=("k",))
 
 
 @Passes

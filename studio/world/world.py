@@ -25,6 +25,7 @@ from studio.world.passes.queue import Queues
 from studio.world.seat import Seats
 from studio.world.table.lane import Beside
 from studio.world.table.mind import STEER_WISH, WISH
+from studio.world.table.oncoming import Facing
 from studio.world.table.street import OBJECT
 from studio.world.table.unit import PRESENT
 from studio.world.table.web import Web
@@ -235,6 +236,8 @@ class Lanes:
     left_count: Moving  # 0 of one that leaves none
     beside: Beside
     any_beside: bool  # whether there are other lanes for anybody
+    facing: Facing
+    any_facing: bool  # whether anybody passes on the lane of those who come
 
     def apart(self) -> np.ndarray:
         """How many blocks behind the usual one everybody is, whatever else is in the batch."""

@@ -34,7 +34,7 @@ from studio.world.passes.notice import has_passed_red
 from studio.world.passes.queue import EARLY, KEY, NEAR, WHO, first_drive, from_station, station_on
 from studio.world.passes.traffic import ARRIVAL
 from studio.world.table.chart import LANE_WIDTH, LANES_LEFT, LANES_RIGHT
-from studio.world.table.mind import FOLLOWING, MINDED, OFFSET, RED_STATION, STATION, STOOD, YIELDING
+from studio.world.table.mind import ASIDE, FOLLOWING, MINDED, OFFSET, OUT_BY, RED_STATION, STATION, STOOD, YIELDING
 from studio.world.table.web import ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE
 from studio.world.world import World
 
@@ -201,10 +201,11 @@ def wait(v, now, is_there, mind, world_of, number, stood, table, count):
 
 @inlined
 def keep_to_lanes(v, now, is_there, mind, chart, first, points, world_of, number, off, table, count):
-    """One who has left the lanes of his direction."""
+    """One who has left the lanes of his direction; who passes on the oncoming lane, the way that he means to drive."""
     at = first + int(min(max(mind[STATION, v] / PATH_SPACING, 0.0), points - 1.0))
     width = chart[LANE_WIDTH, at]
-    is_off = is_there and not -(chart[LANES_RIGHT, at] + 0.5) * width <= mind[OFFSET, v] <= (chart[LANES_LEFT, at] + 0.5) * width
+    offset = mind[OFFSET, v] - mind[ASIDE, v] if mind[OUT_BY, v] != 0.0 else mind[OFFSET, v]
+    is_off = is_there and not -(chart[LANES_RIGHT, at] + 0.5) * width <= offset <= (chart[LANES_LEFT, at] + 0.5) * width
     if is_off and off[v] == 0:
         note(now, OFF, v, -1, mind[OFFSET, v], world_of, number, table, count)
     off[v] = 1 if is_off else 0

@@ -28,7 +28,7 @@ from studio.world.passes.corner import READY, appears_in, has_corner, is_hidden,
 from studio.world.passes.narrow import waits_outside
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, from_station
-from studio.world.passes.regard import behind, follow, is_ahead, is_in_the_way, is_unseen, let_in
+from studio.world.passes.regard import STANDING, behind, follow, is_ahead, is_in_the_way, is_unseen, let_in
 from studio.world.table.mind import (
     BRAKE_COMFORT,
     CAREFUL,
@@ -54,7 +54,6 @@ from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAV
 
 NOBODY = -1
 PATIENCE = 2.0  # [s] that one stands before who has stood longer goes first
-STANDING = 0.5  # [m/s] a car slower than this stands
 HALT, AT_LINE = 0.1, 4.0  # [m/s], [m] slower than this, and so near to a line, one has halted there
 FAIR, CRAWL, GENTLE, NEAREST = 10.0, 3.0, 2.0, 1.0  # [s], [m/s], [m/s²], [m] in slow traffic who has waited so long is let in
 SLOW, FLOWING = 2.0, 6.0  # [m/s] who drives slower than this behind a junction may leave no room; the second on a ring

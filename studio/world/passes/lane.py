@@ -38,6 +38,7 @@ from studio.world.table.mind import (
     LEFT_BY,
     MISJUDGED,
     OFFSET,
+    OUT_BY,
     POLITENESS,
     RED_STATION,
     STATION,
@@ -175,13 +176,19 @@ def begin(v, guess, state, points, first, count, mind):
 
 
 @lean
-def choose(tick, every, state, parameter, places, points, path_first, path_count, world_of, number, entity, asked, block, left_first,
+def idle(tick, state, watched, mind):
+    """How long everybody has stood for nothing, in worlds in which somebody changes lanes."""
+    for v in range(state.shape[1]):
+        if watched[v] != 0:
+            mind[IDLED, v] = mind[IDLED, v] + tick if idles(v, state, mind) else 0.0
+
+
+@lean
+def choose(every, state, parameter, places, points, path_first, path_count, world_of, number, entity, asked, block, left_first,
            left_count, beside, phase, stop_first, stop_count, sweep_first, sweep_count, drive_first, drive_count, base, work, choice, web,
            first, place, at, found, drivers, mind, k):  # fmt: skip
     """Who wants to change lanes; who has arrived is on his usual ones again."""
     count = 0
-    for v in range(state.shape[1]):
-        mind[IDLED, v] = mind[IDLED, v] + tick if idles(v, state, mind) else 0.0
     for v in range(state.shape[1]):
         if beside.home[v] < 0:
             continue
@@ -201,6 +208,7 @@ def choose(tick, every, state, parameter, places, points, path_first, path_count
                 first, place, at, drivers, mind,
             )  # fmt: skip
         is_asked = (k + entity[v]) % every == 0 and mind[CHANGING, v] == 1.0 and left_count[v] == 0 and mind[AWAY, v] == 0.0
+        is_asked = is_asked and mind[OUT_BY, v] == 0.0
         if not (is_asked or mind[GAP, v] < AHEAD):
             continue
         other, gap = ahead_on(

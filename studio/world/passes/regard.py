@@ -11,6 +11,7 @@ from studio.world.passes.neighbour import REAR_X, REAR_Y
 from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
+    BACK_FROM,
     BRAKE_COMFORT,
     CAREFUL,
     COMFORT,
@@ -23,6 +24,7 @@ from studio.world.table.mind import (
     GAP,
     HEADWAY,
     MINDED,
+    OUT_BY,
     SIGHT,
     STANDSTILL,
     STOPPING,
@@ -30,6 +32,8 @@ from studio.world.table.mind import (
     WAITED_FOR,
     YIELDING,
 )  # fmt: skip
+
+STANDING = 0.5  # [m/s] a car slower than this stands
 
 
 @inlined
@@ -101,3 +105,14 @@ def is_unseen(v, other, state, parameter, drivers):
     dx, dy = state[X, other] - state[X, v], state[Y, other] - state[Y, v]
     reach = drivers[SIGHT, v] + parameter[FRONT, v] + parameter[LENGTH, other] - parameter[FRONT, other]
     return dx * dx + dy * dy > reach * reach
+
+
+@inlined
+def is_passed(v, other, rear, state, parameter, mind):
+    """Whether v passes another on the oncoming lane, whose rear is at a station [m]: he stands, and v comes back behind him only.
+
+    Or the other way round: who passes one who stands is not ahead of him yet.
+    """
+    if mind[OUT_BY, other] != 0.0 and abs(state[V_X, v]) < STANDING:
+        return True
+    return mind[OUT_BY, v] != 0.0 and abs(state[V_X, other]) < STANDING and rear + parameter[LENGTH, other] <= mind[BACK_FROM, v]

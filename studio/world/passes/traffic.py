@@ -22,11 +22,12 @@ from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
 from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, waits
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
-from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_unseen, let_in
+from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_passed, is_unseen, let_in
 from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
     ASIDE,
+    BACK_FROM,
     BRAKE_COMFORT,
     CAREFUL,
     COMFORT,
@@ -38,6 +39,9 @@ from studio.world.table.mind import (
     GAP,
     MINDED,
     OFFSET,
+    OUT_BEND,
+    OUT_BY,
+    OUT_SLOPE,
     PATH_KAPPA,
     RED_STATION,
     SEEN_FIRST_GAP,
@@ -262,6 +266,8 @@ def led_by(v, own, most, key, state, parameter, places, points, path_first, path
             if own > 0.0 and gap >= BESIDE:  # somebody who will change to this lane
                 let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
             continue
+        if is_passed(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, state, parameter, mind):
+            continue
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
         found += 1
         if gap > 0.0 and is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):
@@ -278,6 +284,8 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first
         bumper, reach = mind[STATION, v] + parameter[FRONT, v], 0.5 * parameter[WIDTH, v] + ELBOW_ROOM
         for i in range(sweep_first[v], sweep_first[v] + sweep_count[v]):
             gap, number = sweep[SWEPT_AT, i] - bumper, int(sweep[SWEPT_OBJECT, i])
+            if mind[OUT_BY, v] != 0.0 and sweep[SWEPT_AT, i] < mind[BACK_FROM, v]:
+                continue  # it is passed on the oncoming lane
             if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
                 if gap <= drivers[SIGHT, v]:
                     stand_before(v, number - first_object[world_of[v]], gap, 0.0, state, drivers, mind)
@@ -316,7 +324,8 @@ def mind_mover(v, i, number, state, parameter, points, first, count, table, driv
     c, b = abs(cos(across)), abs(sin(across))
     along, aside = 0.5 * (table[O_LENGTH, i] * c + table[O_WIDTH, i] * b), 0.5 * (table[O_LENGTH, i] * b + table[O_WIDTH, i] * c)
     gap = s - along - mind[STATION, v] - parameter[FRONT, v]
-    if gap >= 0.0 and abs(e) - aside < 0.5 * parameter[WIDTH, v] + ELBOW_ROOM:
+    beside = min(abs(e), abs(e - mind[OUT_BY, v])) - aside  # of the path, and of where one passes on the oncoming lane
+    if gap >= 0.0 and beside < 0.5 * parameter[WIDTH, v] + ELBOW_ROOM:
         stand_before(v, number, gap, max(table[O_SPEED, i] * cos(across), 0.0), state, drivers, mind)
 
 
@@ -333,7 +342,8 @@ def sees(v, state, parameter, mind):
     return Sees(
         driver.foreseen_speed(state[V_X, v], mind[GAINED, v]), state[YAW_RATE, v], min(mind[V_DESIRED, v], mind[CAREFUL, v]),
         mind[SEEN_GAP, v], mind[SEEN_SPEED, v], mind[SEEN_FIRST_GAP, v], mind[SEEN_FIRST_SPEED, v], mind[SEEN_STOP, v],
-        mind[FRONT_OFFSET, v] - mind[SWAYED, v] - mind[ASIDE, v], mind[D_PSI, v], mind[PATH_KAPPA, v], front, parameter[STEER_MAX, v],
+        mind[FRONT_OFFSET, v] - mind[SWAYED, v] - mind[ASIDE, v], mind[D_PSI, v] - mind[OUT_SLOPE, v],
+        mind[PATH_KAPPA, v] + mind[OUT_BEND, v], front, parameter[STEER_MAX, v],
         parameter[STEER_RATE, v], parameter[L_F, v] + parameter[L_R, v], front - rear,
         state[V_Y, v] + parameter[L_F, v] * state[YAW_RATE, v], state[V_X, v],
     )  # fmt: skip

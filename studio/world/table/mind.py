@@ -107,6 +107,17 @@ ASIDE_FROM = MIND.row("aside_from", "m", "where it began, left of the path over 
 ASIDE = MIND.row("still_aside", "m", "place in the lane that this asks for now, left of the path", label="Still to go over to the new lane")
 BESIDE = MIND.row("lanes_beside", "1", "lanes beside the usual one of his way, towards the middle", label="Lanes beside the usual one")
 CHANGED = MIND.row("since_change", "s", "how long ago the last change of lanes began", role=Role.STATE)
+OUT_BY = MIND.row(
+    "passing_by", "m", "place on the oncoming lane from which the driver passes what stands, left of the path; 0 while he passes nothing",
+    role=Role.STATE, label="Passes on the oncoming lane",
+)  # fmt: skip
+OUT_FROM = MIND.row("out_from", "m", "station from which he goes out to it", role=Role.STATE)
+OUT_OVER = MIND.row("out_over", "m", "over so long a way", role=Role.STATE)
+BACK_FROM = MIND.row("back_from", "m", "station from which he comes back", role=Role.STATE)
+BACK_OVER = MIND.row("back_over", "m", "over so long a way", role=Role.STATE)
+STUCK = MIND.row("stuck", "s", "how long he has stood so near behind what stands that he cannot go out to pass it", role=Role.STATE)
+OUT_SLOPE = MIND.row("out_slope", "1", "of this way to the path, at the front axle")
+OUT_BEND = MIND.row("out_bend", "1/m", "curvature of this way beyond that of the path, where the car is about to be")
 IDLED = MIND.row("idled", "s", "how long he has stood though no line, light, car or object kept him from driving", role=Role.STATE)
 LEFT_BY = MIND.row("left_by", "m", "station on the line that is being left, beyond that on the own one", role=Role.STATE)
 WISH = MIND.row("wish", "m/s²", "acceleration the driver asks for")
