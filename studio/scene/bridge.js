@@ -41,10 +41,14 @@
   // ---- vehicles: read where they are drawn, not where the last message put them
 
   function instances() {
-    const node = client()?.nodeRefFromName?.[VEHICLES];
+    return batchIn(client()?.nodeRefFromName?.[VEHICLES]);
+  }
+
+  // the batch itself: below it are those of its simpler shapes, with the same places
+  function batchIn(node) {
     let found = null;
     node?.traverse((object) => {
-      if (object.matricesTexture) found = object;
+      if (object.matricesTexture && !object._parentLOD) found = object;
     });
     return found;
   }
@@ -153,6 +157,35 @@
     const controls = client()?.cameraControl;
     if (view.vehicle === null) controls?.rotateTo(controls.azimuthAngle, TOP.polar, true);
     client()?.requestRender?.();
+  }
+
+  // ---- from afar: who is far from the eye is drawn in a simpler shape, which the server has sent beside the batch
+
+  const SIMPLER = /^\/afar\/(\w+)\/(\d+)$/; // the batch, and from how far on [m]
+
+  function simplify() {
+    for (const name of Object.keys(tree())) {
+      const [, batch, distance] = SIMPLER.exec(name) ?? [];
+      if (batch) takeUp(batchIn(client().nodeRefFromName[`/vehicles/${batch}`]), shapeIn(client().nodeRefFromName[name]), Number(distance));
+    }
+  }
+
+  function shapeIn(node) {
+    let found = null;
+    node?.traverse((object) => (found ??= object.geometry));
+    return found;
+  }
+
+  // a batch that was made anew has none of them, and one that was painted anew has those of before
+  function takeUp(mesh, shape, distance) {
+    if (!mesh?.addLOD || !shape) return;
+    const known = (mesh.userData.simpler ??= new Map());
+    if (known.get(distance) === shape) return;
+    const level = mesh.LODinfo?.render?.levels.findIndex((each) => each.distance === distance ** 2) ?? -1;
+    if (level > 0) mesh.removeLOD(level);
+    mesh.addLOD(shape.clone(), mesh.material.clone(), distance);
+    known.set(distance, shape);
+    client().requestRender?.();
   }
 
   // ---- theme: dusk instead of day
@@ -269,7 +302,28 @@
     const mutable = client();
     if (!mutable?.requestRender || mutable.requestRender.studio) return;
     const ask = mutable.requestRender;
-    mutable.requestRender = Object.assign(() => (stir(), ask()), { studio: true });
+    mutable.requestRender = Object.assign(() => (stir(), ask(), takeInSoon()), { studio: true });
+  }
+
+  // ---- where everything has moved to is taken in when it comes, at a pace of its own: the client waits for the next picture, and then shows
+  // it in the one after that, which is long where pictures are slow
+
+  const MOVES = "SceneNodeUpdateMessage";
+  const BETWEEN = 20; // [ms] from one to the next, so that pictures that are quick have taken it in by then
+  let takenIn = 0, coming = false;
+
+  function takeInSoon() {
+    if (coming || !client()?.messageQueue?.length) return;
+    coming = true;
+    setTimeout(takeIn, Math.max(0, takenIn + BETWEEN - performance.now()));
+  }
+
+  function takeIn() {
+    coming = false;
+    const { messageQueue: queue, drainMessageQueue: drain, getRenderRequestState: state } = client() ?? {};
+    if (!drain || state !== "ready" || !queue.length || !queue.every(({ type }) => type === MOVES)) return;
+    takenIn = performance.now();
+    drain();
   }
 
   function restWhileUnseen(renderer) {
@@ -294,6 +348,7 @@
 
   function watch() {
     hook();
+    simplify();
     const city = streets();
     const sky = client()?.nodeRefFromName?.["/city/sky"];
     const material = sky && findMaterial(sky);
