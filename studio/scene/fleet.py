@@ -40,6 +40,7 @@ class Fleet:
         self.looks = tuple(looks)
         self._server = server
         self._simpler: list[viser.GlbHandle] = []
+        self._shown: np.ndarray | None = None
         self._bodies = [self._add_bodies(*group) for group in enumerate(grouped(self.looks).items())]
         sizes = [look.dimensions for look in self.looks]
         self._offsets = np.array([_wheel_places(size) for size in sizes], np.float32).reshape(-1, 4, 3)
@@ -70,8 +71,11 @@ class Fleet:
         )
 
     def move(self, poses: np.ndarray) -> None:
-        """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py)."""
+        """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py); costs nothing when nobody has moved."""
         poses = np.asarray(poses, np.float32)
+        if np.array_equal(poses, self._shown):
+            return
+        self._shown = poses.copy()
         places = positions(poses)
         turns = quaternions(poses[pose.YAW], poses[pose.PITCH], poses[pose.ROLL])
         with self._server.atomic():

@@ -310,7 +310,7 @@ def wheel(size: Dimensions) -> Surface:
 def plain_wheel(size: Dimensions, *, segments: int) -> Surface:
     """A wheel as it looks from afar: a tyre around a disc, with so many corners."""
     r, b = size.wheel_radius, size.wheel_width / 2.0
-    half = [(0.0, 0.72 * b), (0.64 * r, 0.92 * b), (r, 0.66 * b)]
+    half = [(0.0, 0.72 * b), (0.64 * r, b), (r, 0.66 * b)]
     kinds = np.tile([RIM, TYRE, TYRE, TYRE, RIM], (segments, 1))
     return lathe(np.array(half + [(radius, -y) for radius, y in half[::-1]]), kinds, WHEEL_COLOURS)
 

@@ -257,6 +257,56 @@ def test_the_user_may_turn_and_zoom_while_following(page, drive):
     rest(page)
 
 
+# How many triangles of a frame are cars: what there is less when their batches are not seen.
+TRIANGLES = """async () => {
+    const { client } = window.__studioBridge, info = window.__viserTestpoints.rendererInfo.render;
+    const frame = async () => {
+        for (const before = info.frame; info.frame === before; ) {
+            client().requestRender();
+            await new Promise(requestAnimationFrame);
+        }
+        return info.triangles;
+    };
+    const cars = [];
+    for (const [name, node] of Object.entries(client().nodeRefFromName))
+        if (name.startsWith('/vehicles/')) node?.traverse(({ material }) => material && cars.push(material));
+    const all = await frame();
+    for (const material of cars) material.visible = false;
+    const others = await frame();
+    for (const material of cars) material.visible = true;
+    return all - others;
+}"""
+
+
+def test_who_is_far_is_drawn_with_few_triangles_and_who_is_near_with_all(page):
+    say(page, studio="view", preset="top")
+    say(page, studio="follow", vehicle=None)
+    page.evaluate("__viserMutable.cameraControl.dollyTo(200, false)")
+    page.evaluate("__viserMutable.cameraControl.moveTo(...__studioBridge.toThree([0, 0, 0]), false)")
+    until(lambda: 0 < page.evaluate(TRIANGLES) < 3 * 1500, "the simpler shapes from afar")
+    say(page, studio="follow", vehicle=0)
+    rest(page)
+    # the body and the wheels that are seen of it
+    assert page.evaluate(TRIANGLES) > 8000
+    say(page, studio="view", preset="overview")
+    rest(page)
+
+
+def test_moves_are_taken_in_while_no_picture_is_drawn(page, drive):
+    """A picture may take long; where everything is has been taken in meanwhile, so that the next one shows it."""
+    rest(page)
+    page.evaluate("window.usual = requestAnimationFrame; window.held = []; window.requestAnimationFrame = call => held.push(call)")
+    drawn = "__viserTestpoints.rendererInfo.render.frame"
+    page.evaluate("__viserMutable.requestRender()")
+    until(lambda: page.evaluate("held.length > 0"), "the next picture to be asked for")
+    before, start = page.evaluate(drawn), page.evaluate("__studioBridge.poseOf(0).x")
+    drive.go(0.2)
+    until(lambda: page.evaluate("__studioBridge.poseOf(0).x") != start, "the move")
+    assert page.evaluate(drawn) == before
+    page.evaluate("window.requestAnimationFrame = usual; for (const call of held) usual(call)")
+    arrived(page, drive)
+
+
 def test_dusk_is_darker_than_day(page):
     day = picture(page).mean()
     say(page, studio="theme", dark=True)
