@@ -24,9 +24,10 @@
   const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
   const TOP = { distance: 70, polar: 0.02, height: 0 };
   const YAW_LAG = 0.35; // [s]
+  const NEAR_ENOUGH = 3; // times as far as what an overview looks at: cars are still to be seen there
   const KEYS_OF_THE_CAMERA = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Tab"]);
 
-  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false };
+  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false, lost: false };
   let ready = false;
   let shownCity = null;
   let painted = null;
@@ -88,6 +89,7 @@
   function follow(vehicle) {
     view.vehicle = Number.isInteger(vehicle) ? vehicle : null;
     view.fresh = true;
+    view.lost = false;
     if (view.vehicle === null && view.mode === DRIVER) view.mode = CHASE;
     client()?.requestRender?.();
   }
@@ -143,12 +145,38 @@
     if (preset === "overview") {
       follow(null);
       client()?.resetCameraPose?.(true);
+      view.lost = true;
+      findCars();
     } else if (preset === "driver" || preset === "chase") {
       view.mode = preset === "driver" ? DRIVER : CHASE;
       follow(view.vehicle ?? 0);
     } else if (preset === "top") {
       fromAbove();
     }
+  }
+
+  // The overview of a map that is too large for one look shows a part of it: when the cars are not there, it goes over to where they are.
+  // Once, as soon as they are known: who has turned the camera meanwhile has it left alone.
+  function findCars() {
+    const controls = client()?.cameraControl, places = view.lost ? ownPlaces() : [];
+    if (!places.length || !controls?.getTarget) return;
+    view.lost = false;
+    const at = client().camera.clone(), target = controls.getTarget(at.position.clone(), true), eye = controls.getPosition(at.position.clone(), true);
+    const middle = target.clone().set(...[0, 1, 2].map((k) => places.reduce((sum, place) => sum + place[k], 0) / places.length));
+    at.position.copy(eye);
+    at.lookAt(target);
+    at.updateMatrixWorld();
+    const { x, y } = middle.clone().project(at);
+    const ahead = middle.clone().sub(eye).dot(target.clone().sub(eye)) > 0, near = middle.distanceTo(eye) < NEAR_ENOUGH * target.distanceTo(eye);
+    if (ahead && near && Math.max(Math.abs(x), Math.abs(y)) < 0.9) return;
+    const away = middle.sub(target);
+    controls.setLookAt(...eye.add(away).toArray(), ...target.add(away).toArray(), true);
+  }
+
+  // where the scenario's own cars stand, as far as they are there
+  function ownPlaces() {
+    const cars = window.__studioOverlay?.cars.filter(({ name }) => !name.startsWith("traffic")) ?? [];
+    return cars.flatMap(({ index }) => poseOf(index) ?? []).map(({ x, y, z }) => toThree([x, y, z]));
   }
 
   function fromAbove() {
@@ -247,6 +275,7 @@
     let down = null;
     window.addEventListener("pointerdown", (event) => {
       down = [event.clientX, event.clientY, event.button];
+      view.lost = false;
       // the client keeps the click from giving us the focus, and with it the keys that move the camera
       window.focus();
     }, true);
@@ -349,6 +378,7 @@
   function watch() {
     hook();
     simplify();
+    findCars();
     const city = streets();
     const sky = client()?.nodeRefFromName?.["/city/sky"];
     const material = sky && findMaterial(sky);

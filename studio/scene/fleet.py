@@ -1,6 +1,6 @@
 """The vehicles on a viser server: one batch per colour and shape, one for all wheels, one for all shadows.
 
-Beside each batch stand the shapes that it has from afar, which nobody sees there: the bridge gives them to the batch (bridge.js, "from afar").
+Beside each batch stand the shapes that it has from afar, which nobody sees there: the bridge gives them to the batch (bridge.js).
 """
 
 from collections.abc import Sequence

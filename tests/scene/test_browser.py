@@ -12,7 +12,7 @@ from playwright.sync_api import Frame, Page, sync_playwright
 
 from studio.scene import pose
 from studio.scene.fleet import Look
-from studio.scene.projection import Scene
+from studio.scene.projection import FROM, Scene, _overview
 from tests.patience import PATIENCE_MS, until
 from tests.server.stage import served
 
@@ -66,6 +66,7 @@ def drive(town):
     scene.show_vehicles(LOOKS)
     scene.show_signals(np.array([0, 2], np.int8))
     driver = Drive(scene)
+    driver.town = town
     driver.start()
     yield driver
     driver.ended.set()
@@ -297,8 +298,8 @@ def test_moves_are_taken_in_while_no_picture_is_drawn(page, drive):
     rest(page)
     page.evaluate("window.usual = requestAnimationFrame; window.held = []; window.requestAnimationFrame = call => held.push(call)")
     drawn = "__viserTestpoints.rendererInfo.render.frame"
-    page.evaluate("__viserMutable.requestRender()")
-    until(lambda: page.evaluate("held.length > 0"), "the next picture to be asked for")
+    # what had been asked for before is drawn by then
+    page.evaluate("new Promise(done => usual(() => usual(done)))")
     before, start = page.evaluate(drawn), page.evaluate("__studioBridge.poseOf(0).x")
     drive.go(0.2)
     until(lambda: page.evaluate("__studioBridge.poseOf(0).x") != start, "the move")
@@ -393,6 +394,33 @@ def test_a_lost_connection_comes_back_without_the_focus(page, drive):
     # the same city is no reason to let go of the vehicle
     assert page.evaluate("frames[0].__studioBridge.view.vehicle") == 1
     page.evaluate("document.querySelector('iframe').remove(); document.querySelector('#elsewhere').remove()")
+
+
+def test_an_overview_without_cars_goes_over_to_them_and_not_along(page, drive):
+    cars = [{"name": each.name, "index": i, "color": each.color, "length": 4.0, "width": 1.8, "height": 1.5, "middle": 0.0}
+            for i, each in enumerate(LOOKS)]  # fmt: skip
+    say(page, studio="cast", cars=cars)
+    say(page, studio="view", preset="overview")
+    rest(page)
+    usual = page.evaluate("__viserMutable.camera.position.toArray()")
+    assert np.abs(seen(page, 0)).max() < 1.0
+    # as of a map of which only another part is seen
+    drive.scene._look_at(np.array([2000.0, 0.0]), 150.0, 150.0 * FROM)
+    page.wait_for_function("__studioBridge.client().cameraControl.getTarget(__viserMutable.camera.position.clone(), true).x > 1000")
+    say(page, studio="view", preset="overview")
+    rest(page)
+    assert np.abs([seen(page, 0), seen(page, 1)]).max() < 1.0
+    # it stands there while they drive
+    before = page.evaluate("__viserMutable.camera.position.toArray()")
+    drive.go(2.0)
+    arrived(page, drive)
+    assert page.evaluate("__viserMutable.camera.position.toArray()") == pytest.approx(before, abs=0.01)
+    drive.scene._look_at(*_overview(drive.town, None))
+    page.wait_for_function("__studioBridge.client().cameraControl.getTarget(__viserMutable.camera.position.clone(), true).x < 1000")
+    say(page, studio="view", preset="overview")
+    rest(page)
+    # where they are seen anyway it is the usual one
+    assert page.evaluate("__viserMutable.camera.position.toArray()") == pytest.approx(usual, abs=0.05)
 
 
 def test_another_city_is_first_seen_as_a_whole(page, drive, town):

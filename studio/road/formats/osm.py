@@ -494,7 +494,9 @@ def note_closed(found: Survey, element: str, tags: dict[str, str], faces: list) 
         found.shapes.append(Shape([list(ring.coords) for ring in rings], tags, element))
     longitude, latitude = faces[0].representative_point().coords[0]
     spot = Spot(tags.get("name", "") or element, latitude, longitude, element)
-    found.notes.guess("water", "closed along the edge of the file", spot, source="the part of its outline that is in the file", sure="medium")
+    found.notes.guess(
+        "water", "closed along the edge of the file", spot, source="the part of its outline that is in the file", sure="medium"
+    )
 
 
 def outlines(data: bytes, form: str, wanted: set[int]) -> dict[int, list[tuple[float, float]]]:
