@@ -24,9 +24,10 @@
   const DRIVER = { forward: 0.15, height: 1.17, left: 0.32, distance: 0.25, polar: 1.535 };
   const TOP = { distance: 70, polar: 0.02, height: 0 };
   const YAW_LAG = 0.35; // [s]
+  const NEAR_ENOUGH = 3; // times as far as what an overview looks at: cars are still to be seen there
   const KEYS_OF_THE_CAMERA = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Tab"]);
 
-  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false };
+  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false, lost: false };
   let ready = false;
   let shownCity = null;
   let painted = null;
@@ -41,10 +42,14 @@
   // ---- vehicles: read where they are drawn, not where the last message put them
 
   function instances() {
-    const node = client()?.nodeRefFromName?.[VEHICLES];
+    return batchIn(client()?.nodeRefFromName?.[VEHICLES]);
+  }
+
+  // the batch itself: below it are those of its simpler shapes, with the same places
+  function batchIn(node) {
     let found = null;
     node?.traverse((object) => {
-      if (object.matricesTexture) found = object;
+      if (object.matricesTexture && !object._parentLOD) found = object;
     });
     return found;
   }
@@ -84,6 +89,7 @@
   function follow(vehicle) {
     view.vehicle = Number.isInteger(vehicle) ? vehicle : null;
     view.fresh = true;
+    view.lost = false;
     if (view.vehicle === null && view.mode === DRIVER) view.mode = CHASE;
     client()?.requestRender?.();
   }
@@ -139,6 +145,8 @@
     if (preset === "overview") {
       follow(null);
       client()?.resetCameraPose?.(true);
+      view.lost = true;
+      findCars();
     } else if (preset === "driver" || preset === "chase") {
       view.mode = preset === "driver" ? DRIVER : CHASE;
       follow(view.vehicle ?? 0);
@@ -147,12 +155,65 @@
     }
   }
 
+  // The overview of a map that is too large for one look shows a part of it: when the cars are not there, it goes over to where they are.
+  // Once, as soon as they are known: who has turned the camera meanwhile has it left alone.
+  function findCars() {
+    const controls = client()?.cameraControl, places = view.lost ? ownPlaces() : [];
+    if (!places.length || !controls?.getTarget) return;
+    view.lost = false;
+    const at = client().camera.clone(), target = controls.getTarget(at.position.clone(), true), eye = controls.getPosition(at.position.clone(), true);
+    const middle = target.clone().set(...[0, 1, 2].map((k) => places.reduce((sum, place) => sum + place[k], 0) / places.length));
+    at.position.copy(eye);
+    at.lookAt(target);
+    at.updateMatrixWorld();
+    const { x, y } = middle.clone().project(at);
+    const ahead = middle.clone().sub(eye).dot(target.clone().sub(eye)) > 0, near = middle.distanceTo(eye) < NEAR_ENOUGH * target.distanceTo(eye);
+    if (ahead && near && Math.max(Math.abs(x), Math.abs(y)) < 0.9) return;
+    const away = middle.sub(target);
+    controls.setLookAt(...eye.add(away).toArray(), ...target.add(away).toArray(), true);
+  }
+
+  // where the scenario's own cars stand, as far as they are there
+  function ownPlaces() {
+    const cars = window.__studioOverlay?.cars.filter(({ name }) => !name.startsWith("traffic")) ?? [];
+    return cars.flatMap(({ index }) => poseOf(index) ?? []).map(({ x, y, z }) => toThree([x, y, z]));
+  }
+
   function fromAbove() {
     view.mode = TOP;
     view.fresh = true;
     const controls = client()?.cameraControl;
     if (view.vehicle === null) controls?.rotateTo(controls.azimuthAngle, TOP.polar, true);
     client()?.requestRender?.();
+  }
+
+  // ---- from afar: who is far from the eye is drawn in a simpler shape, which the server has sent beside the batch
+
+  const SIMPLER = /^\/afar\/(\w+)\/(\d+)$/; // the batch, and from how far on [m]
+
+  function simplify() {
+    for (const name of Object.keys(tree())) {
+      const [, batch, distance] = SIMPLER.exec(name) ?? [];
+      if (batch) takeUp(batchIn(client().nodeRefFromName[`/vehicles/${batch}`]), shapeIn(client().nodeRefFromName[name]), Number(distance));
+    }
+  }
+
+  function shapeIn(node) {
+    let found = null;
+    node?.traverse((object) => (found ??= object.geometry));
+    return found;
+  }
+
+  // a batch that was made anew has none of them, and one that was painted anew has those of before
+  function takeUp(mesh, shape, distance) {
+    if (!mesh?.addLOD || !shape) return;
+    const known = (mesh.userData.simpler ??= new Map());
+    if (known.get(distance) === shape) return;
+    const level = mesh.LODinfo?.render?.levels.findIndex((each) => each.distance === distance ** 2) ?? -1;
+    if (level > 0) mesh.removeLOD(level);
+    mesh.addLOD(shape.clone(), mesh.material.clone(), distance);
+    known.set(distance, shape);
+    client().requestRender?.();
   }
 
   // ---- theme: dusk instead of day
@@ -214,6 +275,7 @@
     let down = null;
     window.addEventListener("pointerdown", (event) => {
       down = [event.clientX, event.clientY, event.button];
+      view.lost = false;
       // the client keeps the click from giving us the focus, and with it the keys that move the camera
       window.focus();
     }, true);
@@ -269,7 +331,28 @@
     const mutable = client();
     if (!mutable?.requestRender || mutable.requestRender.studio) return;
     const ask = mutable.requestRender;
-    mutable.requestRender = Object.assign(() => (stir(), ask()), { studio: true });
+    mutable.requestRender = Object.assign(() => (stir(), ask(), takeInSoon()), { studio: true });
+  }
+
+  // ---- where everything has moved to is taken in when it comes, at a pace of its own: the client waits for the next picture, and then shows
+  // it in the one after that, which is long where pictures are slow
+
+  const MOVES = "SceneNodeUpdateMessage";
+  const BETWEEN = 20; // [ms] from one to the next, so that pictures that are quick have taken it in by then
+  let takenIn = 0, coming = false;
+
+  function takeInSoon() {
+    if (coming || !client()?.messageQueue?.length) return;
+    coming = true;
+    setTimeout(takeIn, Math.max(0, takenIn + BETWEEN - performance.now()));
+  }
+
+  function takeIn() {
+    coming = false;
+    const { messageQueue: queue, drainMessageQueue: drain, getRenderRequestState: state } = client() ?? {};
+    if (!drain || state !== "ready" || !queue.length || !queue.every(({ type }) => type === MOVES)) return;
+    takenIn = performance.now();
+    drain();
   }
 
   function restWhileUnseen(renderer) {
@@ -294,6 +377,8 @@
 
   function watch() {
     hook();
+    simplify();
+    findCars();
     const city = streets();
     const sky = client()?.nodeRefFromName?.["/city/sky"];
     const material = sky && findMaterial(sky);

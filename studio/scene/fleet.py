@@ -1,4 +1,7 @@
-"""The vehicles on a viser server: one batch per colour and shape, one for all wheels, one for all shadows."""
+"""The vehicles on a viser server: one batch per colour and shape, one for all wheels, one for all shadows.
+
+Beside each batch stand the shapes that it has from afar, which nobody sees there: the bridge gives them to the batch (bridge.js).
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,6 +12,7 @@ import viser
 from studio.scene import pose, vehicle
 from studio.scene.glb import Material, glb
 from studio.scene.light import SUN
+from studio.scene.shape import Surface
 
 BELOW_GROUND = -500.0
 # shadows lie above road, markings and the city's shadow [m]
@@ -16,6 +20,8 @@ SHADOW_HEIGHT = 0.075
 PAINT = Material(roughness=0.28)
 RUBBER = Material(roughness=0.55)
 SOFT_SHADOW = Material(unlit=True, blend=True)
+# [m] from the eye on, there is less of a car: with a picture 800 points high it is 26 and 9 points to the metre there
+AFAR, FAR_AWAY = 40, 110
 
 
 @dataclass(frozen=True)
@@ -33,22 +39,31 @@ class Fleet:
     def __init__(self, server: viser.ViserServer, looks: Sequence[Look]) -> None:
         self.looks = tuple(looks)
         self._server = server
+        self._simpler: list[viser.GlbHandle] = []
+        self._shown: np.ndarray | None = None
         self._bodies = [self._add_bodies(*group) for group in enumerate(grouped(self.looks).items())]
         sizes = [look.dimensions for look in self.looks]
         self._offsets = np.array([_wheel_places(size) for size in sizes], np.float32).reshape(-1, 4, 3)
         self._middle = np.array([size.centre for size in sizes], np.float32)
         # half the way that the shadow of the roof has been thrown
         self._throw = np.array([-SUN[:2] / SUN[2] * size.height * 0.5 for size in sizes], np.float32).reshape(-1, 2)
-        self._wheels = self._add("wheels", glb(vehicle.wheel(_first(sizes)), RUBBER), 4 * len(sizes))
-        self._shadows = self._add("shadows", glb(vehicle.shadow(_first(sizes)), SOFT_SHADOW), 2 * len(sizes))
+        size = _first(sizes)
+        self._wheels = self._add("wheels", wheels(size), RUBBER, 4 * len(sizes))
+        self._shadows = self._add("shadows", shadows(size), SOFT_SHADOW, 2 * len(sizes))
 
     def _add_bodies(self, number: int, group: tuple) -> tuple[np.ndarray, viser.BatchedGlbHandle]:
         (color, size), members = group
-        data = glb(vehicle.body(size, color), PAINT)
-        return np.array(members), self._add(f"body_{number}", data, len(members))
+        return np.array(members), self._add(f"body_{number}", bodies(size, color), PAINT, len(members))
 
-    def _add(self, name: str, data: bytes, count: int) -> viser.BatchedGlbHandle:
-        # lod="off": the simplified levels of detail show facets on the round body
+    def _add(self, name: str, shapes: dict[int, Surface], material: Material, count: int) -> viser.BatchedGlbHandle:
+        """A batch of the first shape; the others are what it looks like from so far on [m]."""
+        near, *others = shapes.items()
+        for distance, shape in others:
+            self._simpler.append(self._server.scene.add_glb(f"/afar/{name}/{distance}", glb(shape, material), visible=False))
+        return self._batch(name, glb(near[1], material), count)
+
+    def _batch(self, name: str, data: bytes, count: int) -> viser.BatchedGlbHandle:
+        # lod="off": what viser simplifies shows facets on the round body
         places = np.tile(np.array([0.0, 0.0, BELOW_GROUND], np.float32), (count, 1))
         turns = np.tile(np.array([1.0, 0.0, 0.0, 0.0], np.float32), (count, 1))
         return self._server.scene.add_batched_glb(
@@ -56,13 +71,16 @@ class Fleet:
         )
 
     def move(self, poses: np.ndarray) -> None:
-        """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py)."""
+        """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py); costs nothing when nobody has moved."""
         poses = np.asarray(poses, np.float32)
+        if np.array_equal(poses, self._shown):
+            return
+        self._shown = poses.copy()
         places = positions(poses)
         turns = quaternions(poses[pose.YAW], poses[pose.PITCH], poses[pose.ROLL])
         with self._server.atomic():
-            for members, bodies in self._bodies:
-                put(bodies, places[members], turns[members])
+            for members, batch in self._bodies:
+                put(batch, places[members], turns[members])
             self._move_wheels(poses, places)
             self._move_shadows(poses, places)
 
@@ -84,8 +102,24 @@ class Fleet:
 
     def remove(self) -> None:
         """Take the vehicles off the server."""
-        for node in [*(bodies for _, bodies in self._bodies), self._wheels, self._shadows]:
+        for node in [*(batch for _, batch in self._bodies), self._wheels, self._shadows, *self._simpler]:
             node.remove()
+
+
+def bodies(size: vehicle.Dimensions, colour: str) -> dict[int, Surface]:
+    """A car without its wheels, from so far on [m]."""
+    levels = {0: vehicle.FINE, AFAR: vehicle.MIDDLING, FAR_AWAY: vehicle.COARSE}
+    return {distance: vehicle.body(size, colour, detail) for distance, detail in levels.items()}
+
+
+def wheels(size: vehicle.Dimensions) -> dict[int, Surface]:
+    """A wheel, from so far on [m]."""
+    return {0: vehicle.wheel(size)} | {distance: vehicle.plain_wheel(size, segments=n) for distance, n in ((AFAR, 16), (FAR_AWAY, 8))}
+
+
+def shadows(size: vehicle.Dimensions) -> dict[int, Surface]:
+    """The shadow below a car, from so far on [m]."""
+    return {0: vehicle.shadow(size), AFAR: vehicle.shadow(size, edge=vehicle.SIMPLE, corners=12)}
 
 
 def grouped(looks: Sequence[Look]) -> dict[tuple, list[int]]:

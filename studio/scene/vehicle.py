@@ -98,19 +98,58 @@ LEVELS = np.array([0.0, 0.14, 0.34, 0.54, 0.70, 0.86, 1.0])
 REFERENCE_HEIGHT = 1.45
 
 
-def body(size: Dimensions, colour: str) -> Surface:
+@dataclass(frozen=True, eq=False)
+class Detail:
+    """How much of a car is there: where its sections are, and which points of half a section."""
+
+    hull: np.ndarray
+    reach: np.ndarray  # around a wheel arch
+    hull_points: tuple[int, ...]
+    cabin: np.ndarray
+    cabin_points: tuple[int, ...]
+    has_fittings: bool
+
+
+FINE = Detail(STATIONS, REACH, tuple(range(15)), CABIN_STATIONS, tuple(range(9)), True)
+# From afar: the same outlines through fewer points, which keep the borders between paint, glass and lamps.
+MIDDLING = Detail(
+    hull=np.array([0.0, 0.03, 0.12, 0.4, 0.6, 0.78, 0.945, 0.987, 1.0]),
+    reach=np.array([0.0, 0.7, 1.004]),
+    hull_points=(0, 2, 4, 7, 9, 11, 14),
+    cabin=np.array([0.055, 0.07, 0.155, 0.20, 0.405, 0.42, 0.58, 0.62, 0.735, 0.745]),
+    cabin_points=(0, 2, 3, 5, 8),
+    has_fittings=True,
+)
+COARSE = Detail(
+    hull=np.array([0.0, 0.03, 0.12, 0.5, 0.945, 0.987, 1.0]),
+    reach=np.array([]),
+    hull_points=(0, 4, 7, 9, 14),
+    cabin=np.array([0.055, 0.155, 0.405, 0.58, 0.745]),
+    cabin_points=(0, 2, 3, 5, 8),
+    has_fittings=False,
+)
+
+
+def body(size: Dimensions, colour: str, detail: Detail = FINE) -> Surface:
     """The whole car without its wheels, painted `colour`."""
     palette = [colour, *PARTS[1:]]
-    parts = [hull(size, palette), cabin(size, palette), *_fittings(size, palette)]
-    return joined(parts).moved(x=size.centre)
+    fittings = _fittings(size, palette) if detail.has_fittings else []
+    return joined([hull(size, palette, detail), cabin(size, palette, detail), *fittings]).moved(x=size.centre)
 
 
-def hull(size: Dimensions, palette: list[str]) -> Surface:
+def hull(size: Dimensions, palette: list[str], detail: Detail = FINE) -> Surface:
     """The lower body up to the window line: a closed body with tunnels for the wheels."""
-    stations = _hull_stations(size)
+    stations = _hull_stations(size, detail)
     rings = np.stack([_hull_ring(size, s) for s in stations])
-    kinds = _hull_kinds(stations, rings.shape[1])
+    rings, kinds = _thinned(rings, _hull_kinds(stations, rings.shape[1]), detail.hull_points)
     return joined([grid(rings, kinds, palette), *_lids(rings, palette)])
+
+
+def _thinned(rings: np.ndarray, kinds: np.ndarray, points: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Rings with some points of their left halves and the same of their right ones; a span is what its outermost part was."""
+    last = rings.shape[1] - 1
+    kept, left = np.array([*points, *(last - each for each in points[-2::-1])]), np.array(points[:-1])
+    return rings[:, kept], kinds[:, np.concatenate([left, last - 1 - left[::-1]])]
 
 
 def _lids(rings: np.ndarray, palette: list[str]) -> list[Surface]:
@@ -122,10 +161,10 @@ def _share(size: Dimensions, x: float) -> float:
     return (x - size.centre) / size.length + 0.5
 
 
-def _hull_stations(size: Dimensions) -> np.ndarray:
-    reach = REACH * _arch(size) / size.length
+def _hull_stations(size: Dimensions, detail: Detail) -> np.ndarray:
+    reach = detail.reach * _arch(size) / size.length
     arches = [_share(size, axle) + side * reach for axle in size.axles for side in (-1.0, 1.0)]
-    stations = np.unique(np.round(np.concatenate([STATIONS, *arches]), 5))
+    stations = np.unique(np.round(np.concatenate([detail.hull, *arches]), 5))
     return stations[(stations >= 0.0) & (stations <= 1.0)]
 
 
@@ -187,10 +226,10 @@ def _hull_kinds(stations: np.ndarray, columns: int) -> np.ndarray:
     return np.concatenate([kinds, kinds[:, ::-1]], axis=1)
 
 
-def cabin(size: Dimensions, palette: list[str]) -> Surface:
+def cabin(size: Dimensions, palette: list[str], detail: Detail = FINE) -> Surface:
     """The part above the window line: windows in glass, pillars and roof in paint."""
-    rings = np.stack([_cabin_ring(size, s) for s in CABIN_STATIONS])
-    kinds = _cabin_kinds(CABIN_STATIONS, rings.shape[1])
+    rings = np.stack([_cabin_ring(size, s) for s in detail.cabin])
+    rings, kinds = _thinned(rings, _cabin_kinds(detail.cabin, rings.shape[1]), detail.cabin_points)
     return joined([grid(rings, kinds, palette), *_lids(rings, palette)])
 
 
@@ -268,10 +307,22 @@ def wheel(size: Dimensions) -> Surface:
     return lathe(profile, kinds, WHEEL_COLOURS)
 
 
-def shadow(size: Dimensions, *, darkness: float = 0.55) -> Surface:
+def plain_wheel(size: Dimensions, *, segments: int) -> Surface:
+    """A wheel as it looks from afar: a tyre around a disc, with so many corners."""
+    r, b = size.wheel_radius, size.wheel_width / 2.0
+    half = [(0.0, 0.72 * b), (0.64 * r, b), (r, 0.66 * b)]
+    kinds = np.tile([RIM, TYRE, TYRE, TYRE, RIM], (segments, 1))
+    return lathe(np.array(half + [(radius, -y) for radius, y in half[::-1]]), kinds, WHEEL_COLOURS)
+
+
+SOFT = ((-0.28, 1.0), (-0.10, 0.85), (0.08, 0.35), (0.28, 0.0))  # [m] beyond the outline, and how dark it is there
+SIMPLE = ((-0.10, 0.9), (0.28, 0.0))  # from afar
+
+
+def shadow(size: Dimensions, *, darkness: float = 0.55, edge: tuple = SOFT, corners: int = 48) -> Surface:
     """A soft dark patch in the plane z = 0, dark below the car and fading out around it."""
-    rings = [(-0.28, darkness), (-0.10, 0.85 * darkness), (0.08, 0.35 * darkness), (0.28, 0.0)]
-    angle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+    rings = [(grow, share * darkness) for grow, share in edge]
+    angle = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
     outline = [_rounded(size, angle, grow) for grow, _ in rings]
     vertices = np.concatenate([*outline, [[0.0, 0.0, 0.0]]])
     opacity = np.repeat([*(dark for _, dark in rings), darkness], [*(len(angle) for _ in rings), 1])

@@ -310,6 +310,54 @@ def test_an_outline_whose_members_are_not_in_the_file_is_told(plan, tmp_path):
     assert [each.what for each in found.report.skipped if each.kind == "outline"] == ["1 building relations"]
 
 
+# -- water at the edge of the file ---------------------------------------------------------------------
+
+REST = (4711, "outer")  # of the outline, which is not in the file
+WIDE, HIGH = (2.0 * extent for extent in BOX.bounds()[2:])
+
+
+def waters(found) -> float:
+    """The area of all water [m²]."""
+    return sum(polygon(area).area for area in found.scenery.areas if area.kind == "water")
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_lake_that_the_file_cuts_is_closed_along_its_box_where_no_street_is(plan, tmp_path, side):
+    """A shore from south to north, or back: which way it runs says nothing; with an island in the lake."""
+    plan.way([(-side * 150, -50), (-side * 150, 50)], **STREET)
+    coast = plan.way([(side * 100, -side * 500), (side * 100, side * 500)])
+    island = plan.area(side * 200.0, 0.0, 40.0, 40.0)
+    plan.relation([(coast, "outer"), REST, (island, "inner")], natural="water", name="Lake")
+    found = plan.load(tmp_path)
+    assert waters(found) == pytest.approx((WIDE / 2 - 100) * HIGH - 40**2, rel=1e-3)
+    (guess,) = [each for each in found.report.guesses if each.kind == "water"]
+    assert (guess.where, guess.what) == ("Lake", "closed along the edge of the file")
+    assert not [each for each in found.report.skipped if each.kind == "outline"]
+
+
+def test_a_river_that_the_file_cuts_at_both_ends_lies_between_its_banks(plan, tmp_path):
+    """A bridge over it is no land, and neither is a street on both sides of it water."""
+    plan.way([(-150, 0), (-40, 0)], **STREET)
+    plan.way([(40, 0), (150, 0)], **STREET)
+    plan.way([(-40, 0), (40, 0)], **STREET, bridge="yes", layer="1")
+    banks = [plan.way([(x, -500), (x, 500)]) for x in (-30, 30)]
+    plan.relation([*((bank, "outer") for bank in banks), REST], natural="water")
+    assert waters(plan.load(tmp_path)) == pytest.approx(60 * HIGH, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("shore", "way"),
+    [([(100, -500), (100, 0)], STREET), ([(100, -500), (100, 500)], {**STREET, "bridge": "yes"})],
+    ids=["ends in the middle of the map", "nothing shows which side is land"],
+)
+def test_water_whose_outline_says_too_little_is_not_drawn_and_told(plan, tmp_path, shore, way):
+    plan.way([(-150, 0), (150, 0)], **way)
+    plan.relation([(plan.way(shore), "outer"), REST], natural="water")
+    found = plan.load(tmp_path)
+    assert waters(found) == 0.0
+    assert [each.what for each in found.report.skipped if each.kind == "outline"] == ["1 water relations"]
+
+
 def raw_area(root, relation, places) -> float:
     """The area of a relation of closed and open ways, put together by shapely alone."""
     ways = {way.get("id"): [places[nd.get("ref")] for nd in way.iter("nd")] for way in root.iter("way")}

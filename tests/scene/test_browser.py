@@ -12,7 +12,7 @@ from playwright.sync_api import Frame, Page, sync_playwright
 
 from studio.scene import pose
 from studio.scene.fleet import Look
-from studio.scene.projection import Scene
+from studio.scene.projection import FROM, Scene, _overview
 from tests.patience import PATIENCE_MS, until
 from tests.server.stage import served
 
@@ -66,6 +66,7 @@ def drive(town):
     scene.show_vehicles(LOOKS)
     scene.show_signals(np.array([0, 2], np.int8))
     driver = Drive(scene)
+    driver.town = town
     driver.start()
     yield driver
     driver.ended.set()
@@ -257,6 +258,56 @@ def test_the_user_may_turn_and_zoom_while_following(page, drive):
     rest(page)
 
 
+# How many triangles of a frame are cars: what there is less when their batches are not seen.
+TRIANGLES = """async () => {
+    const { client } = window.__studioBridge, info = window.__viserTestpoints.rendererInfo.render;
+    const frame = async () => {
+        for (const before = info.frame; info.frame === before; ) {
+            client().requestRender();
+            await new Promise(requestAnimationFrame);
+        }
+        return info.triangles;
+    };
+    const cars = [];
+    for (const [name, node] of Object.entries(client().nodeRefFromName))
+        if (name.startsWith('/vehicles/')) node?.traverse(({ material }) => material && cars.push(material));
+    const all = await frame();
+    for (const material of cars) material.visible = false;
+    const others = await frame();
+    for (const material of cars) material.visible = true;
+    return all - others;
+}"""
+
+
+def test_who_is_far_is_drawn_with_few_triangles_and_who_is_near_with_all(page):
+    say(page, studio="view", preset="top")
+    say(page, studio="follow", vehicle=None)
+    page.evaluate("__viserMutable.cameraControl.dollyTo(200, false)")
+    page.evaluate("__viserMutable.cameraControl.moveTo(...__studioBridge.toThree([0, 0, 0]), false)")
+    until(lambda: 0 < page.evaluate(TRIANGLES) < 3 * 1500, "the simpler shapes from afar")
+    say(page, studio="follow", vehicle=0)
+    rest(page)
+    # the body and the wheels that are seen of it
+    assert page.evaluate(TRIANGLES) > 8000
+    say(page, studio="view", preset="overview")
+    rest(page)
+
+
+def test_moves_are_taken_in_while_no_picture_is_drawn(page, drive):
+    """A picture may take long; where everything is has been taken in meanwhile, so that the next one shows it."""
+    rest(page)
+    page.evaluate("() => { [window.usual, window.held] = [requestAnimationFrame, []]; requestAnimationFrame = call => held.push(call); }")
+    drawn = "__viserTestpoints.rendererInfo.render.frame"
+    # what had been asked for before is drawn by then
+    page.evaluate("new Promise(done => usual(() => usual(done)))")
+    before, start = page.evaluate(drawn), page.evaluate("__studioBridge.poseOf(0).x")
+    drive.go(0.2)
+    until(lambda: page.evaluate("__studioBridge.poseOf(0).x") != start, "the move")
+    assert page.evaluate(drawn) == before
+    page.evaluate("() => { window.requestAnimationFrame = usual; for (const call of held) usual(call); }")
+    arrived(page, drive)
+
+
 def test_dusk_is_darker_than_day(page):
     day = picture(page).mean()
     say(page, studio="theme", dark=True)
@@ -343,6 +394,47 @@ def test_a_lost_connection_comes_back_without_the_focus(page, drive):
     # the same city is no reason to let go of the vehicle
     assert page.evaluate("frames[0].__studioBridge.view.vehicle") == 1
     page.evaluate("document.querySelector('iframe').remove(); document.querySelector('#elsewhere').remove()")
+
+
+CAST = [
+    {"name": each.name, "index": i, "color": each.color, "length": 4.0, "width": 1.8, "height": 1.5, "middle": 0.0}
+    for i, each in enumerate(LOOKS)
+]
+TARGET = "__viserMutable.cameraControl.getTarget(__viserMutable.camera.position.clone(), true).x"  # when the camera has come to rest
+
+
+def overview(page: Page, middle: float) -> None:
+    """The overview, as soon as the browser knows that it looks at about this x [m]."""
+    until(lambda: say(page, studio="view", preset="overview") or abs(page.evaluate(TARGET) - middle) < 200.0, "the overview")
+
+
+def test_an_overview_without_cars_goes_over_to_them_and_not_along(page, drive):
+    say(page, studio="cast", cars=[])
+    # as of a map of which only a part without cars is seen
+    drive.scene._look_at(np.array([2000.0, 0.0]), 150.0, 150.0 * FROM)
+    overview(page, 2000.0)
+    rest(page)
+    assert np.abs(seen(page, 0)).max() > 1.0
+    say(page, studio="cast", cars=CAST)
+    until(lambda: abs(page.evaluate(TARGET)) < 200.0, "the overview to find the cars")
+    rest(page)
+    assert np.abs([seen(page, 0), seen(page, 1)]).max() < 1.0
+    # it stands there while they drive
+    before = page.evaluate("__viserMutable.camera.position.toArray()")
+    drive.go(2.0)
+    arrived(page, drive)
+    assert page.evaluate("__viserMutable.camera.position.toArray()") == pytest.approx(before, abs=0.01)
+
+
+def test_an_overview_that_has_the_cars_is_of_the_whole_map(page, drive):
+    middle, reach, away = _overview(drive.town, None)
+    drive.scene._look_at(middle, reach, away)
+    overview(page, middle[0])
+    rest(page)
+    say(page, studio="cast", cars=CAST)
+    say(page, studio="view", preset="overview")
+    rest(page)
+    assert page.evaluate(TARGET) == pytest.approx(middle[0], abs=0.1)
 
 
 def test_another_city_is_first_seen_as_a_whole(page, drive, town):

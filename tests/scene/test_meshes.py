@@ -32,17 +32,22 @@ def solid(mesh) -> trimesh.Trimesh:
     return trimesh.Trimesh(points, faces[whole], process=False)
 
 
+DETAILS = {"fine": vehicle.FINE, "middling": vehicle.MIDDLING, "coarse": vehicle.COARSE}
+
+
 @pytest.mark.parametrize("size", [CAR, VAN], ids=["car", "van"])
 @pytest.mark.parametrize("part", [vehicle.hull, vehicle.cabin])
-def test_body_parts_are_closed_and_face_outward(size, part):
-    body = solid(part(size, PALETTE))
+@pytest.mark.parametrize("detail", DETAILS.values(), ids=DETAILS)
+def test_body_parts_are_closed_and_face_outward(size, part, detail):
+    body = solid(part(size, PALETTE, detail))
     assert body.is_watertight and body.is_winding_consistent
     assert body.volume > 0.0
 
 
 @pytest.mark.parametrize("size", [CAR, VAN], ids=["car", "van"])
-def test_wheel_is_closed_round_and_as_wide_as_asked(size):
-    wheel = solid(vehicle.wheel(size))
+@pytest.mark.parametrize("made", [vehicle.wheel, lambda size: vehicle.plain_wheel(size, segments=16)], ids=["near", "far"])
+def test_wheel_is_closed_round_and_as_wide_as_asked(size, made):
+    wheel = solid(made(size))
     assert wheel.is_watertight and wheel.volume > 0.0
     assert np.hypot(wheel.vertices[:, 0], wheel.vertices[:, 2]).max() == pytest.approx(size.wheel_radius, abs=1e-4)
     assert np.ptp(wheel.vertices[:, 1]) == pytest.approx(size.wheel_width, abs=1e-4)

@@ -89,6 +89,57 @@ def test_frames_reuse_the_nodes(scene):
     assert all(node(scene, name) is handle for name, handle in before.items())
 
 
+PAINTS = ["#d9d9d6", "#3c4248", "#8e9499", "#b59f7b"]
+FLOAT = 4  # [bytes]
+POSE = 3 * FLOAT + 4 * FLOAT  # a place and a turn
+PARTS = 1 + 4 + 2  # of a car: its body, its wheels, two shadows
+
+
+def sent(scene: Scene, monkeypatch, poses: np.ndarray) -> list[dict]:
+    """What is sent to browsers for one update, message by message."""
+    messages = []
+    with monkeypatch.context() as patched:
+        patched.setattr(scene._server._websock_server, "queue_message", messages.append)
+        scene.update(poses)
+    return [each.updates for each in messages]
+
+
+@pytest.mark.parametrize("count", [8, 100])
+def test_an_update_has_as_many_messages_as_there_are_batches_however_many_cars_there_are(count, monkeypatch):
+    scene = Scene()
+    try:
+        scene.show_vehicles([Look(f"traffic_{i}", PAINTS[i % len(PAINTS)]) for i in range(count)])
+        where = pose.standing(count)
+        where[pose.YAW] = 1.0
+        updates = sent(scene, monkeypatch, where)
+        # places and turns of the bodies of each paint, of the wheels, and of the shadows
+        assert len(updates) == 2 * (len(PAINTS) + 2)
+        assert sum(value.nbytes for update in updates for value in update.values()) == count * PARTS * POSE
+    finally:
+        scene.stop()
+
+
+def test_nothing_is_sent_while_nobody_moves(scene, monkeypatch):
+    where = poses() + np.float32(0.25)
+    assert sent(scene, monkeypatch, where)
+    assert sent(scene, monkeypatch, where.copy()) == []
+    where[pose.X, 0] += 0.01
+    assert sent(scene, monkeypatch, where)
+
+
+def test_who_is_far_has_fewer_points_and_the_same_outline(scene):
+    """The bridge takes the shapes up by their names, which say from how far on they are seen."""
+    names = [name for name in scene._server.scene._handle_from_node_name if name.startswith("/afar/")]
+    assert {name.split("/")[2] for name in names} == {"wheels", "shadows", *(f"body_{i}" for i in range(6))}
+    for shapes in (fleet.bodies(Dimensions(), "#1f5fa8"), fleet.wheels(Dimensions()), fleet.shadows(Dimensions())):
+        near, *others = shapes.values()
+        for other in others:
+            assert len(other.faces) <= 0.5 * len(near.faces)
+            # whose width differs by the mirrors
+            assert (np.abs(np.ptp(other.vertices, axis=0) - np.ptp(near.vertices, axis=0)) < [0.05, 0.25, 0.01]).all()
+            near = other
+
+
 def test_one_batch_per_colour(scene):
     colours = {look.color for look in LOOKS}
     bodies = [name for name in scene._server.scene._handle_from_node_name if name.startswith("/vehicles/body_")]

@@ -22,7 +22,7 @@ import osmium
 import pyproj
 
 from studio.errors import MapError
-from studio.road.formats import access, identity, overpass
+from studio.road.formats import access, identity, overpass, shore
 from studio.road.formats.correction import Corrections, Corrector, element_of
 from studio.road.formats.identity import named
 from studio.road.formats.kind import OPENINGS, area_kind, hidden, line_kind, point_kind
@@ -158,6 +158,7 @@ class Survey:
     shapes: list[Shape] = field(default_factory=list)
     outlines: dict[int, str] = field(default_factory=dict)  # relations that shall be an area, and its kind
     drawn: set[int] = field(default_factory=set)  # those of them that are one
+    shores: dict[int, tuple[dict[str, str], list[int]]] = field(default_factory=dict)  # of water: its tags, and the ways of its outline
     service: list[Way] = field(default_factory=list)
     lines: list[Thing] = field(default_factory=list)
     points: list[Thing] = field(default_factory=list)
@@ -322,6 +323,7 @@ def surveyed(data: bytes, form: str, corrections: Corrections) -> Survey:
     for thing in file.with_locations().with_areas().with_filter(tagged):
         note(found, corrector.seen(thing))
     found.nodes |= corrector.bare_nodes(found.ways)
+    close_shores(found, data, form)
     corrector.finish(found.places[0] if found.places else (0.0, 0.0))
     return found
 
@@ -357,6 +359,8 @@ def note(found: Survey, thing) -> None:
         found.restrictions.append((thing.id, members, dict(thing.tags)))
     elif thing.is_relation() and thing.tags.get("type") == "multipolygon" and (kind := area_kind(thing.tags)):
         found.outlines[thing.id] = kind
+        if kind == "water":
+            found.shores[thing.id] = dict(thing.tags), [member.ref for member in thing.members if member.type == "w"]
 
 
 def note_node(found: Survey, node) -> None:
@@ -463,6 +467,50 @@ def note_area(found: Survey, area) -> None:
         for ring in area.outer_rings():
             rings = [ring, *area.inner_rings(ring)]
             found.shapes.append(Shape([[(n.lon, n.lat) for n in ring] for ring in rings], dict(area.tags), element_of(area)))
+
+
+# -- water at the edge of the file -----------------------------------------------------------------
+
+
+def close_shores(found: Survey, data: bytes, form: str) -> None:
+    """Closes water that the file has in parts along the box that it was cut by, and notes which."""
+    broken = {name: shore for name, shore in found.shores.items() if name not in found.drawn}
+    if not broken or found.mapped is None:
+        return
+    lines = outlines(data, form, {way for _, ways in broken.values() for way in ways})
+    box, dry = found.mapped, dry_places(found)
+    for name, (tags, ways) in broken.items():
+        here = [lines[way] for way in ways if way in lines]
+        faces = shore.wet(here, (box.west, box.south, box.east, box.north), dry) if here else []
+        if faces:
+            found.drawn.add(name)
+            note_closed(found, named("relation", name), tags, faces)
+
+
+def note_closed(found: Survey, element: str, tags: dict[str, str], faces: list) -> None:
+    """Notes the faces of water that was closed, and that this is a guess."""
+    for face in faces:
+        rings = [face.exterior, *face.interiors]
+        found.shapes.append(Shape([list(ring.coords) for ring in rings], tags, element))
+    longitude, latitude = faces[0].representative_point().coords[0]
+    spot = Spot(tags.get("name", "") or element, latitude, longitude, element)
+    found.notes.guess(
+        "water", "closed along the edge of the file", spot, source="the part of its outline that is in the file", sure="medium"
+    )
+
+
+def outlines(data: bytes, form: str, wanted: set[int]) -> dict[int, list[tuple[float, float]]]:
+    """The places of some ways [deg], as far as the file has them whole; most of them have no tag, so that nothing was noted of them."""
+    file = osmium.FileProcessor(osmium.io.FileBuffer(data, form), osmium.osm.NODE | osmium.osm.WAY).with_locations()
+    whole = (way for way in file if way.is_way() and way.id in wanted and all(node.location.valid() for node in way.nodes))
+    return {way.id: [(node.lon, node.lat) for node in way.nodes] for way in whole}
+
+
+def dry_places(found: Survey) -> np.ndarray:
+    """Places on land [deg], float64[2, n]: corners of houses, and of streets that are no bridges."""
+    houses = [shape.rings[0][0] for shape in found.shapes if area_kind(shape.tags) in ("building", "part")]
+    streets = [point for way in found.ways if not {"bridge", "tunnel", "layer"} & way.tags.keys() for point in way.points]
+    return np.array([*houses, *streets], dtype=float).reshape(-1, 2).T
 
 
 # -- the part to keep ------------------------------------------------------------------------------

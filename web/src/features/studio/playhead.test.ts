@@ -6,14 +6,17 @@ const event = (time: number) => ({ time, text: "", vehicle: "", kind: "" }) as n
 
 describe("the playhead", () => {
   const shown: number[] = [];
+  const looked: number[] = [];
   let answer: (() => void)[] = [];
   const head = () =>
-    new Playhead(7, 0, 10, 0.02, (_run, time) => {
+    new Playhead(7, 0, 10, 0.02, (_run, time, all) => {
       shown.push(time);
+      if (all) looked.push(time);
       return new Promise<void>((resolve) => answer.push(resolve));
     });
   beforeEach(() => {
     shown.length = 0;
+    looked.length = 0;
     answer = [];
     vi.useFakeTimers();
   });
@@ -51,6 +54,34 @@ describe("the playhead", () => {
     answer[0]?.();
     await vi.advanceTimersByTimeAsync(0);
     expect(shown).toEqual([1, 3]);
+  });
+
+  it("asks for what is drawn over the scene less often, and once more where it comes to stand", async () => {
+    const at = new Playhead(7, 0, 10, 0.02, async (_run, time, all) => {
+      shown.push(time);
+      if (all) looked.push(time);
+    });
+    for (let i = 1; i <= 50; i++) {
+      at.seek(0.1 * i);
+      await vi.advanceTimersByTimeAsync(10);
+    }
+    await vi.advanceTimersByTimeAsync(200);
+    expect(shown.length).toBeGreaterThan(50);
+    expect(looked.length).toBeGreaterThanOrEqual(5);
+    expect(looked.length).toBeLessThanOrEqual(7);
+    expect(looked.at(-1)).toBe(5);
+    const asked = shown.length;
+    await vi.advanceTimersByTimeAsync(1000);
+    expect(shown.length).toBe(asked);
+  });
+
+  it("asks for nothing more when nobody looks any more", async () => {
+    const at = head();
+    at.seek(3);
+    at.leave();
+    answer[0]?.();
+    await vi.advanceTimersByTimeAsync(500);
+    expect(shown).toEqual([3]);
   });
 
   it("plays at its pace, and from the beginning when it is at the end", () => {
@@ -92,7 +123,9 @@ describe("the playhead", () => {
     vi.advanceTimersByTime(500);
     expect(at.time).toBe(0); // the scene has not answered
     answer[0]?.();
-    await vi.advanceTimersByTimeAsync(20);
+    await vi.advanceTimersByTimeAsync(10);
+    answer[1]?.(); // what is drawn over it
+    await vi.advanceTimersByTimeAsync(10);
     expect(at.time).toBe(0.25);
   });
 

@@ -20,10 +20,18 @@ const PERIOD_MS = 20;
 /** Of a sample: who is nearer to one than this stands on it. */
 const SAME = 1e-3;
 
+/**
+ * [ms] From one look at what is drawn over the scene to the next: it is a hundred times the work of where everybody is, so that it comes
+ * less often while the time goes on, and when it stands still, once more.
+ */
+const LOOK_MS = 100;
+
 /** What is asked of the scene while it has not answered: only the newest time counts. */
 interface Asking {
   busy: boolean;
   wanted: number | undefined;
+  /** Whether the next question is for what is drawn over the scene as well. */
+  all: boolean;
 }
 
 export class Playhead {
@@ -33,8 +41,10 @@ export class Playhead {
   /** From when to when [s] it plays over and over. */
   loop: readonly [number, number] | undefined;
   private readonly listeners = new Set<() => void>();
-  private readonly asking: Asking = { busy: false, wanted: undefined };
+  private readonly asking: Asking = { busy: false, wanted: undefined, all: false };
   private clock = 0;
+  private look = 0;
+  private looked = Number.NEGATIVE_INFINITY;
   private failed = false;
 
   constructor(
@@ -42,8 +52,8 @@ export class Playhead {
     readonly begin: number,
     readonly end: number,
     readonly step: number,
-    /** Shows a time in the scene. */
-    private readonly show: (run: number, time: number) => Promise<unknown>,
+    /** Shows a time in the scene: where everybody is, or all, with what is drawn over it. */
+    private readonly show: (run: number, time: number, all: boolean) => Promise<unknown>,
   ) {
     this.time = end;
   }
@@ -133,9 +143,16 @@ export class Playhead {
   /** Has the time shown where it stands. */
   readonly refresh = (): void => this.ask(this.time);
 
+  /** Nobody looks any more. */
+  readonly leave = (): void => {
+    this.pause();
+    window.clearTimeout(this.look);
+  };
+
   /** Another question only when the last one is answered: a slow scene skips pictures and stays on time. */
-  private ask(time: number): void {
+  private ask(time: number, all = false): void {
     this.asking.wanted = time;
+    this.asking.all ||= all;
     if (this.asking.busy) return;
     this.asking.busy = true;
     void this.drain();
@@ -143,9 +160,11 @@ export class Playhead {
 
   private async drain(): Promise<void> {
     while (this.asking.wanted !== undefined) {
-      const time = this.asking.wanted;
-      this.asking.wanted = undefined;
-      await this.show(this.run, time).then(
+      const { wanted: time, all } = this.asking;
+      Object.assign(this.asking, { wanted: undefined, all: false });
+      if (all) this.looked = performance.now();
+      else this.lookSoon();
+      await this.show(this.run, time, all).then(
         () => {
           this.failed = false;
         },
@@ -153,6 +172,15 @@ export class Playhead {
       );
     }
     this.asking.busy = false;
+  }
+
+  private lookSoon(): void {
+    if (this.look) return;
+    const wait = Math.max(0, this.looked + LOOK_MS - performance.now());
+    this.look = window.setTimeout(() => {
+      this.look = 0;
+      this.ask(this.time, true);
+    }, wait);
   }
 
   /** The scene does not follow: told once, until it does again. That the server is gone is told elsewhere. */
@@ -167,12 +195,12 @@ export class Playhead {
 }
 
 /**
- * Shows a time of a run in the scene, and answers what can be drawn over it; when another page has had it show something else, it is
+ * Shows a time of a run in the scene, and answers what can be drawn over it, if that is asked for; when another page has had it show something else, it is
  * told `again` what this one wants.
  */
-export async function showInScene(run: number, time: number, again: () => Promise<unknown>): Promise<Layers | null> {
+export async function showInScene(run: number, time: number, layers: boolean, again: () => Promise<unknown>): Promise<Layers | null> {
   const ask = async () =>
-    (await answer(client.PUT("/api/scene/time", { body: { stage: await stage(), run, time, layers: true } }))) as Server["Shown"];
+    (await answer(client.PUT("/api/scene/time", { body: { stage: await stage(), run, time, layers } }))) as Server["Shown"];
   const first = await ask();
   if (first.shown) return first.layers ?? null;
   await again();
@@ -189,12 +217,15 @@ export function usePlayhead(run: number | undefined, { begin, end, step, again }
     () =>
       run === undefined || !isNumber(begin) || !isNumber(end) || !isNumber(step) || end <= begin
         ? undefined
-        : new Playhead(run, begin, end, step, async (which, time) => sight.put(await showInScene(which, time, again))),
+        : new Playhead(run, begin, end, step, async (which, time, all) => {
+            const seen = await showInScene(which, time, all, again);
+            if (all) sight.put(seen);
+          }),
     [run, begin, end, step, again, sight],
   );
   useEffect(() => {
     head?.refresh();
-    return head?.pause;
+    return head?.leave;
   }, [head]);
   return head;
 }
