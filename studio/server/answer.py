@@ -649,12 +649,21 @@ class SourceBeside(BaseModel):
     diff: str
 
 
+class GoalsMet(BaseModel):
+    """How many of the goals of its scenario a run met."""
+
+    met: int
+    of: int
+    missed: list[str] = Field(description="what is told of those that it did not meet")
+
+
 class SideBySide(BaseModel):
     """Up to eight runs, each compared with the first."""
 
     runs: list[Run]
     alike: float = Field(description="[1] of the greater value: metrics that differ by less are the same")
     unranked: list[str] = Field(description="of every run why its metrics are not ranked; empty when they are")
+    goals: list[GoalsMet | None] = Field(description="of every run; null of one that was not measured to its end")
     parameters: list[Beside]
     metrics: list[MetricBeside]
     environment: list[EnvironmentBeside]

@@ -76,9 +76,7 @@ def test_a_step_that_is_followed_late_has_that_lag(late, side):
 def test_nobody_knows_the_lag_of_a_signal_that_begins_where_it_ends():
     """A log of a logger that wrote its buffer in a wrong order: what came last stands before what came first."""
     step = lambda t: np.clip((t - 2.0) / 0.2, 0.0, 1.0)  # noqa: E731
-    run = recording(
-        8.0, speed=20.0, road_wheel_angle=lambda t: 0.02 * step(t), yaw_rate=lambda t: 0.2 * step(t), lateral_acceleration=0.0
-    )
+    run = recording(8.0, speed=20.0, road_wheel_angle=lambda t: 0.02 * step(t), yaw_rate=lambda t: 0.2 * step(t), lateral_acceleration=0.0)
     rolled = replace(run, signals=run.signals | {"yaw_rate": np.roll(run["yaw_rate"], 20)})
     at = j_turn.marks(run)
     (straight, *_), (lag, *_) = (j_turn.measures(each, at)["yaw_rate, lag of the step"] for each in (run, rolled))

@@ -2245,6 +2245,21 @@ export interface components {
             alike: number;
         };
         /**
+         * GoalsMet
+         * @description How many of the goals of its scenario a run met.
+         */
+        GoalsMet: {
+            /** Met */
+            met: number;
+            /** Of */
+            of: number;
+            /**
+             * Missed
+             * @description what is told of those that it did not meet
+             */
+            missed: string[];
+        };
+        /**
          * Gone
          * @description News: there is no such scenario any more, or it cannot be read.
          */
@@ -4809,6 +4824,11 @@ export interface components {
              * @description of every run why its metrics are not ranked; empty when they are
              */
             unranked: string[];
+            /**
+             * Goals
+             * @description of every run; null of one that was not measured to its end
+             */
+            goals: (components["schemas"]["GoalsMet"] | null)[];
             /** Parameters */
             parameters: components["schemas"]["Beside"][];
             /** Metrics */
