@@ -41,6 +41,8 @@ interface Props {
   /** Other runs among the cars of this one, with commas; and what is at the same time in all of them. */
   ghosts: string | undefined;
   align: string | undefined;
+  /** How a link wants the scene to be looked at. */
+  camera: string | undefined;
   /** False while another page covers this one; the scene and the run go on. */
   active: boolean;
 }
@@ -101,6 +103,8 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
         run={head !== undefined || shown.live !== undefined}
         sight={sight}
         missing={scene.missing}
+        camera={camera}
+        onLink={link}
         running={shown.live !== undefined && isLive(shown.live.status)}
       />
       {active ? <Splitter {...bottom} /> : null}
