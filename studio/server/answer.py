@@ -300,6 +300,7 @@ class Run(BaseModel):
     reason: str = Field(description="of that verdict; empty when none was given")
     name: str = Field(description="that somebody gave it; empty when it has none")
     tags: list[str]
+    note: str = Field(description="what somebody has written about it: text with a little of Markdown, and times such as @12.3 s")
 
 
 class NewVerdict(BaseModel):
@@ -505,7 +506,6 @@ class RunDetail(Run):
     channels: list[Channel]
     events: list[Event]
     verdicts: list[Verdict] = Field(description="all that were given, the first first")
-    note: str = Field(description="what somebody has written about it")
 
 
 class NewRun(BaseModel):

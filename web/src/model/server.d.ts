@@ -2808,6 +2808,11 @@ export interface components {
             /** Tags */
             tags: string[];
             /**
+             * Note
+             * @description what somebody has written about it: text with a little of Markdown, and times such as @12.3 s
+             */
+            note: string;
+            /**
              * Settings
              * @description the value of every parameter that one of the listed runs has set, as this one had it; none that it has not
              */
@@ -4485,6 +4490,11 @@ export interface components {
             name: string;
             /** Tags */
             tags: string[];
+            /**
+             * Note
+             * @description what somebody has written about it: text with a little of Markdown, and times such as @12.3 s
+             */
+            note: string;
         };
         /**
          * RunDetail
@@ -4550,6 +4560,11 @@ export interface components {
             /** Tags */
             tags: string[];
             /**
+             * Note
+             * @description what somebody has written about it: text with a little of Markdown, and times such as @12.3 s
+             */
+            note: string;
+            /**
              * Kinds
              * @description digests of all kinds that it used, by sort.name
              */
@@ -4583,11 +4598,6 @@ export interface components {
              * @description all that were given, the first first
              */
             verdicts: components["schemas"]["Verdict"][];
-            /**
-             * Note
-             * @description what somebody has written about it
-             */
-            note: string;
         };
         /**
          * SamplesNews

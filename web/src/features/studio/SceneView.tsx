@@ -85,12 +85,13 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     setFollowed(vehicle);
     setView(wanted.view === "free" ? "overview" : wanted.view);
     told.current = "overview";
+    if (vehicle === null) send({ studio: "follow", vehicle });
     send({ studio: "camera", camera: wanted });
   });
   const link = () => {
     const now = cameraIn(frame.current);
-    const vehicle = vehicles.find(({ index }) => index === followed)?.name ?? "";
-    if (now) onLink(cameraText({ ...now, vehicle: now.at ? "" : vehicle, view: now.at && view !== "top" ? "free" : view === "overview" ? "free" : view }));
+    const vehicle = now?.at ? "" : (vehicles.find(({ index }) => index === followed)?.name ?? "");
+    if (now) onLink(cameraText({ ...now, vehicle, view: vehicle === "" ? "free" : view === "overview" ? "chase" : view }));
   };
   const first = vehicles[0]?.index;
   useEffect(() => {
