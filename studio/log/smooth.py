@@ -32,6 +32,12 @@ def crossing(time: np.ndarray, values: np.ndarray, level: float) -> float:
     return float(np.interp(level, [values[i - 1], values[i]], [time[i - 1], time[i]]))
 
 
+def rise(time: np.ndarray, values: np.ndarray, level: float) -> float:
+    """The same; not a number either for a signal that is there when it begins, for nobody knows since when."""
+    known = values[np.isfinite(values)]
+    return crossing(time, values, level) if known.size and known[0] < level else float("nan")
+
+
 def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
     """Where a mask is true without a break: first index, and the one after the last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))

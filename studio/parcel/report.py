@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from studio.parcel import plan
 from studio.store.comparison import compare
 from studio.store.runs import Row, Runs
 from studio.store.verdict import Verdict, remark_of, verdicts
@@ -43,6 +44,7 @@ def report(runs: Runs, run: int) -> str:
         section("What went wrong", f"<pre>{escape(row.error)}</pre>" if row.error else ""),
         section(f"What differs from run {row.parent}", parameters(against)),
         section("Metrics", metrics(row, against)),
+        *plans(runs, row),
         section("Over time", charts(runs, row)),
         section("What happened", events(runs, run)),
         section("Of what it is made", made_of(row)),
@@ -131,6 +133,19 @@ def value(number: Any, *, signed: bool = False) -> str:
     return text.replace("-0", "0", 1) if float(text) == 0 else text
 
 
+# -- from above -----------------------------------------------------------------------------------------
+
+
+def plans(runs: Runs, row: Row) -> list[str]:
+    """The map of the paths, and a film strip; nothing where it was not recorded who was where."""
+    found = plan.drive(runs, row)
+    if found is None:
+        return []
+    moments = f'<p class="dim">{escape(plan.captions(found))}. Lines show where each was in the {plan.TRAIL:g} s before.</p>'
+    where = '<p class="dim">Where the vehicles drove; each began at its dot.</p>'
+    return [section("From above", where + svg(plan.plan(found))), section("Film strip", moments + svg(plan.strip(found)))]
+
+
 # -- over time ------------------------------------------------------------------------------------------
 
 
@@ -150,7 +165,6 @@ def charts(runs: Runs, row: Row) -> str:
 
 def picture(columns: dict[str, np.ndarray], names: Sequence[str], label: str, when: Sequence[float]) -> str:
     """One chart as SVG."""
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=SIZE, layout="constrained")
@@ -162,6 +176,13 @@ def picture(columns: dict[str, np.ndarray], names: Sequence[str], label: str, wh
     axes.set(xlabel="time [s]", ylabel=label, ylim=limits(np.concatenate([columns[name] for name in names])))
     axes.legend(fontsize="x-small", loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     axes.grid(alpha=0.3)
+    return svg(figure)
+
+
+def svg(figure) -> str:
+    """A figure as it stands in the page."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
     out = io.StringIO()
     FigureCanvasSVG(figure).print_svg(out, metadata={"Date": None})
     text = out.getvalue()

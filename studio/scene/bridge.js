@@ -3,6 +3,7 @@
  * The page posts     {studio: "follow", vehicle: index|null}
  *                    {studio: "view", preset: "overview"|"top"|"driver"}
  *                    {studio: "theme", dark: bool}
+ *                    {studio: "camera", camera: {azimuth, polar, distance, at?}}   as a link has it: free, or for who is followed
  *                    {studio: "rest", rest: bool}   nobody sees the scene: nothing is drawn
  * The bridge posts   {studio: "ready", follow: bool}, {studio: "picked", vehicle: index},
  *                    {studio: "key", key, code, ctrlKey, metaKey, shiftKey, altKey}
@@ -27,9 +28,11 @@
   const NEAR_ENOUGH = 3; // times as far as what an overview looks at: cars are still to be seen there
   const KEYS_OF_THE_CAMERA = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE", "ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Tab"]);
 
-  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false, lost: false };
+  const view = { vehicle: null, mode: CHASE, yaw: 0, target: null, fresh: false, time: 0, dark: false, lost: false, wanted: null };
+  const SETTLING = 5; // looks at a city that has just come, while the client turns to the overview
   let ready = false;
   let shownCity = null;
+  let settled = 0;
   let painted = null;
   const summed = { data: null, sum: null };
 
@@ -116,11 +119,43 @@
   }
 
   function start(controls, pose, target, now) {
-    const azimuth = view.mode === TOP ? controls.azimuthAngle : azimuthBehind(pose.yaw);
+    const { azimuth: more = 0, polar = view.mode.polar, distance = view.mode.distance } = view.wanted ?? {};
+    const azimuth = (view.mode === TOP && !view.wanted ? controls.azimuthAngle : azimuthBehind(pose.yaw)) + more;
     controls.moveTo(...target, false);
-    controls.rotateTo(controls.azimuthAngle + turn(azimuth - controls.azimuthAngle), view.mode.polar, false);
-    controls.dollyTo(view.mode.distance, false);
-    Object.assign(view, { fresh: false, target, yaw: pose.yaw, time: now });
+    controls.rotateTo(controls.azimuthAngle + turn(azimuth - controls.azimuthAngle), polar, false);
+    controls.dollyTo(distance, false);
+    Object.assign(view, { fresh: false, target, yaw: pose.yaw, time: now, wanted: null });
+  }
+
+  // ---- the camera of a link: free in the picture, or turned from behind who is followed
+
+  function camera() {
+    const controls = client()?.cameraControl;
+    if (!controls?.getTarget) return null;
+    const pose = view.vehicle === null ? null : poseOf(view.vehicle);
+    const { azimuthAngle, polarAngle: polar, distance } = controls;
+    if (pose) return { azimuth: turn(azimuthAngle - azimuthBehind(pose.yaw)), polar, distance };
+    const { x, y, z } = controls.getTarget(client().camera.position.clone());
+    return { azimuth: turn(azimuthAngle), polar, distance, at: [x, y, z] };
+  }
+
+  function want(camera) {
+    const { azimuth, polar, distance, at } = camera ?? {};
+    if (![azimuth, polar, distance, ...(at ?? [])].every(Number.isFinite)) return;
+    Object.assign(view, { wanted: { azimuth, polar, distance, at }, fresh: true });
+    client()?.requestRender?.();
+  }
+
+  // a free camera waits for the city, at whose coming the client turns to the overview
+  function restore() {
+    const controls = client()?.cameraControl;
+    if (!view.wanted?.at || shownCity === null || settled < SETTLING || !controls) return;
+    const { azimuth, polar, distance, at } = view.wanted;
+    controls.moveTo(...at, false);
+    controls.rotateTo(controls.azimuthAngle + turn(azimuth - controls.azimuthAngle), polar, false);
+    controls.dollyTo(distance, false);
+    view.wanted = null;
+    client().requestRender?.();
   }
 
   // the camera comes round behind the vehicle a little later, and keeps what the user has turned it by
@@ -308,6 +343,7 @@
       follow(vehicle);
     }
     if (studio === "view") show(preset);
+    if (studio === "camera") want(event.data.camera);
     if (studio === "theme") {
       view.dark = dark === true;
       paint();
@@ -389,7 +425,10 @@
     if (city !== shownCity && city !== null) {
       if (shownCity !== null || view.vehicle === null) show("overview");
       shownCity = city;
+      settled = 0;
     }
+    settled += 1;
+    restore();
     if (!ready && client()?.cameraControl && client()?.scene) {
       ready = true;
       tell({ studio: "ready", follow: typeof client().cameraControl.moveTo === "function" });
@@ -415,5 +454,5 @@
 
   listenToPointer();
   setInterval(watch, 200);
-  window.__studioBridge = { view, poseOf, toThree, client };
+  window.__studioBridge = { view, poseOf, toThree, client, camera };
 })();

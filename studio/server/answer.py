@@ -300,6 +300,7 @@ class Run(BaseModel):
     reason: str = Field(description="of that verdict; empty when none was given")
     name: str = Field(description="that somebody gave it; empty when it has none")
     tags: list[str]
+    note: str = Field(description="what somebody has written about it: text with a little of Markdown, and times such as @12.3 s")
 
 
 class NewVerdict(BaseModel):
@@ -505,7 +506,6 @@ class RunDetail(Run):
     channels: list[Channel]
     events: list[Event]
     verdicts: list[Verdict] = Field(description="all that were given, the first first")
-    note: str = Field(description="what somebody has written about it")
 
 
 class NewRun(BaseModel):
@@ -649,12 +649,21 @@ class SourceBeside(BaseModel):
     diff: str
 
 
+class GoalsMet(BaseModel):
+    """How many of the goals of its scenario a run met."""
+
+    met: int
+    of: int
+    missed: list[str] = Field(description="what is told of those that it did not meet")
+
+
 class SideBySide(BaseModel):
     """Up to eight runs, each compared with the first."""
 
     runs: list[Run]
     alike: float = Field(description="[1] of the greater value: metrics that differ by less are the same")
     unranked: list[str] = Field(description="of every run why its metrics are not ranked; empty when they are")
+    goals: list[GoalsMet | None] = Field(description="of every run; null of one that was not measured to its end")
     parameters: list[Beside]
     metrics: list[MetricBeside]
     environment: list[EnvironmentBeside]

@@ -39,7 +39,7 @@ from studio.store.many import Given, Retag, judge_all, retag
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
-from studio.store.verdict import judge, remark, remark_of, verdicts
+from studio.store.verdict import judge, remark, verdicts
 from studio.world import channel
 
 PAPER: dict[int | str, dict[str, Any]] = {
@@ -261,8 +261,8 @@ def run(run: int, kept: KeptRuns) -> answer.RunDetail:
     """One run with its scenario, channels and events."""
     row = kept.find(run)
     events = [answer.event(each) for each in kept.events(run)]
-    said = {"verdicts": [answer.Verdict(**each.as_json()) for each in verdicts(kept, run)], "note": remark_of(kept, run).note}
-    return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events, **said)
+    given = [answer.Verdict(**each.as_json()) for each in verdicts(kept, run)]
+    return answer.RunDetail(**row.as_json(), document=kept.document(row), channels=kept.channels(run), events=events, verdicts=given)
 
 
 @router.post("/runs/{run}/verdicts", status_code=201)

@@ -10,6 +10,7 @@ from difflib import unified_diff
 from typing import Any
 
 from studio.assess import compare as assess
+from studio.assess.goal import goals_of, unmet
 from studio.errors import Problem, UnknownError, short
 from studio.kind import registry
 from studio.scenario.edit import flatten
@@ -70,6 +71,7 @@ def beside(runs: Runs, numbers: Sequence[int], *, everything: bool = False) -> d
         "runs": [row.as_json() for row in rows],
         "alike": assess.ALIKE,
         "unranked": [unranked([each for each in (rows[0], row) if not each.is_whole]) for row in rows],
+        "goals": [goals(row, document) for row, document in zip(rows, documents, strict=True)],
         "parameters": [
             {"path": path, "values": values, "unit": unit(path, documents)}
             for path, values in lined_up([flatten(each) for each in documents], everything)
@@ -78,6 +80,13 @@ def beside(runs: Runs, numbers: Sequence[int], *, everything: bool = False) -> d
         "environment": [{"name": name, "values": values} for name, values in lined_up([environment(row) for row in rows], everything)],
         "sources": list(sources(runs, rows)),
     }
+
+
+def goals(row: Row, document: dict[str, Any]) -> dict[str, Any] | None:
+    """How many of its scenario's goals a run met, and what is told of the others; None of one that was not measured to its end."""
+    wanted = goals_of(document)
+    missed = unmet(wanted, row.metrics)
+    return {"met": len(wanted) - len(missed), "of": len(wanted), "missed": missed} if row.is_whole else None
 
 
 def numbers(text: str) -> list[int]:

@@ -54,7 +54,7 @@ class Row:
     """A run as it stands in the database. `parameters` are those that were set, by path; `kinds` the digests of all that it used.
 
     `revisions` say what git has told of the folders of its code, each with the digest of its patch. Runs of an older studio have none.
-    `verdict` is the last that was given, with its `reason`; `name` and `tags` are those that somebody gave it.
+    `verdict` is the last that was given, with its `reason`; `name`, `tags` and `note` are those that somebody gave it.
     """
 
     run: int
@@ -80,6 +80,7 @@ class Row:
     reason: str = ""
     name: str = ""
     tags: list[str] = field(default_factory=list)
+    note: str = ""
 
     @property
     def is_whole(self) -> bool:
@@ -419,11 +420,11 @@ class Runs:
         return {row["run"]: row["metrics"] for row in self.rows(METRICS_AS_TEXT.format(marks), runs)}
 
     def said_of(self, runs: list[int]) -> dict[int, dict[str, Any]]:
-        """The last verdict of many runs, their names and tags."""
+        """The last verdict of many runs, their names, tags and notes."""
         marks = ", ".join("?" * len(runs))
         last = f"select max(rowid) from verdicts where run in ({marks}) group by run"
         found = {row.pop("run"): row for row in self.rows(f"select run, verdict, reason from verdicts where rowid in ({last})", runs)}
-        for row in self.rows(f"select run, name, tags from remarks where run in ({marks})", runs):
+        for row in self.rows(f"select run, name, tags, note from remarks where run in ({marks})", runs):
             found.setdefault(row.pop("run"), {}).update(row)
         return found
 
@@ -605,7 +606,7 @@ def event_of(row: dict[str, Any]) -> Happening:
 OF_PROCESS = ("process", "process_started", "process_mark")
 STRUCTURED = {"parameters": dict, "unmet": list, "kinds": dict, "versions": dict, "revisions": list, "tags": list}
 VERDICTS = ("open", "candidate", "discarded")  # as verdict.py says them
-UNSAID = {"verdict": VERDICTS[0], "reason": "", "name": "", "tags": "[]"}  # of a run about which nobody has said anything
+UNSAID = {"verdict": VERDICTS[0], "reason": "", "name": "", "tags": "[]", "note": ""}  # of a run about which nobody has said anything
 
 
 def unpacked(text: str | None, kind: type) -> Any:

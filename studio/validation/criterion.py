@@ -2,7 +2,7 @@
 
     gain   the mean of the simulations lies inside the interval; the averaged simulation is within 5 %
     time   the same interval; the mean within 0.05 s, the averaged simulation within 0.1 s
-    lag    mean and averaged simulation within 0.05 s; the interval does not count
+    lag    mean and averaged simulation within 0.05 s; the interval does not count; unjudged where a recorded run begins beyond its half
 
 Bounds and limits are included, and numbers are compared as decimals: 14.32 - 14.22 is 0.1, and neither more nor less by how a computer
 writes it. The relative error of the averaged simulation is meant over the mean of the experiments.
@@ -21,9 +21,10 @@ from studio.validation.zone import Confidence, zone
 
 DIGITS = 9  # after the point, to which numbers are compared
 Rule = Literal["gain", "time", "lag", "fit", "final"]
-PASS, FAIL, OVERRIDDEN = "pass", "fail", "overridden"
+PASS, FAIL, OVERRIDDEN, UNJUDGED = "pass", "fail", "overridden", "unjudged"
 WIDE = "says little, for the interval is wider than the limit: record more runs, and see whether one of these differs"
 LENIENT = f"met by nothing but the width of its interval, and {WIDE}"
+LATE = "beyond half of its value from the first sample on, so that nobody knows since when; cut the log so that it begins before the step"
 ALONE = "one run only: there is no interval; record the maneuver again"
 
 
@@ -90,13 +91,20 @@ class Measure:
     ours: np.ndarray
     averaged: float
     unit: str = "1"
+    runs: tuple[str, ...] = ()
+
+    @property
+    def unknown(self) -> list[str]:
+        """The recorded runs that it cannot be read off."""
+        return [name for name, value in zip(self.runs, self.theirs, strict=False) if not isfinite(value)]
 
 
 def verdicts(maneuver: str, found: Measure, limits: Limits, confidence: Confidence) -> list[Verdict]:
     """All criteria of a quantity."""
     theirs, mean = zone(found.theirs, confidence), float(np.mean(found.ours))
     experiments = (float(theirs.mean), float(theirs.low), float(theirs.high))
-    return list(judged(maneuver, found.name, found.rule, experiments, mean, found.averaged, limits, found.unit))
+    made = list(judged(maneuver, found.name, found.rule, experiments, mean, found.averaged, limits, found.unit))
+    return [unjudged(each, found.unknown) for each in made] if found.rule == "lag" and found.unknown else made
 
 
 def judged(
@@ -145,6 +153,12 @@ def within(maneuver: str, name: str, ours: float, theirs: float, limit: float, u
     fits = isfinite(error) and round(abs(error) - limit, DIGITS) <= 0.0
     error_unit = unit if over is None else "1"
     return Verdict(maneuver, name, ours, theirs, None, None, error, limit, PASS if fits else FAIL, "", unit, error_unit)
+
+
+def unjudged(found: Verdict, runs: Sequence[str]) -> Verdict:
+    """A verdict about a lag that nobody can read off some of the recorded runs: neither met nor failed."""
+    what = f"{', '.join(runs[:3])}{' and others' if len(runs) > 3 else ''}"
+    return replace(found, verdict=UNJUDGED, reason=f"{what}: {LATE}")
 
 
 def overridden(found: Sequence[Verdict], overrides: Sequence[Override]) -> list[Verdict]:

@@ -153,6 +153,7 @@ def measured(compared: Comparison) -> list[Measure]:
     theirs = [module.measures(run, at) for run, at in zip(compared.theirs, compared.marks, strict=True)]
     ours = [module.measures(run, at) for run, at in zip(compared.ours, compared.marks, strict=True)]
     averaged = module.measures(compared.averaged, last)
+    runs = tuple(outlier.called(run) for run in compared.theirs)
     shared = [name for name in theirs[0] if all(name in each for each in (*theirs, averaged))]
     if theirs[0] and not shared:
         problem = Problem(
@@ -160,7 +161,7 @@ def measured(compared: Comparison) -> list[Measure]:
         )
         raise ScenarioError(f"The runs of {compared.name} cannot be compared.", [problem])
     return [
-        Measure(name, rule, values(theirs, name), values(ours, name), float(averaged[name][0]), unit)
+        Measure(name, rule, values(theirs, name), values(ours, name), float(averaged[name][0]), unit, runs)
         for name, (_, rule, unit) in theirs[0].items()
         if name in shared
     ]

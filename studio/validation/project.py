@@ -15,6 +15,7 @@ overrides:
   - {maneuver: j_turn_20, criterion: "steady yaw_rate, averaged simulation", reason: "the sensor was mounted askew that day"}
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,7 @@ from studio.validation.criterion import Limits, Override
 from studio.validation.twin import are_twins
 from studio.validation.zone import Confidence
 
+SETS = ("calibration", "validation")
 SIZE_LIMIT = 1_000_000  # [B] of a project file
 
 
@@ -45,6 +47,18 @@ class Run(Settings):
     begin: float = number(0.0, unit="s", title="Begin", ge=0)
     end: float | None = Field(None, title="End", description="left out: to the end of the log", gt=0, json_schema_extra={"unit": "s"})
     mapping: str | None = Field(None, title="Mapping of this log", description="left out: that of the project")
+
+    @model_validator(mode="after")
+    def takes_time(self):
+        if self.end is not None and self.end <= self.begin:
+            raise ValueError(f"end {self.end:g} s must be later than begin {self.begin:g} s")
+        return self
+
+    def beyond(self, length: float) -> tuple[str, float] | None:
+        """What of it lies beyond a log of so many seconds: which time, and its value [s]; nothing that a period of the clock explains."""
+        last = length + recording.PERIOD + 1e-9
+        times = {"begin": self.begin + recording.PERIOD, "end": self.end or 0.0}
+        return next(((name, getattr(self, name)) for name, value in times.items() if value > last), None)
 
 
 class Trial(Settings):
@@ -98,6 +112,13 @@ class Project(Settings):
     maneuvers: dict[Name, Trial] = Field({}, title="Maneuvers", description="none: there is nothing to validate with yet")
     calibration: dict[Name, Calibration] = Field({}, title="Steps of calibration, in their order")
     overrides: list[Override] = Field([], title="What a person judged otherwise")
+
+    @property
+    def cuts(self) -> list[tuple[str, Run, str | None]]:
+        """The runs that are parts of their logs: where each stands, and by which mapping it is read."""
+        sets = [(f"maneuvers.{name}.{kind}", getattr(each, kind)) for name, each in self.maneuvers.items() for kind in SETS]
+        runs = [(f"{where}.{i}", run) for where, found in sets for i, run in enumerate(found)]
+        return [(where, run, run.mapping or self.mapping) for where, run in runs if run.begin or run.end is not None]
 
 
 @dataclass(frozen=True)
@@ -198,6 +219,7 @@ class Logs:
         if (asked.log, by) not in self.read:
             self.read[asked.log, by] = recording.load(self.folder / asked.log, self.known(by))
         whole = self.read[asked.log, by]
+        check_cuts([(asked.log, asked, float(whole.time[-1]))])
         if asked.begin == 0.0 and asked.end is None:
             return whole
         return whole.between(asked.begin, asked.end if asked.end is not None else float(whole.time[-1]))
@@ -205,6 +227,18 @@ class Logs:
     def known(self, name: str | None) -> Known | None:
         """A mapping by its name."""
         return mapping.read(self.folder / name) if name else None
+
+
+def check_cuts(asked: Iterable[tuple[str, Run, float]]) -> None:
+    """Refuses runs that begin or end beyond their log: where each stands, and how long its log is [s]; raises ScenarioError."""
+    remedy = "begin and end count from the first sample; leave the end out for all that was recorded"
+    found = [
+        Problem(f"{where}.{late[0]}", f"is beyond {run.log}", f"{late[1]:g} s", f"0 to {length:.2f} s", remedy)
+        for where, run, length in asked
+        if (late := run.beyond(length))
+    ]
+    if found:
+        raise ScenarioError("A run is cut from more than was recorded.", found)
 
 
 def apart(calibration: dict[str, list[Recording]], validation: dict[str, list[Recording]]) -> None:

@@ -10,12 +10,13 @@ from studio.parcel.report import STYLE, listed, section, table, value
 from studio.validation import figure, span
 from studio.validation import table as verdict
 from studio.validation.calibration import Estimate
-from studio.validation.criterion import FAIL, OVERRIDDEN, Verdict
+from studio.validation.criterion import FAIL, OVERRIDDEN, UNJUDGED, Verdict
 from studio.validation.judge import Comparison, Result
 from studio.validation.project import Loaded
 from studio.validation.zone import WORDS
 
-TONE = {"pass": "good", FAIL: "bad", OVERRIDDEN: "dim"}
+TONE = {"pass": "good", FAIL: "bad", OVERRIDDEN: "dim", UNJUDGED: "dim"}
+OTHERS = {FAIL: "failed", OVERRIDDEN: "overridden", UNJUDGED: "cannot be judged"}
 METHOD = (
     "The recorded inputs of real maneuvers drove the simulated vehicle open loop: once for every run, and once with the average of them. "
     "A maneuver is valid where the mean of the simulations lies in the interval of the experiments and the simulation of the averaged "
@@ -26,11 +27,10 @@ METHOD = (
 def report(loaded: Loaded, found: Result, estimates: dict[str, Estimate], number: int) -> str:
     """The page, as HTML."""
     title = f"{loaded.project.title}: iteration {number}"
-    failed = [each for each in found.verdicts if each.verdict == FAIL]
     parts = [
         f"<h1>{escape(title)}</h1>",
         f'<p class="dim">{escape(loaded.model.values.title)}; {escape(WORDS[found.confidence])}</p>',
-        section("Verdict", summary(found, failed)),
+        section("Verdict", summary(found)),
         section("Validated span", listed(span.told(found.span)) + limits(found)),
         section("What a person judged otherwise", overridden(found.verdicts)),
         section("What was calibrated", calibrated(estimates)),
@@ -41,14 +41,14 @@ def report(loaded: Loaded, found: Result, estimates: dict[str, Estimate], number
     return f'<!doctype html><html lang="en"><head>{head}<style>{STYLE}</style></head><body>{"".join(parts)}</body></html>\n'
 
 
-def summary(found: Result, failed: Sequence[Verdict]) -> str:
+def summary(found: Result) -> str:
     """Whether it is valid, in a sentence."""
     passed = sum(each.verdict == "pass" for each in found.verdicts)
     count = f"{passed} of {len(found.verdicts)} criteria are met"
-    others = [f"{len(failed)} failed" if failed else "", f"{n} overridden" if (n := len(found.verdicts) - passed - len(failed)) else ""]
+    others = [f"{n} {word}" for kind, word in OTHERS.items() if (n := sum(each.verdict == kind for each in found.verdicts))]
     word = '<b class="good">valid</b>' if found.is_valid else '<b class="bad">not valid</b>'
     doubt = f" {doubtful(found.doubtful)}" if found.doubtful else ""
-    verdict = f"<p>The vehicle is {word} for what these maneuvers ask: {count}{''.join(f', {each}' for each in others if each)}.{doubt}</p>"
+    verdict = f"<p>The vehicle is {word} for what these maneuvers ask: {count}{''.join(f', {each}' for each in others)}.{doubt}</p>"
     return verdict + listed(found.hints)
 
 

@@ -12,10 +12,13 @@ import pytest
 
 from studio import job
 from studio.errors import StoreError, UnknownError
+from studio.execution.record import Body
 from studio.kind import registry
+from studio.parcel import plan
 from studio.parcel.pack import pack
 from studio.parcel.repeat import repeat
 from studio.parcel.report import limits, report, value
+from studio.store.comparison import beside
 from studio.store.runs import open_runs
 from studio.store.verdict import judge, remark
 from tests.broken import EVERY, FLAWLESS
@@ -168,12 +171,42 @@ def test_the_page_says_what_is_in_the_database(place):
     told, row = " ".join(page.texts), runs.find(2)
     for words in ("candidate", "shorter <b>& safe</b>", "Ada", "<script>alert(1)</script>", "Look at 1 s.", "What differs from run 1"):
         assert words in told
-    assert "script" not in page.names and page.names.count("svg") == 4 and not page.open
+    assert "script" not in page.names and page.names.count("svg") == 6 and not page.open
     assert all(name in told and value(each.value) in told for name, each in row.metrics.items())
     assert row.state_hash in told and "applications.platoon.parameters.headway" in told
     assert "http://" not in report(runs, 2).replace("http://www.w3.org", "").replace("http://purl.org", "").replace(
         "http://creativecommons.org", ""
     )
+
+
+def test_the_page_shows_the_paths_and_the_moment_of_the_least_gap(place):
+    _, runs = place
+    row = runs.find(2)
+    found = plan.drive(runs, row)
+    assert found.own == tuple(runs.document(row)["vehicles"]) and set(found.own) <= set(found.places)
+    begin, least, end = plan.moments(found)
+    gaps = {name: runs.trace(2, [f"{name}.gap"])[f"{name}.gap"] for name in found.gaps}
+    (whose,) = least.around
+    assert gaps[whose][least.sample] == min(np.nanmin(each) for each in gaps.values() if np.isfinite(each).any())
+    assert found.time[begin.sample] == 0.0 and found.time[end.sample] == pytest.approx(2.0, abs=0.1)
+    page = Page(report(runs, 2))
+    told = " ".join(page.texts)
+    assert "From above" in told and "Film strip" in told and f"{found.time[least.sample]:.2f} s: least gap" in told
+
+
+def test_goals_are_counted_run_by_run(place):
+    """The sample wants no collision, which these two seconds meet, and now a time to collision that none of its cars can have."""
+    folder, runs = place
+    job.run(job.load(folder / "motorway_platoon.yaml", SHORT | {"goals.min_ttc.least": 500}), runs=runs)
+    first, third = beside(runs, [1, 3])["goals"]
+    assert (third["met"], third["of"]) == (1, 2) and first["of"] == 2
+    assert [each.split()[0] for each in third["missed"]] == ["min_ttc"]
+
+
+def test_a_car_is_drawn_where_it_stands():
+    """Heading to the north, its front 2 m before its centre: it reaches from 2 m behind to 2 m ahead, and 0.9 m to each side."""
+    x, y = plan.outline(10.0, 20.0, np.pi / 2, Body(4.0, 1.8, 2.0, 1000.0, 0.3))
+    assert (x.min(), x.max(), y.min(), y.max()) == pytest.approx((9.1, 10.9, 18.0, 22.0))
 
 
 def test_numbers_are_short_and_an_axis_is_not_scaled_by_one_needle():

@@ -105,6 +105,27 @@ def test_a_project_is_changed_by_patches_that_keep_its_comments(client, project,
     assert back.status_code == 200 and detail(client, project)["text"] == before["text"]
 
 
+def test_a_cut_beyond_its_log_is_refused_when_it_is_saved(client, project):
+    """The logs of the sample begin at 0 s; what the last one of a kind has stands in what it is looked at for."""
+    before = detail(client, project)
+    log = before["document"]["maneuvers"]["turn"]["validation"][0]["log"]
+    until = max(each["until"] for each in begun(client, project, task="look", log=log)["looked"]["ours"])
+    cut = lambda **times: [{"op": "replace", "path": "/maneuvers/turn/validation/0", "value": {"log": log, **times}}]  # noqa: E731
+    for times, field in (({"begin": 61.5, "end": 68}, "begin"), ({"end": until + 1}, "end"), ({"begin": until}, "begin")):
+        refused = client.patch(f"/api/validations/{project}", json=cut(**times), headers=PATCH)
+        assert refused.status_code == 422, times
+        (told,) = refused.json()["problems"]
+        assert told["where"] == f"maneuvers.turn.validation.0.{field}" and told["allowed"] == f"0 to {until:.2f} s", told
+    assert client.patch(f"/api/validations/{project}", json=cut(begin=2, end=1), headers=PATCH).status_code == 422
+    text = before["text"].replace(f"{{log: {log}}}", f"{{log: {log}, begin: 61.5}}")
+    assert text != before["text"] and client.put(f"/api/validations/{project}/text", content=text.encode()).status_code == 422
+    assert detail(client, project)["text"] == before["text"]
+    kept = client.patch(f"/api/validations/{project}", json=cut(begin=0.2, end=round(until, 2)), headers=PATCH)
+    assert kept.status_code == 200
+    client.patch(f"/api/validations/{project}", json=kept.json()["inverse"], headers=PATCH)
+    assert detail(client, project)["text"] == before["text"]
+
+
 def test_a_new_project_gets_its_files_and_loses_none(client, running):
     made = client.post("/api/validations", json={"name": "mine", "title": "My car", "vehicle": "bmw_320i"})
     assert made.status_code == 201 and made.json()["document"]["title"] == "My car"

@@ -1,11 +1,14 @@
 """Maneuvers in a long log: each is found where it was driven, aligned by its reference, and measured as its closed form says."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from studio.errors import ScenarioError
 from studio.log.recording import Recording
 from studio.validation import known, path
+from studio.validation.criterion import Limits, Measure, verdicts
 from studio.validation.judge import aligned
 from studio.validation.maneuver import double_lane_change, j_turn, oval
 
@@ -68,6 +71,20 @@ def test_a_step_that_is_followed_late_has_that_lag(late, side):
     )  # fmt: skip
     found = j_turn.measures(run, j_turn.marks(run))
     assert found["yaw_rate, lag of the step"] == (pytest.approx(late, abs=0.005), "lag", "s")
+
+
+def test_nobody_knows_the_lag_of_a_signal_that_begins_where_it_ends():
+    """A log of a logger that wrote its buffer in a wrong order: what came last stands before what came first."""
+    step = lambda t: np.clip((t - 2.0) / 0.2, 0.0, 1.0)  # noqa: E731
+    run = recording(8.0, speed=20.0, road_wheel_angle=lambda t: 0.02 * step(t), yaw_rate=lambda t: 0.2 * step(t), lateral_acceleration=0.0)
+    rolled = replace(run, signals=run.signals | {"yaw_rate": np.roll(run["yaw_rate"], 20)})
+    at = j_turn.marks(run)
+    (straight, *_), (lag, *_) = (j_turn.measures(each, at)["yaw_rate, lag of the step"] for each in (run, rolled))
+    assert straight == pytest.approx(0.0, abs=0.005) and np.isnan(lag)
+    found = Measure("lag", "lag", np.array([straight, lag]), np.array([0.0, 0.0]), 0.0, "s", ("day_1.csv", "day_2.csv"))
+    judged = verdicts("turn", found, Limits(), "two-sided")
+    assert [each.verdict for each in judged] == ["unjudged", "unjudged"]
+    assert all(each.reason.startswith("day_2.csv: beyond half of its value from the first sample on") for each in judged)
 
 
 def test_extrema_and_lags_of_both_half_waves():

@@ -71,6 +71,17 @@ def test_a_cut_is_told_as_a_project_takes_it(path):
     assert found["kind"] == "j_turn" and found["end"] - found["begin"] > 3.0
 
 
+@pytest.mark.parametrize("times", [{"begin": 61.5, "end": 68.0}, {"end": 68.0}])
+def test_a_cut_beyond_its_log_is_told_with_the_span_of_the_log(path, tmp_path, times):
+    document = yaml.safe_load(path.read_text())
+    document["maneuvers"]["turn"]["validation"][0] |= times
+    bad = path.with_name("beyond.yaml")
+    bad.write_text(yaml.safe_dump(document))
+    done = studio("validate", bad, "--db", tmp_path / "runs.db")
+    told = str(done.exception)
+    assert "is beyond turn_2.csv" in told and re.search(r"allowed: 0 to \d+\.\d\d s", told), told
+
+
 # -- bad input -------------------------------------------------------------------------------------------
 
 

@@ -27,10 +27,13 @@ from studio.scenario.text.patch import Operation
 from studio.scenario.text.source import Source
 from studio.server.scenarios import name as names
 from studio.server.validation import answer
+from studio.server.validation.length import Lengths
 from studio.store import iteration
 from studio.store.iteration import VALIDATION, Iteration
 from studio.store.runs import Runs
 from studio.validation import known, project
+from studio.validation.criterion import UNJUDGED
+from studio.validation.project import Run
 
 CALLED, PROJECT, RESULTS = "validation", "project.yaml", "results"
 OTHERS: dict[str, answer.FileKind] = {".yaml": "mapping", ".dbc": "dbc", ".tir": "tyre"}
@@ -46,6 +49,7 @@ class Projects:
 
     scenarios: Path
     lock: Lock = field(default_factory=Lock)
+    lengths: Lengths = field(default_factory=Lengths)
 
     @property
     def folder(self) -> Path:
@@ -158,6 +162,7 @@ class Projects:
 
         Raises UnknownError, StaleError, or ScenarioError with the lines; then nothing was written.
         """
+        self.check_cuts(name, self.expected(name, expected), checked(text, PROJECT))
         with self.lock:
             before = self.expected(name, expected)
             self.write(name, before, checked(text, PROJECT))
@@ -165,9 +170,11 @@ class Projects:
 
     def patch(self, name: str, patch: list[Operation], expected: str | None) -> tuple[str, list[Operation]]:
         """Changes a project file by a JSON patch that leaves it a project; its digest, and the inverse. Raises as `put` does."""
+        before = self.expected(name, expected)
+        self.check_cuts(name, before, applied(before, patch)[0])
         with self.lock:
             before = self.expected(name, expected)
-            after, inverse = texts.applied(file.checked(source.read(before, PROJECT), "project"), patch)
+            after, inverse = applied(before, patch)
             self.write(name, before, after)
         return digest(after.text), inverse
 
@@ -190,6 +197,14 @@ class Projects:
         if title in self.titles(but=name) and title != title_of(before):
             remedy = f"iterations are kept by title: choose another, such as {self.free_title(title)}"
             raise ConflictError("Another project has this title.", [Problem("title", "is taken", short(title), remedy=remedy)])
+
+    def check_cuts(self, name: str, before: str, after: Source) -> None:
+        """Raises ScenarioError for runs cut beyond their logs that were not so before. Logs are read here, so nobody waits at the lock."""
+        made = project.of_text(after)
+        check_inside(after.value, named(before))
+        new = [each for each in made.cuts if each[1:] not in cuts_of(before)]
+        lengths = self.lengths.of(self.folder / name, {(run.log, by) for _, run, by in new})
+        project.check_cuts((where, run, lengths[run.log, by]) for where, run, by in new if (run.log, by) in lengths)
 
     def delete_file(self, name: str, wanted: str) -> None:
         """Removes a file; raises UnknownError, or ConflictError for the project itself and for what it names."""
@@ -223,6 +238,18 @@ def title_of(text: str) -> str | None:
     with suppress(ScenarioError):
         return project.of_text(source.read(text, PROJECT)).title
     return None
+
+
+def cuts_of(text: str) -> list[tuple[Run, str | None]]:
+    """The cuts in a text of a project, each with its mapping; none of one that cannot be read."""
+    with suppress(ScenarioError):
+        return [each[1:] for each in project.of_text(source.read(text, PROJECT)).cuts]
+    return []
+
+
+def applied(text: str, patch: list[Operation]) -> tuple[Source, list[Operation]]:
+    """A text changed by a JSON patch, and the inverse; raises ScenarioError."""
+    return texts.applied(file.checked(source.read(text, PROJECT), "project"), patch)
 
 
 def checked(text: str, where: str) -> Source:
@@ -285,7 +312,8 @@ def told(each: Iteration) -> str:
     if each.step == VALIDATION:
         verdicts = [verdict["verdict"] for verdict in each.result["verdicts"]]
         doubt = f", {wide} by a wide interval alone" if (wide := each.result.get("doubtful", 0)) else ""
-        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met{doubt}"
+        left = f", {unknown} unjudged" if (unknown := verdicts.count(UNJUDGED)) else ""
+        return f"{verdicts.count('pass')} of {len(verdicts)} criteria met{left}{doubt}"
     return ", ".join(f"{found['path']} {found['value']:.5g} ± {2 * found['spread']:.2g}" for found in each.result["estimates"])
 
 

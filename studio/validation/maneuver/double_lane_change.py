@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
-from studio.log.smooth import crossing, smooth
+from studio.log.smooth import crossing, rise, smooth
 from studio.validation.marks import Lobe, Marks, Part, lacking, lobes, steering
 
 TITLE = "Double lane change"
@@ -84,7 +84,8 @@ def extrema(time: np.ndarray, values: np.ndarray, half: Part) -> tuple[list[floa
     second = first + int(np.argmin(y[first:]))
     places = [peak(t, y, first), peak(t, -y, second)]
     gains = [half.number * places[0][1], -half.number * places[1][1]]
-    lag = crossing(t[: first + 1], y[: first + 1], 0.5 * places[0][1]) - half.since if places[0][1] > 0 else float("nan")
+    reached = rise if window[0] else crossing  # what came before the window is known, what came before the log is not
+    lag = reached(t[: first + 1], y[: first + 1], 0.5 * places[0][1]) - half.since if places[0][1] > 0 else float("nan")
     return gains, [places[0][0] - half.since, places[1][0] - half.since], lag
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from studio.log.quantity import QUANTITIES
 from studio.log.recording import Recording
-from studio.log.smooth import crossing, smooth
+from studio.log.smooth import crossing, rise, smooth
 from studio.validation.marks import Lobe, Marks, lacking, lobes, mean, steering
 
 TITLE = "J-turn"
@@ -64,8 +64,8 @@ def measures(recording: Recording, at: Marks) -> dict:
 
 
 def lag(recording: Recording, name: str, at: Marks, steady: float) -> float:
-    """How much later than the wheel a signal reaches half of its steady value [s]."""
+    """How much later than the wheel a signal reaches half of its steady value [s]; not a number of one that begins beyond it."""
     if not steady:
         return float("nan")
     values = smooth(recording.time, recording[name]) * np.sign(steady)
-    return crossing(recording.time, values, 0.5 * abs(steady)) - at.reference
+    return rise(recording.time, values, 0.5 * abs(steady)) - at.reference

@@ -70,6 +70,7 @@ interface StudioPlace {
   time: number | undefined;
   ghosts: string | undefined;
   align: string | undefined;
+  camera: string | undefined;
 }
 
 /** The studio stays under the other places, so that its scene need not be loaded again. */
@@ -77,16 +78,16 @@ function Places() {
   const match = useMatch({ from: "/studio/$scenario", shouldThrow: false });
   const [last, setLast] = useState<StudioPlace>();
   const scenario = match?.params.scenario;
-  const { run, from, time, ghosts, align } = match?.search ?? {};
+  const { run, from, time, ghosts, align, camera } = match?.search ?? {};
   useEffect(() => {
     if (scenario === undefined) return;
-    setLast({ scenario, run, from, time: undefined, ghosts, align });
+    setLast({ scenario, run, from, time: undefined, ghosts, align, camera: undefined });
     rememberScenario(scenario);
   }, [scenario, run, from, ghosts, align]);
   // A scenario that was deleted or renamed meanwhile is let go.
   const { data: known } = useQuery(scenarios);
   const lost = last !== undefined && known !== undefined && !known.some(({ id }) => id === last.scenario);
-  const shown = scenario !== undefined ? { scenario, run, from, time, ghosts, align } : lost ? undefined : last;
+  const shown = scenario !== undefined ? { scenario, run, from, time, ghosts, align, camera } : lost ? undefined : last;
   return (
     <>
       {shown ? <StudioPage {...shown} active={scenario !== undefined} /> : null}

@@ -39,7 +39,10 @@ export const studioRoute = createRoute({
     /** Other runs among its cars, with commas, and the kind of event that is at the same time in all of them. */
     ghosts?: string | undefined;
     align?: string | undefined;
+    /** How the scene is looked at. */
+    camera?: string | undefined;
   } => ({
+    camera: text(search.camera),
     ghosts: text(search.ghosts),
     align: text(search.align),
     run: number(search.run),

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { finished, metric } from "../test/scenario";
-import { axesOf, firstAxes, placeOn, rangeOf, valueAt } from "./axes";
+import { type Axis, axesOf, axisOf, axisText, changed, firstAxes, placeOn, rangeAt, rangeOf, reordered, valueAt } from "./axes";
 import { filterOf } from "./filter";
 import { metricColumns, parameterColumns, RUN_COLUMNS, textOf } from "./table";
 
@@ -37,5 +37,31 @@ describe("axes", () => {
     expect(range("min_gap = 9")).toEqual([1, 1]);
     expect(range("min_gap < 100")).toEqual([0, 1]);
     expect(range("min_gap != 9")).toBeUndefined();
+  });
+  it("may stand on their head: what was above is below", () => {
+    const flipped = { ...gap, isFlipped: true };
+    expect(runs.map((run) => placeOn(flipped, run))).toEqual([0, 1, undefined, undefined]);
+    expect(valueAt(flipped, 0.25)).toBe(8.75);
+    expect(rangeAt(flipped, [0, 0.25])).toEqual([8.75, 9]);
+    expect(rangeOf(flipped, filterOf("min_gap >= 8.5", columns, textOf).bounds ?? [])).toEqual([0, 0.5]);
+  });
+  it("may be logarithmic: the geometric mean is in the middle", () => {
+    const log: Axis = { ...gap, low: 1, high: 100, isLog: true };
+    expect(valueAt(log, 0.5)).toBeCloseTo(10);
+    expect(rangeOf(log, filterOf("min_gap >= 10", columns, textOf).bounds ?? [])?.[0]).toBeCloseTo(0.5);
+  });
+  it("come back from an address as they were, and none has a logarithm of what is not positive", () => {
+    const wanted = changed(axes, 1, { isFlipped: true, isLog: true });
+    expect(wanted.map((axis) => axisOf(axisText(axis), axes)?.isLog)).toEqual([false, true, false]);
+    expect(axisOf(axisText(wanted[1] as Axis), axes)).toMatchObject({ isFlipped: true, isLog: true });
+    expect(axisOf("metric:min_gap!log", [{ ...gap, low: 0 }])?.isLog).toBe(false);
+    expect(axisOf("metric:unknown", axes)).toBeUndefined();
+  });
+  it("change places, and stay within the ends", () => {
+    const ids = (some: readonly Axis[]) => some.map(({ column }) => column.title);
+    const [a, b, c] = ids(axes);
+    expect(ids(reordered(axes, 0, 2))).toEqual([b, c, a]);
+    expect(ids(reordered(axes, 2, -1))).toEqual([c, a, b]);
+    expect(ids(reordered(axes, 2, 9))).toEqual([a, b, c]);
   });
 });

@@ -8,6 +8,10 @@ export interface Axis {
   column: Column;
   low: number;
   high: number;
+  /** The highest value is below. */
+  isFlipped?: boolean;
+  /** Equal ratios are equally long; of positive values alone. */
+  isLog?: boolean;
 }
 
 /** From which value to which. */
@@ -42,21 +46,63 @@ export function firstAxes(axes: readonly Axis[], runs: readonly ListedRun[]): st
   return [...of("parameters").slice(0, FIRST.parameters), ...metrics.slice(0, FIRST.metrics)].map(({ column }) => column.id);
 }
 
-/** 0 at the lowest value, 1 at the highest; nothing where a run has none. */
-export function placeOn({ column, low, high }: Axis, run: ListedRun): number | undefined {
-  const value = numberOf(column, run);
-  return value === undefined ? undefined : (value - low) / (high - low);
+/** Where a value stands: 0 at the lower end of the axis, 1 at the upper one. */
+function placeOf({ low, high, isFlipped, isLog }: Axis, value: number): number {
+  const place = isLog ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+  return isFlipped ? 1 - place : place;
+}
+
+/** The same of a run; nothing where it has no value. */
+export function placeOn(axis: Axis, run: ListedRun): number | undefined {
+  const value = numberOf(axis.column, run);
+  return value === undefined ? undefined : placeOf(axis, value);
 }
 
 /** The value at a place of an axis. */
-export const valueAt = ({ low, high }: Axis, place: number): number => low + Math.min(1, Math.max(0, place)) * (high - low);
+export function valueAt({ low, high, isFlipped, isLog }: Axis, place: number): number {
+  const inside = Math.min(1, Math.max(0, place));
+  const share = isFlipped ? 1 - inside : inside;
+  return isLog ? low * (high / low) ** share : low + share * (high - low);
+}
+
+/** From the least to the greatest of the values at two places. */
+export const rangeAt = (axis: Axis, places: readonly number[]): Range =>
+  places.map((place) => valueAt(axis, place)).sort((one, other) => one - other) as unknown as Range;
 
 /** Between which places of an axis a filter keeps the runs; nothing when it says nothing of it. */
-export function rangeOf({ column, low, high }: Axis, bounds: readonly Bound[]): Range | undefined {
+export function rangeOf(axis: Axis, bounds: readonly Bound[]): Range | undefined {
+  const { column, low, high } = axis;
   const own = bounds.filter((bound) => bound.column === column.id && bound.sign !== "!=");
   if (own.length === 0) return undefined;
   const least = Math.max(low, ...own.flatMap(({ sign, value }) => (sign.startsWith(">") || sign === "=" ? value : [])));
   const most = Math.min(high, ...own.flatMap(({ sign, value }) => (sign.startsWith("<") || sign === "=" ? value : [])));
-  const place = (value: number) => Math.min(1, Math.max(0, (value - low) / (high - low)));
-  return [place(least), place(most)];
+  const places = [least, most].map((value) => Math.min(1, Math.max(0, placeOf(axis, Math.min(high, Math.max(low, value))))));
+  return places.sort((one, other) => one - other) as unknown as Range;
 }
+
+// -- how somebody wants them ---------------------------------------------------------------------------
+
+const [FLIPPED, LOG] = ["!flipped", "!log"];
+
+/** An axis in an address: its column, and how it is drawn. */
+export const axisText = ({ column, isFlipped, isLog }: Axis): string => `${column.id}${isFlipped ? FLIPPED : ""}${isLog ? LOG : ""}`;
+
+/** The axis that an address names; none that is not there, and no logarithm of what is not positive. */
+export function axisOf(text: string, all: readonly Axis[]): Axis | undefined {
+  const [id = ""] = text.split("!");
+  const found = all.find(({ column }) => column.id === id);
+  return found && { ...found, isFlipped: text.includes(FLIPPED), isLog: text.includes(LOG) && canBeLog(found) };
+}
+
+export const canBeLog = ({ low }: Axis): boolean => low > 0;
+
+/** The axes with one of them at another place. */
+export function reordered(axes: readonly Axis[], from: number, to: number): Axis[] {
+  const next = [...axes];
+  next.splice(Math.min(axes.length - 1, Math.max(0, to)), 0, ...next.splice(from, 1));
+  return next;
+}
+
+/** The axes with one of them changed. */
+export const changed = (axes: readonly Axis[], at: number, change: Partial<Axis>): Axis[] =>
+  axes.map((axis, place) => (place === at ? { ...axis, ...change } : axis));

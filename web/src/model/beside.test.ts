@@ -1,5 +1,5 @@
-import { describe, expect, it } from "vitest";
-import { changeOf, commonKinds, differs, type MetricBeside, merged, namesOf, numbersOf, offsetsOf, standOf, tally } from "./beside";
+import { describe, expect, it, test } from "vitest";
+import { changeOf, commonKinds, differs, goalsTold, type MetricBeside, merged, namesOf, numbersOf, offsetsOf, standOf, tally } from "./beside";
 import type { RunEvent } from "./run";
 
 const metric = (part: Partial<MetricBeside>): MetricBeside => ({
@@ -105,4 +105,11 @@ describe("traces on one axis", () => {
   it("have nothing for a channel that a run has not", () => {
     expect(merged([trace([0], [1]), trace([0], [2])], [0, 0], [names, []])).toEqual([[0], [1]]);
   });
+});
+
+test("goals met are told with their number, and runs without any say so", () => {
+  expect(goalsTold({ met: 2, of: 3, missed: ["min_gap is 1 m, at least 2 is wanted"] })).toEqual({ text: "2 of 3", why: "min_gap is 1 m, at least 2 is wanted" });
+  expect(goalsTold({ met: 3, of: 3, missed: [] }).text).toBe("✓ 3 of 3");
+  expect(goalsTold({ met: 0, of: 0, missed: [] }).text).toBe("none set");
+  expect(goalsTold(null).text).toBe("not measured");
 });

@@ -45,6 +45,13 @@ export function standOf({ values, stands, goal }: MetricBeside, place: number, u
   return stands[place] ?? (goal === null ? "no goal" : "not ranked");
 }
 
+/** How many goals a run met, in words, with a sign that is no matter of colour. */
+export function goalsTold(goals: SideBySide["goals"][number]): { text: string; why: string } {
+  if (goals === null) return { text: "not measured", why: "The run did not come to its end" };
+  if (goals.of === 0) return { text: "none set", why: "Its scenario sets no goals" };
+  return { text: `${goals.met === goals.of ? "✓ " : ""}${goals.met} of ${goals.of}`, why: goals.missed.join("\n") };
+}
+
 /** How often a run stands better, worse and the same. */
 export function tally(metrics: readonly MetricBeside[], place: number, unranked: string): Record<Stand, number> {
   const counts: Record<Stand, number> = { better: 0, worse: 0, same: 0, "no goal": 0, "not ranked": 0, missing: 0 };

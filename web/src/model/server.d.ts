@@ -2245,6 +2245,21 @@ export interface components {
             alike: number;
         };
         /**
+         * GoalsMet
+         * @description How many of the goals of its scenario a run met.
+         */
+        GoalsMet: {
+            /** Met */
+            met: number;
+            /** Of */
+            of: number;
+            /**
+             * Missed
+             * @description what is told of those that it did not meet
+             */
+            missed: string[];
+        };
+        /**
          * Gone
          * @description News: there is no such scenario any more, or it cannot be read.
          */
@@ -2792,6 +2807,11 @@ export interface components {
             name: string;
             /** Tags */
             tags: string[];
+            /**
+             * Note
+             * @description what somebody has written about it: text with a little of Markdown, and times such as @12.3 s
+             */
+            note: string;
             /**
              * Settings
              * @description the value of every parameter that one of the listed runs has set, as this one had it; none that it has not
@@ -4470,6 +4490,11 @@ export interface components {
             name: string;
             /** Tags */
             tags: string[];
+            /**
+             * Note
+             * @description what somebody has written about it: text with a little of Markdown, and times such as @12.3 s
+             */
+            note: string;
         };
         /**
          * RunDetail
@@ -4535,6 +4560,11 @@ export interface components {
             /** Tags */
             tags: string[];
             /**
+             * Note
+             * @description what somebody has written about it: text with a little of Markdown, and times such as @12.3 s
+             */
+            note: string;
+            /**
              * Kinds
              * @description digests of all kinds that it used, by sort.name
              */
@@ -4568,11 +4598,6 @@ export interface components {
              * @description all that were given, the first first
              */
             verdicts: components["schemas"]["Verdict"][];
-            /**
-             * Note
-             * @description what somebody has written about it
-             */
-            note: string;
         };
         /**
          * SamplesNews
@@ -4809,6 +4834,11 @@ export interface components {
              * @description of every run why its metrics are not ranked; empty when they are
              */
             unranked: string[];
+            /**
+             * Goals
+             * @description of every run; null of one that was not measured to its end
+             */
+            goals: (components["schemas"]["GoalsMet"] | null)[];
             /** Parameters */
             parameters: components["schemas"]["Beside"][];
             /** Metrics */

@@ -1,5 +1,6 @@
 /** The table of runs: its columns, their order, and which of them say something. */
 
+import { plain } from "./note";
 import { unitAt } from "./form";
 import { explained, type Measure, titleOf } from "./measure";
 import type { Json, ListedRun } from "./run";
@@ -30,6 +31,7 @@ export const RUN_COLUMNS: Column[] = ([
   { id: "verdict", title: "Verdict", unit: "", name: "What was decided about it (C: candidate, D: discarded)", numeric: false, value: ({ verdict }) => verdict },
   { id: "name", title: "Name", unit: "", name: "What it was called", numeric: false, value: ({ name }) => name },
   { id: "tags", title: "Tags", unit: "", name: "What it is found by", numeric: false, value: ({ tags }) => tags },
+  { id: "note", title: "Note", unit: "", name: "What was written about it", numeric: false, value: ({ note }) => plain(note) || null },
   { id: "parent", title: "Parent", unit: "", name: "The run it descends from", numeric: false, value: ({ parent }) => parent },
   { id: "created", title: "Created", unit: "", name: "When it was started", numeric: false, value: ({ created }) => created },
   { id: "seed", title: "Seed", unit: "", name: "Seed of the random numbers", numeric: true, value: ({ seed }) => seed },

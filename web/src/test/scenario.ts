@@ -182,6 +182,7 @@ export const finished = (part: Partial<ListedRun>): ListedRun => ({
   reason: "",
   name: "",
   tags: [],
+  note: "",
   settings: part.parameters ?? {},
   ...part,
 });

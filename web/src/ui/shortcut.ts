@@ -78,6 +78,22 @@ export function useShortcuts(handlers: Record<string, () => void>, enabled = tru
   }, [enabled]);
 }
 
+/** Ctrl+Z takes the last change back, but not while one types: a field has its own. */
+export function useUndoKey(undo: () => void): void {
+  const latest = useRef(undo);
+  latest.current = undo;
+  useEffect(() => {
+    const listen = (event: KeyboardEvent) => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey || event.key.toLowerCase() !== "z") return;
+      if (event.defaultPrevented || isTaken(event.target, "z")) return;
+      event.preventDefault();
+      latest.current();
+    };
+    window.addEventListener("keydown", listen);
+    return () => window.removeEventListener("keydown", listen);
+  }, []);
+}
+
 /** Ctrl+S saves what is edited and not the page, wherever the focus is; while a dialog is open it belongs to that. */
 export function useSaveKey(save: () => void): void {
   const latest = useRef(save);

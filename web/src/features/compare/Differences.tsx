@@ -3,6 +3,7 @@
 import { Table, Text } from "@mantine/core";
 import { Link } from "@tanstack/react-router";
 import type { SideBySide } from "../../model/beside";
+import { plain } from "../../model/note";
 import { unitAt } from "../../model/form";
 import type { Json } from "../../model/run";
 import { formatValue, withUnit } from "../../model/units";
@@ -54,6 +55,7 @@ export function Differences({ found }: { found: SideBySide }) {
               </Table.Td>
             ))}
           </Table.Tr>
+          {runs.some(({ note }) => note) ? <Row name="Note" values={runs.map(({ note }) => plain(note) || null)} /> : null}
         </Table.Tbody>
       </Table>
     </section>

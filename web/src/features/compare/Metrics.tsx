@@ -3,7 +3,7 @@
 import { Table, Text } from "@mantine/core";
 import { Link } from "@tanstack/react-router";
 import { useGlossary } from "../../api/glossary";
-import { changeOf, differs, type MetricBeside, type SideBySide, type Stand, standOf, tally } from "../../model/beside";
+import { changeOf, differs, goalsTold, type MetricBeside, type SideBySide, type Stand, standOf, tally } from "../../model/beside";
 import { explained, titleOf } from "../../model/measure";
 import { whom } from "../../model/scope";
 import { formatDifference, formatNumber, formatRelative, formatTime, unitText, withUnit, words } from "../../model/units";
@@ -55,6 +55,7 @@ export function Metrics({ found, everything }: Props) {
             </Table.Tr>
           </Table.Thead>
           <Table.Tbody>
+            <Goals found={found} />
             {shown.map((metric) => (
               <MetricRow key={metric.name} metric={metric} found={found} />
             ))}
@@ -77,6 +78,29 @@ export function Metrics({ found, everything }: Props) {
         </Table>
       )}
     </section>
+  );
+}
+
+/** How many of its goals each run met; what it missed stands below. */
+function Goals({ found: { runs, goals } }: { found: SideBySide }) {
+  if (!goals.some((each) => each && each.of > 0)) return null;
+  return (
+    <Table.Tr>
+      <Table.Th scope="row">Goals met</Table.Th>
+      {runs.map(({ run }, place) => {
+        const said = goalsTold(goals[place] ?? null);
+        return (
+          <Table.Td key={run} ta="right" title={said.why} fw={700}>
+            {said.text}
+            {goals[place]?.missed.map((each) => (
+              <Text key={each} size="xs" c="dimmed" className={classes.about}>
+                {each}
+              </Text>
+            ))}
+          </Table.Td>
+        );
+      })}
+    </Table.Tr>
   );
 }
 

@@ -1,8 +1,8 @@
 /** One line a run over parallel axes. Lines are on a canvas, since there may be ten thousand; axes and what is hovered over it. */
 
 import { useElementSize } from "@mantine/hooks";
-import { type PointerEvent, useEffect, useRef, useState } from "react";
-import { type Axis, placeOn, type Range, rangeOf, valueAt } from "../../model/axes";
+import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState } from "react";
+import { type Axis, canBeLog, changed, placeOn, type Range, rangeAt, rangeOf, reordered } from "../../model/axes";
 import type { ListedRun } from "../../model/run";
 import { formatNumber, formatValue, withUnit } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -24,7 +24,12 @@ interface Stroke {
   to: number;
 }
 
-export function Parallel({ axes, runs, shown, bounds, onRange, onHover }: Drawn) {
+interface Props extends Drawn {
+  /** The axes stand otherwise. */
+  onAxes: (axes: readonly Axis[]) => void;
+}
+
+export function Parallel({ axes, runs, shown, bounds, onRange, onHover, onAxes }: Props) {
   const { ref, width } = useElementSize();
   const canvas = useRef<HTMLCanvasElement>(null);
   const dark = useDark();
@@ -56,9 +61,9 @@ export function Parallel({ axes, runs, shown, bounds, onRange, onHover }: Drawn)
   const release = () => {
     if (!stroke) return;
     const axis = axes[stroke.axis] as Axis;
-    const ends = [stroke.from, stroke.to].sort((one, other) => one - other).map((place) => valueAt(axis, place));
+    const ends = rangeAt(axis, [stroke.from, stroke.to]);
     const isClick = Math.abs(stroke.to - stroke.from) * (HEIGHT - TOP - BOTTOM) < 4;
-    onRange([[axis, isClick ? undefined : (ends as unknown as Range)]]);
+    onRange([[axis, isClick ? undefined : (ends)]]);
     setStroke(undefined);
   };
   return (
@@ -81,13 +86,22 @@ export function Parallel({ axes, runs, shown, bounds, onRange, onHover }: Drawn)
             key={axis.column.id}
             axis={axis}
             x={x(index)}
-            room={axes.length < 2 ? width : x(1) - x(0) - 12}
-            end={axes.length < 2 ? undefined : index === 0 ? "first" : index === axes.length - 1 ? "last" : undefined}
             range={stroke?.axis === index ? sorted(stroke) : rangeOf(axis, bounds)}
           />
         ))}
         {hovered ? <polyline points={points(hovered, axes, x)} className={classes.hovered} /> : null}
       </svg>
+      {axes.map((axis, index) => (
+        <AxisTitle
+          key={axis.column.id}
+          axis={axis}
+          x={x(index)}
+          room={axes.length < 2 ? width : x(1) - x(0) - 12}
+          onMove={(by) => onAxes(reordered(axes, index, index + by))}
+          onDrop={(px) => onAxes(reordered(axes, index, axes.length < 2 ? 0 : Math.round((x(index) + px - SIDE) / (x(1) - x(0)))))}
+          onChange={(change) => onAxes(changed(axes, index, change))}
+        />
+      ))}
       {hovered ? <Told run={hovered} axes={axes} /> : null}
     </div>
   );
@@ -100,33 +114,83 @@ const placeAt = (at: number) => Math.min(1, Math.max(0, (HEIGHT - BOTTOM - at) /
 interface AxisProps {
   axis: Axis;
   x: number;
-  end: "first" | "last" | undefined;
-  /** [px] For its title. */
-  room: number;
   range: Range | undefined;
 }
 
-/** Title above, which stays inside the picture at its `end`, the axis' own ends, the range that is kept, and the place of runs that have no value. */
-function AxisLine({ axis, x, end, room, range }: AxisProps) {
+/** The axis' own ends, the range that is kept, and the place of runs that have no value. */
+function AxisLine({ axis, x, range }: AxisProps) {
   const { column, low, high } = axis;
   return (
     <g className={classes.axis} data-axis={column.id}>
       <title>{`${column.name}: drag along the axis to keep a range, click to let all through`}</title>
       <rect x={x - GRIP} y={TOP} width={2 * GRIP} height={HEIGHT - TOP - BOTTOM} className={classes.grip} />
       <line x1={x} x2={x} y1={TOP} y2={HEIGHT - BOTTOM} />
-      <text x={x} y={12} className={classes.title} data-end={end}>
-        {short(withUnit(column.title, column.unit), room)}
-      </text>
       <text x={x} y={TOP - 6}>
-        {formatNumber(high)}
+        {formatNumber(axis.isFlipped ? low : high)}
       </text>
       <text x={x} y={HEIGHT - BOTTOM + 13}>
-        {formatNumber(low)}
+        {formatNumber(axis.isFlipped ? high : low)}
       </text>
       {range ? (
         <rect x={x - 6} width={12} y={y(range[1])} height={Math.max(3, y(range[0]) - y(range[1]))} className={classes.range} />
       ) : null}
     </g>
+  );
+}
+
+interface TitleProps {
+  axis: Axis;
+  x: number;
+  /** [px] For what is written. */
+  room: number;
+  /** By so many places. */
+  onMove: (by: number) => void;
+  /** It was dragged by so many pixels. */
+  onDrop: (px: number) => void;
+  onChange: (change: Partial<Axis>) => void;
+}
+
+/** The title of an axis, by which it is taken: dragged, or by keys. */
+function AxisTitle({ axis, x, room, onMove, onDrop, onChange }: TitleProps) {
+  const { column, isFlipped = false, isLog = false } = axis;
+  const from = useRef<number>(undefined);
+  const name = withUnit(column.title, column.unit);
+  const how = [isFlipped ? "flipped" : "", isLog ? "logarithmic" : ""].filter(Boolean).join(", ");
+  const acts: Record<string, () => void> = {
+    ArrowLeft: () => onMove(-1),
+    ArrowRight: () => onMove(1),
+    f: () => onChange({ isFlipped: !isFlipped }),
+    l: () => canBeLog(axis) && onChange({ isLog: !isLog }),
+  };
+  const press = (event: KeyboardEvent) => {
+    const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act) return;
+    event.preventDefault();
+    event.stopPropagation();
+    act();
+  };
+  return (
+    <button
+      type="button"
+      className={classes.title}
+      style={{ left: Math.max(x, SIDE - 8), maxWidth: Math.max(room, 2 * SIDE - 16) }}
+      aria-label={`Axis ${name}${how ? `, ${how}` : ""}`}
+      aria-keyshortcuts="ArrowLeft ArrowRight F L"
+      title={`${name}: drag or arrow keys move it, F flips it${canBeLog(axis) ? ", L makes it logarithmic" : ""}`}
+      onKeyDown={press}
+      onPointerDown={(event) => {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        from.current = event.clientX;
+      }}
+      onPointerUp={(event) => {
+        if (from.current !== undefined && Math.abs(event.clientX - from.current) > NEAR) onDrop(event.clientX - from.current);
+        from.current = undefined;
+      }}
+    >
+      {isFlipped ? "↓ " : ""}
+      {isLog ? "log " : ""}
+      {short(name, room)}
+    </button>
   );
 }
 

@@ -62,7 +62,7 @@ function Detail({ run }: { run: RunDetail }) {
           </Card>
         ) : null}
         <Card title="Verdict">
-          <VerdictCard run={run} />
+          <VerdictCard run={run} onSeek={run.channels.length > 0 ? seek : undefined} />
         </Card>
         <Card title="Metrics">
           <Metrics run={run} onSeek={seek} />

@@ -435,6 +435,8 @@ function Cell({ column, run, isBase }: { column: Column; run: ListedRun; isBase:
       return formatMoment(run.created);
     case "tags":
       return run.tags.length ? run.tags.join(", ") : <span className={classes.none}>–</span>;
+    case "note":
+      return value ? <span className={classes.said} title={run.note}>{String(value)}</span> : <span className={classes.none}>–</span>;
     case "parent":
       return run.parent === null ? <span className={classes.none}>–</span> : `#${run.parent}`;
     case "sim_time":

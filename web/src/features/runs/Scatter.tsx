@@ -2,7 +2,7 @@
 
 import { useElementSize } from "@mantine/hooks";
 import { type PointerEvent, useEffect, useRef, useState } from "react";
-import { type Axis, placeOn, type Range, valueAt } from "../../model/axes";
+import { type Axis, placeOn, rangeAt } from "../../model/axes";
 import type { ListedRun } from "../../model/run";
 import { formatNumber, withUnit } from "../../model/units";
 import { useDark } from "../../ui/dark";
@@ -84,7 +84,7 @@ function Cell({ across, up, runs, shown, onRange, onHover }: CellProps) {
     setBox(undefined);
     const wide = Math.abs(box.to[0] - box.from[0]) > 3 || Math.abs(box.to[1] - box.from[1]) > 3;
     const range = (axis: Axis, places: readonly number[]) =>
-      [...places].sort((one, other) => one - other).map((each) => valueAt(axis, each)) as unknown as Range;
+      rangeAt(axis, places);
     const ends = [box.from, box.to];
     onRange([
       [across, wide ? range(across, ends.map(([x]) => (x - PAD) / (width - 2 * PAD))) : undefined],

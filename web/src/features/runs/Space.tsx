@@ -2,7 +2,7 @@
 
 import { Group, MultiSelect, SegmentedControl, Text } from "@mantine/core";
 import { useMemo } from "react";
-import { type Axis, axesOf, firstAxes, type Range } from "../../model/axes";
+import { type Axis, axesOf, axisOf, axisText, firstAxes, type Range } from "../../model/axes";
 import { type Bound, filterOf, withRange } from "../../model/filter";
 import type { ListedRun } from "../../model/run";
 import { type Column, textOf } from "../../model/table";
@@ -48,7 +48,8 @@ const MOST_POINTS = 5;
 export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes: chosen, onView, onFilter, onHover }: Props) {
   const all = useMemo(() => axesOf(columns, runs), [columns, runs]);
   const ids = chosen === undefined ? firstAxes(all, runs) : chosen.split(",");
-  const axes = useMemo(() => ids.flatMap((id) => all.find(({ column }) => column.id === id) ?? []), [all, ids.join()]);
+  const axes = useMemo(() => ids.flatMap((id) => axisOf(id, all) ?? []), [all, ids.join()]);
+  const onAxes = (next: readonly Axis[]) => onView({ draw, axes: next.length ? next.map(axisText).join(",") : undefined });
   const onRange: Drawn["onRange"] = (ranges) => {
     let next = text;
     for (const [axis, range] of ranges) next = withRange(next, boundsOf(next, columns), axis.column, columns, range);
@@ -60,7 +61,9 @@ export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes
         Here runs are drawn over what was set and what was measured, as soon as two of them differ in two numbers.
       </Empty>
     );
-  const drawn: Drawn = { axes: draw === "points" ? axes.slice(0, MOST_POINTS) : axes, runs, shown, bounds, onRange, onHover };
+  // Points stand over plain axes.
+  const plain = axes.slice(0, MOST_POINTS).map(({ column, low, high }) => ({ column, low, high }));
+  const drawn: Drawn = { axes: draw === "points" ? plain : axes, runs, shown, bounds, onRange, onHover };
   return (
     <section className={classes.space} aria-label="Runs over their parameters and metrics" data-testid="space">
       <Group gap="sm" align="center" px={16}>
@@ -82,16 +85,17 @@ export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes
           aria-label="Axes"
           placeholder={ids.length ? "" : "Choose axes"}
           value={axes.map(({ column }) => column.id)}
-          onChange={(next) => onView({ draw, axes: next.length ? next.join(",") : undefined })}
+          onChange={(next) => onAxes(next.flatMap((id) => axes.find(({ column }) => column.id === id) ?? axisOf(id, all) ?? []))}
           data={all.map(({ column }) => ({ value: column.id, label: withUnit(column.title, column.unit) }))}
           maxDropdownHeight={320}
         />
         <Text size="xs" c="dimmed">
           {draw === "points" && axes.length > MOST_POINTS ? `The first ${MOST_POINTS} of ${axes.length}. ` : ""}
           Drag along an axis to filter; it stands in the filter above.
+          {draw === "points" ? "" : " Drag a title, or use the arrow keys on it, to move its axis; F flips it, L makes it logarithmic."}
         </Text>
       </Group>
-      {draw === "points" ? <Scatter {...drawn} /> : <Parallel {...drawn} />}
+      {draw === "points" ? <Scatter {...drawn} /> : <Parallel {...drawn} onAxes={onAxes} />}
     </section>
   );
 }

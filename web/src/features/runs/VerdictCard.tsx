@@ -8,11 +8,18 @@ import { formatMoment } from "../../model/units";
 import { ACTS, hindrance, suggestion, tagsOf, type Word } from "../../model/verdict";
 import { notifyError } from "../../ui/notify";
 import { useShortcuts } from "../../ui/shortcut";
+import { Note } from "../../ui/Note";
 import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
 import { VerdictForm } from "./VerdictForm";
 
-export function VerdictCard({ run }: { run: RunDetail }) {
+interface Props {
+  run: RunDetail;
+  /** Where the times of a note lead. */
+  onSeek?: ((time: number) => void) | undefined;
+}
+
+export function VerdictCard({ run, onSeek }: Props) {
   const hint = suggestion(run);
   const [word, setWord] = useState<Word>(hint?.word ?? (hindrance(run, "candidate") ? "discarded" : "candidate"));
   const choose = (next: Word) => () => {
@@ -33,7 +40,7 @@ export function VerdictCard({ run }: { run: RunDetail }) {
       ) : null}
       <VerdictForm run={run} word={word} onWord={setWord} />
       <History run={run} />
-      <Remarks key={[run.name, ...run.tags, run.note].join("\n")} run={run} />
+      <Remarks key={[run.name, ...run.tags, run.note].join("\n")} run={run} onSeek={onSeek} />
     </>
   );
 }
@@ -57,7 +64,7 @@ function History({ run }: { run: RunDetail }) {
 }
 
 /** What it is called, and found by. */
-function Remarks({ run }: { run: RunDetail }) {
+function Remarks({ run, onSeek }: Props) {
   const [name, setName] = useState(run.name);
   const [tags, setTags] = useState(run.tags.join(", "));
   const [note, setNote] = useState(run.note);
@@ -77,7 +84,20 @@ function Remarks({ run }: { run: RunDetail }) {
         value={tags}
         onChange={(event) => setTags(event.currentTarget.value)}
       />
-      <Textarea size="xs" label="Note" autosize minRows={2} value={note} onChange={(event) => setNote(event.currentTarget.value)} />
+      <Textarea
+        size="xs"
+        label="Note"
+        description="**strong**, *emphasis*, `literal`, lists, links; @12.3 s leads to that time"
+        autosize
+        minRows={2}
+        value={note}
+        onChange={(event) => setNote(event.currentTarget.value)}
+      />
+      {note ? (
+        <section aria-label="The note as it is read" className={classes.note}>
+          <Note note={note} onSeek={onSeek} />
+        </section>
+      ) : null}
       <Group justify="flex-end" gap="xs">
         <Button type="submit" size="compact-xs" variant="light" disabled={!changed} loading={remark.isPending}>
           Save

@@ -1,14 +1,16 @@
 /** The 3D scene in its frame, with the controls that belong to looking. */
 
-import { NativeSelect, SegmentedControl } from "@mantine/core";
+import { ActionIcon, NativeSelect, SegmentedControl, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { memo, useCallback, useEffect, useRef, useState } from "react";
 import { scenePlace } from "../../api/stage";
 import type { Scene, SceneVehicle } from "../../api/types";
+import { type Camera, cameraOf, cameraText } from "../../model/camera";
 import { isTraffic } from "../../model/channel";
 import { formatDifference, words } from "../../model/units";
 import { useDark } from "../../ui/dark";
-import { useBridge, useMap, type View } from "./bridge";
+import { Icon } from "../../ui/Icon";
+import { cameraIn, useBridge, useMap, type View } from "./bridge";
 import { LayersMenu } from "./LayersMenu";
 import { type Sight, useLayers } from "./sight";
 import classes from "./Studio.module.css";
@@ -38,11 +40,14 @@ interface Props {
   /** What is drawn over the scene, and which layers of it cannot be. */
   sight: Sight;
   missing: Readonly<Record<string, string>>;
+  /** How a link wants it to be looked at; and the address of what is shown, to be completed with how it is looked at now. */
+  camera: string | undefined;
+  onLink: (camera: string) => void;
   /** The scene has lost what it showed, as after a restart of the server. */
   onEmptied: () => void;
 }
 
-export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, title, waits, map, ghosts, run, sight, missing, onEmptied }: Props) {
+export const SceneView = memo(function SceneView({ vehicles, attribution, active, running, title, waits, map, ghosts, run, sight, missing, camera, onLink, onEmptied }: Props) {
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const [followed, setFollowed] = useState<number | null>(null);
@@ -75,6 +80,19 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     send({ studio: "follow", vehicle: followed });
     send({ studio: "view", preset: view });
   }, [followed, view, ready, send]);
+  useCamera(camera, vehicles, ready, (wanted, vehicle) => {
+    chosen.current = true;
+    setFollowed(vehicle);
+    setView(wanted.view === "free" ? "overview" : wanted.view);
+    told.current = "overview";
+    if (vehicle === null) send({ studio: "follow", vehicle });
+    send({ studio: "camera", camera: wanted });
+  });
+  const link = () => {
+    const now = cameraIn(frame.current);
+    const vehicle = now?.at ? "" : (vehicles.find(({ index }) => index === followed)?.name ?? "");
+    if (now) onLink(cameraText({ ...now, vehicle, view: vehicle === "" ? "free" : view === "overview" ? "chase" : view }));
+  };
   const first = vehicles[0]?.index;
   useEffect(() => {
     if (!running || chosen.current || first === undefined) return;
@@ -109,6 +127,11 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
             value={view}
             onChange={(value) => choose(value as View)}
           />
+          <Tooltip label="Copy a link to this view">
+            <ActionIcon size={30} variant="default" aria-label="Copy a link to this view" onClick={link}>
+              <Icon name="link" size={14} />
+            </ActionIcon>
+          </Tooltip>
           <LayersMenu on={layers} onChange={chooseLayers} running={run} missing={missing} />
         </div>
       ) : null}
@@ -120,6 +143,20 @@ export const SceneView = memo(function SceneView({ vehicles, attribution, active
     </div>
   );
 });
+
+/** A link may say how it is looked at: once its scene is up, and the car that it follows is there, that is so; then one looks as one likes. */
+function useCamera(text: string | undefined, vehicles: readonly SceneVehicle[], ready: number, look: (wanted: Camera, vehicle: number | null) => void) {
+  const [wanted, setWanted] = useState(() => cameraOf(text));
+  useEffect(() => setWanted((before) => cameraOf(text) ?? before), [text]);
+  const latest = useRef(look);
+  latest.current = look;
+  useEffect(() => {
+    if (!wanted || ready === 0 || vehicles.length === 0) return;
+    const followed = vehicles.find(({ name }) => name === wanted.vehicle);
+    if (followed || !wanted.vehicle) latest.current(wanted, followed?.index ?? null);
+    setWanted(undefined);
+  }, [wanted, ready, vehicles]);
+}
 
 /** Over the scene while that is not what the title says: what is going on, and for how long. */
 function Cover({ title, what }: { title: string; what: string }) {

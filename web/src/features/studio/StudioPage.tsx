@@ -1,14 +1,15 @@
 /** The studio: the scene, the parameters, the run and its charts. */
 
-import { Button, NativeSelect, Text, Tooltip } from "@mantine/core";
+import { Anchor, Button, NativeSelect, Text, Tooltip } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
-import { Link, useNavigate } from "@tanstack/react-router";
-import { memo, useEffect } from "react";
+import { Link, useNavigate, useRouter } from "@tanstack/react-router";
+import { memo, useCallback, useEffect } from "react";
 import * as queries from "../../api/queries";
 import { useZoom } from "../../charts/zoom";
 import { exchanged, fromSet, sameChanges, withChange } from "../../model/form";
 import { isLive, type RunDetail } from "../../model/run";
 import { Icon } from "../../ui/Icon";
+import { notify } from "../../ui/notify";
 import { Failure, Loading } from "../../ui/State";
 import { useShortcuts } from "../../ui/shortcut";
 import { useControl, useTakeOver } from "./control";
@@ -41,11 +42,13 @@ interface Props {
   /** Other runs among the cars of this one, with commas; and what is at the same time in all of them. */
   ghosts: string | undefined;
   align: string | undefined;
+  /** How a link wants the scene to be looked at. */
+  camera: string | undefined;
   /** False while another page covers this one; the scene and the run go on. */
   active: boolean;
 }
 
-export function StudioPage({ scenario: id, run, from, time, ghosts, align, active }: Props) {
+export function StudioPage({ scenario: id, run, from, time, ghosts, align, camera, active }: Props) {
   const [draft, update, isFresh] = useDraft(id);
   const form = useForm(id, draft.changes);
   const seed = draft.seed ?? form.seed;
@@ -64,6 +67,7 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
   const sight = useSight(shown.live, scene.vehicles);
   const head = usePlayhead(playable && !scene.settling ? run : undefined, scene, sight);
   useSeekOnce(id, { run, ghosts, align }, head, time);
+  const link = useViewLink(id, { run, ghosts, align }, head);
   const bottom = useBottom();
   const title = useQuery(queries.scenarios).data?.find((each) => each.id === id)?.title ?? id;
   const space = { paused: control.onResume, running: control.onPause }[status as string] ?? head?.toggle ?? control.onRun;
@@ -103,6 +107,8 @@ export function StudioPage({ scenario: id, run, from, time, ghosts, align, activ
         run={head !== undefined || shown.live !== undefined}
         sight={sight}
         missing={scene.missing}
+        camera={camera}
+        onLink={link}
         running={shown.live !== undefined && isLive(shown.live.status)}
       />
       {active ? <Splitter {...bottom} /> : null}
@@ -137,6 +143,25 @@ function useSeekOnce(id: string, { run, ghosts, align }: Pick<Props, "run" | "gh
     head.seek(time);
     navigate({ to: "/studio/$scenario", params: { scenario: id }, search: { run, ghosts, align }, replace: true });
   }, [id, run, ghosts, align, head, time, navigate]);
+}
+
+/** Copies the address of what is seen now: the run, its time, and how one looks at it. */
+function useViewLink(id: string, { run, ghosts, align }: Pick<Props, "run" | "ghosts" | "align">, head: Playhead | undefined) {
+  const router = useRouter();
+  return useCallback(
+    (camera: string) => {
+      const time = head && Number(head.time.toFixed(3));
+      const { href } = router.buildLocation({ to: "/studio/$scenario", params: { scenario: id }, search: { run, ghosts, align, time, camera } });
+      const address = `${location.origin}${href}`;
+      // Without a secure connection browsers have no clipboard.
+      const copied = navigator.clipboard?.writeText(address) ?? Promise.reject(new Error("no clipboard"));
+      copied.then(
+        () => notify("The link is copied", "Who opens it sees this run at this time, from where you look at it."),
+        () => notify("This is the link", <Anchor href={address}>{address}</Anchor>, "teal", { autoClose: 30000 }),
+      );
+    },
+    [router, id, run, ghosts, align, head],
+  );
 }
 
 interface ParametersProps {

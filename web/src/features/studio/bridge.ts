@@ -2,6 +2,7 @@
 
 import { type RefObject, useCallback, useEffect, useState } from "react";
 import type { SceneVehicle } from "../../api/types";
+import type { Camera } from "../../model/camera";
 import type { Layers } from "../../model/layer";
 
 export type View = "overview" | "top" | "chase" | "driver";
@@ -13,6 +14,7 @@ export type Command =
   | { studio: "rest"; rest: boolean }
   | { studio: "follow"; vehicle: number | null }
   | { studio: "view"; preset: View }
+  | { studio: "camera"; camera: Omit<Camera, "view" | "vehicle"> }
   | { studio: "theme"; dark: boolean };
 
 interface Bridge {
@@ -59,8 +61,11 @@ export function useBridge(
 const LOOK_MS = 1000;
 
 interface SceneFrame extends Window {
-  __studioBridge?: { client: () => { nodeRefFromName?: Record<string, unknown> } | undefined };
+  __studioBridge?: { camera?: () => Omit<Camera, "view" | "vehicle"> | null; client: () => { nodeRefFromName?: Record<string, unknown> } | undefined };
 }
+
+/** How the scene is looked at now; nothing while it is not up. */
+export const cameraIn = (frame: HTMLIFrameElement | null) => (frame?.contentWindow as SceneFrame | null)?.__studioBridge?.camera?.() ?? undefined;
 
 /** What only a new connection or a new city replaces, and what is only there when something is shown. */
 function partsOf(frame: HTMLIFrameElement | null): Parts {

@@ -2,6 +2,7 @@ import { MantineProvider } from "@mantine/core";
 import { act } from "react";
 import { createRoot, type Root } from "react-dom/client";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { Refusal } from "../../api/client";
 import type { Run } from "../../model/validation";
 import { RunRow } from "./Maneuvers";
 
@@ -63,4 +64,15 @@ test("an end that is emptied is the end of the log", async () => {
   type(field("End"), "");
   await act(async () => field("End").blur());
   expect(onRun.mock.calls).toEqual([[{ ...run, end: null }]]);
+});
+
+test("what is refused stays as it was typed, and says why", async () => {
+  const problem = { where: "maneuvers.turn.validation.0.end", what: "is beyond day.csv", value: "99 s", allowed: "0 to 80.00 s", remedy: "" };
+  onRun.mockRejectedValueOnce(new Refusal("A run is cut from more than was recorded.", [problem], 422));
+  type(field("End"), "99");
+  await act(async () => field("End").blur());
+  expect(field("End").value).toContain("99");
+  expect(host.querySelector("[role=alert]")?.textContent).toContain("0 to 80.00 s");
+  type(field("End"), "79");
+  expect(host.querySelector("[role=alert]")).toBeNull();
 });

@@ -3,14 +3,23 @@
 import { ActionIcon, Button, Text, Tooltip, VisuallyHidden } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useRef, useState } from "react";
+import { Refusal } from "../../api/client";
 import { usePatch, validationKinds } from "../../api/validations";
 import { words } from "../../model/units";
 import { cutRun, type Project, type Run, type RunSet, removeRun, type Said, SETS } from "../../model/validation";
 import { Icon } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { notifyError } from "../../ui/notify";
+import { ProblemList } from "../../ui/Problems";
+import { useUndoKey } from "../../ui/shortcut";
 import { Empty } from "../../ui/State";
 import classes from "./Validation.module.css";
+
+/** A change as the server answers it: the digest after it, and what undoes it. */
+type Done = Awaited<ReturnType<ReturnType<typeof usePatch>["mutateAsync"]>>;
+
+/** Changes that can be taken back. */
+const MOST_KEPT = 100;
 
 interface Props {
   project: Project;
@@ -21,20 +30,23 @@ interface Props {
 export function Maneuvers({ project, said, onLog }: Props) {
   const kinds = useQuery(validationKinds).data?.maneuvers ?? [];
   const patch = usePatch(project.name, project.digest);
-  const [last, setLast] = useState<Awaited<ReturnType<typeof patch.mutateAsync>>>();
-  const change = (operations: Parameters<typeof patch.mutate>[0]) => patch.mutateAsync(operations).then(setLast).catch(notifyError);
+  const [done, setDone] = useState<readonly Done[]>([]);
+  const change = (operations: Parameters<typeof patch.mutate>[0]) =>
+    patch.mutateAsync(operations).then((made) => setDone((before) => [...before, made].slice(-MOST_KEPT)));
   // What was changed elsewhere since then is not undone by what was meant for the text before.
-  const back =
-    last && last.digest === project.digest ? (
-      <Button
-        size="xs"
-        variant="default"
-        loading={patch.isPending}
-        onClick={() => patch.mutateAsync(last.inverse).then(() => setLast(undefined)).catch(notifyError)}
-      >
+  const last = done.at(-1)?.digest === project.digest ? done.at(-1) : undefined;
+  const takeBack = () => {
+    if (!last || patch.isPending) return;
+    patch.mutateAsync(last.inverse).then(() => setDone((before) => before.slice(0, -1)), notifyError);
+  };
+  useUndoKey(takeBack);
+  const back = last ? (
+    <Tooltip label="Ctrl+Z">
+      <Button size="xs" variant="default" loading={patch.isPending} onClick={takeBack}>
         Take back the last change
       </Button>
-    ) : null;
+    </Tooltip>
+  ) : null;
   const names = Object.keys(said.maneuvers);
   if (names.length === 0) {
     return (
@@ -61,6 +73,7 @@ export function Maneuvers({ project, said, onLog }: Props) {
                 {kind.judged.map(words).join(", ")}.
               </Text>
             ) : null}
+            <div className={classes.scroll}>
             <table className={classes.table}>
               <thead>
                 <tr>
@@ -82,12 +95,13 @@ export function Maneuvers({ project, said, onLog }: Props) {
                       run={run}
                       onLog={() => onLog(run.log)}
                       onRun={(next) => change(cutRun(name, set, place, next))}
-                      onRemove={() => change(removeRun(said, name, set, place))}
+                      onRemove={() => void change(removeRun(said, name, set, place)).catch(notifyError)}
                     />
                   )),
                 )}
               </tbody>
             </table>
+            </div>
           </section>
         );
       })}
@@ -99,7 +113,7 @@ interface RowProps {
   set: RunSet;
   run: Run;
   onLog: () => void;
-  /** Is over when the project has changed, or has refused to. */
+  /** Is over when the project has changed; fails with the refusal. */
   onRun: (run: Run) => Promise<unknown>;
   onRemove: () => void;
 }
@@ -113,14 +127,22 @@ export function RunRow({ set: taken, run, onLog, onRun, onRemove }: RowProps) {
   // Leaving a field may still change it: what counts is what was typed last, not what was drawn last.
   const typed = useRef(times);
   const sent = useRef<Times>(undefined);
-  const set = (next: Times) => setTimes((typed.current = next));
+  const [refused, setRefused] = useState<Error>();
+  const set = (next: Times) => {
+    setRefused(undefined);
+    setTimes((typed.current = next));
+  };
   const { begin, end } = { ...run, ...times };
   const send = () => {
     const now = typed.current;
     const next = { ...run, ...now };
     if (now === sent.current || (next.begin === run.begin && next.end === run.end)) return;
     sent.current = now;
-    void onRun(next).finally(() => typed.current === now && set({}));
+    // What was refused stays as it was typed, with the reason beside it.
+    onRun(next).then(
+      () => typed.current === now && set({}),
+      (error: Error) => typed.current === now && setRefused(error),
+    );
   };
   return (
     <tr
@@ -155,6 +177,14 @@ export function RunRow({ set: taken, run, onLog, onRun, onRemove }: RowProps) {
           onNumber={(next) => set({ ...typed.current, end: next })}
           onEmpty={() => set({ ...typed.current, end: null })}
         />
+        {refused ? (
+          <div role="alert">
+            <Text size="xs" c="red">
+              {refused.message} Not saved.
+            </Text>
+            <ProblemList problems={refused instanceof Refusal ? refused.problems : []} />
+          </div>
+        ) : null}
       </td>
       <td>
         <Tooltip label="Take this run out">

@@ -21,7 +21,7 @@ interface Verdict {
   high: number | null;
   error: number | null;
   limit: number | null;
-  verdict: "pass" | "fail" | "overridden";
+  verdict: "pass" | "fail" | "overridden" | "unjudged";
   reason: string;
   unit?: string;
   error_unit?: string;
