@@ -14,9 +14,9 @@ E. S. Pearson, Biometrika 26 (1934) 404, do: the bounds are those shares at whic
 
     lower = B(0.025; k, n - k + 1),   upper = B(0.975; k + 1, n - k)        B the quantile of the beta distribution
 
-`sample` is the least n whose bounds are nowhere farther apart than a width; they are farthest apart for k = n/2: 17 runs for 0.5, 21 for 0.45, 27
-for 0.4, 47 for 0.3, 104 for 0.2, 402 for 0.1. It is chosen before: who goes on until he likes what he sees has other bounds than these. n
-runs of which all are solved say no more than a share of 0.025^(1/n): 36 runs for 0.9, 72 for 0.95, 368 for 0.99, 3688 for 0.999.
+`sample` is the least n whose bounds are nowhere farther apart than a width; they are farthest apart for k = n/2: 17 runs for 0.5, 21 for
+0.45, 27 for 0.4, 47 for 0.3, 104 for 0.2, 402 for 0.1. It is chosen before: who goes on until he likes what he sees has other bounds than
+these. n runs of which all are solved say no more than a share of 0.025^(1/n): 36 runs for 0.9, 72 for 0.95, 368 for 0.99, 3688 for 0.999.
 """
 
 import argparse

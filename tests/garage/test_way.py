@@ -49,10 +49,11 @@ def test_a_car_that_turns_too_wide_is_refused():
         way.turning_in(0, Car(3.2, 4.8, 1.9, 0.9, 8.0))
 
 
-def test_swept_width():
-    """Wheelbase 2.7, overhang 0.9, width 1.8 m, 30°: inner side 3.777, outer front corner 6.638 m from the centre (O13)."""
-    r = 2.7 / np.tan(np.radians(30.0))
+@pytest.mark.parametrize(("steer", "inner", "outer"), [(25.0, 4.890, 7.597), (30.0, 3.777, 6.638), (35.0, 2.956, 5.965)])
+def test_swept_width(steer, inner, outer):
+    """Wheelbase 2.7, overhang 0.9, width 1.8 m: inner side and outer front corner [m] from the centre (O13)."""
+    r = 2.7 / np.tan(np.radians(steer))
     outline = plan.box(Pose(0.0, 0.0, 0.0), 3.6, 0.9, 1.8)
     centre = shapely.Point(0.0, r)
-    assert outline.distance(centre) == pytest.approx(3.777, abs=1e-3)
-    assert max(centre.distance(shapely.Point(corner)) for corner in outline.exterior.coords) == pytest.approx(6.638, abs=1e-3)
+    assert outline.distance(centre) == pytest.approx(inner, abs=1e-3)
+    assert max(centre.distance(shapely.Point(corner)) for corner in outline.exterior.coords) == pytest.approx(outer, abs=1e-3)
