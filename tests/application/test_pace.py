@@ -28,7 +28,7 @@ def first(record, name, phase):
 def off(record, name):
     """How far a parked car is from the middle of its space: along, across [m], turned [rad]."""
     k = first(record, name, 3.0) - 1
-    it = plan.spaces()[int(trace(record, name, "space")[k])]
+    it = plan.spaces(plan.SIXTY)[int(trace(record, name, "space")[k])]
     x, y = middle(record, name)
     dx, dy, c, s = x[k] - it.x, y[k] - it.y, cos(it.heading), sin(it.heading)
     return dx * c + dy * s, dy * c - dx * s, wrapped(float(record.trace(f"{name}.heading")[k]) - it.heading)
@@ -57,7 +57,7 @@ def test_they_know_where_they_are_and_keep_to_their_way(ten):
     """Root of the mean square of the offset from the way at most 0.10 m; true, not as the car takes it."""
     for stay in stays(ten):
         assert np.sqrt(np.mean(errors(ten, stay) ** 2)) < 0.12
-        path, on = way.into(int(trace(ten, stay.vehicle, "space").max()), COMPACT), stay.phase == 1.0
+        path, on = way.into(plan.SIXTY, int(trace(ten, stay.vehicle, "space").max()), COMPACT), stay.phase == 1.0
         x, y = middle(ten, stay.vehicle)
         heading = ten.trace(f"{stay.vehicle}.heading")
         rear = np.column_stack([x - COMPACT.middle * np.cos(heading), y - COMPACT.middle * np.sin(heading)])[on]
@@ -71,7 +71,13 @@ def test_they_drive_hardly_more_than_their_way(ten):
 
 
 PERSON = {"kind": "mover", "who": "pedestrian", "line": [[-14.0, -8.0]]}
-STRANGER = {"kind": "mover", "who": "box", "line": [[plan.spaces()[0].x, plan.spaces()[0].y]], "length": 4.2, "width": 1.7}
+STRANGER = {
+    "kind": "mover",
+    "who": "box",
+    "line": [[plan.spaces(plan.SIXTY)[0].x, plan.spaces(plan.SIXTY)[0].y]],
+    "length": 4.2,
+    "width": 1.7,
+}
 OUTAGE = {"kind": "sensor_fault", "unit": "garage", "sensor": "cameras"}
 NEAREST = {"allocation": "first_come"}
 
