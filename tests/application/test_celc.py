@@ -106,6 +106,17 @@ def test_a_partner_that_falls_silent():
     assert stages(record, "B")[:4] == [IDLE, WEIGHING, YIELDING, RESUMING]
 
 
+@pytest.mark.parametrize(("after", "evades"), [(0.02, True), (0.06, False), (0.14, True)])
+def test_a_partner_that_is_gone(after, evades):
+    """B is taken away before it has answered, while it brakes, and when A steers: A goes around by itself where nobody is beside it."""
+    document = together(parameters={"patience": 0.3})
+    document["script"]["gone"] = {"when": {"kind": "time", "at": APPEARS + after}, "do": {"kind": "remove", "vehicle": "B"}}
+    (record,) = run([document])
+    assert record.time[-1] > APPEARS + 4.0 and (EVADING in stages(record, "A") or BRAKING in stages(record, "A"))
+    assert ("A", "B") not in hits(record)
+    assert (EVADING in stages(record, "A")) == evades
+
+
 def test_followers_brake_with_those_ahead():
     """0.8 s behind, 100 km/h: who follows A stands before the obstacle, who follows B keeps off it; all by message."""
     (record,) = run([together(others=1, duration=9.0)])

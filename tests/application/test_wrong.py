@@ -1,10 +1,11 @@
 """Kinds of one's own that go wrong: the run fails, says who did what, and nobody else is hurt; what is not lost is not called lost."""
 
+import numpy as np
 import pytest
 
 from studio.errors import KindError
 from studio.kind import registry
-from tests.application.test_ports import DECIDE, HEAD, INTENT, SAMPLE, made, refused, run  # noqa: F401 - made is a fixture
+from tests.application.test_ports import DECIDE, HEAD, INTENT, SAMPLE, TALKER, made, refused, run  # noqa: F401 - made is a fixture
 
 SENSOR = '''
 """Something around. Source: made up."""
@@ -62,6 +63,19 @@ def test_a_radio_that_goes_wrong_fails_the_run(made):  # noqa: F811
     made(odd=text)
     found = run({"mine": {"application": "cacc", "units": ["follower_1"], "listens_to": ["leader"]}}, radio={"kind": "odd"})
     assert found.status == "failed" and "on the radio 'odd' cannot be sent" in found.error
+
+
+def test_a_megabyte_a_tick_is_lost_on_the_air_and_hurts_nobody(made):  # noqa: F811
+    """A megabyte takes 1.4 s of a channel of 6 Mbit/s, and fifty are sent a second: the channel is full, and the run goes on."""
+    talker = TALKER.replace("if memory.n % 5.0 == 0.0 else 0", "if memory.n >= 0.0 else 0")
+    made(intent=INTENT.replace("SIZE = 120", "SIZE = 1_000_000"), talker=talker)
+    group = {"application": "talker", "units": ["leader", "follower_1", "follower_2"]}
+    found = run({"mine": group}, seconds=2.0, radio={"kind": "wlan"})
+    assert found.status == "done", found.error
+    messages = found.record.messages
+    assert messages.time.size >= 2 and not np.any(messages.is_received & (messages.delay < 1.3))
+    quiet = run({}, seconds=2.0, radio={"kind": "wlan"})
+    np.testing.assert_array_equal(found.trace("follower_2.speed"), quiet.trace("follower_2.speed"))
 
 
 @pytest.mark.parametrize("above", ["", "@compiled"])

@@ -5,6 +5,7 @@ It is a unit without a vehicle. At every look of the cameras it
                 space and is nobody's has taken it
     takes in    the first of the queue at the gate, when a space and the ground under it are free, and says which space
     calls back  who has been parked for `stay`
+    replaces    the space of who comes in, when a stranger stands in it and the car is still in the aisle; else it has the car wait
     grants      tiles of the aisle, to those ahead first: to whom asks for no more than is free and safe (studio/garage/reservation.py);
                 who pulls out of a space gets all that it needs for it at once; when it has waited for `patience` nobody else is let there
     tells       all of it, to everybody
@@ -39,6 +40,7 @@ QUEUE = 3.5  # [m] likewise outside, by satellite
 SHORT = 1.4  # [m] who is shorter is a person
 AHEAD = 9.0  # [m] that are granted before the front: enough to stop on
 SLACK = 0.4  # [m] that a permit ends before its tile
+LATE = 5.0  # [m] before it turns in, a car may be given another space
 SILENT = 1.5  # [s] after which a status counts no more
 OUT = 12.0  # [m] beyond the gate a car is out of the way
 EARLY = 1e-6  # [s]
@@ -191,14 +193,22 @@ def away(target, status: Status) -> float:
     return float(np.hypot(target.x - status.x, target.y - status.y))
 
 
+def strangers(guests: list[Guest], targets: list) -> list:
+    """Whom the cameras see, who is no person and nobody's."""
+    own = [each.target for each in guests if each.target is not None]
+    return [each for each in targets if each.length >= SHORT and not any(each is one for one in own)]
+
+
+def stands_in(deck: Plan, number: int, target) -> bool:
+    """Whether somebody stands in a space."""
+    it = plan.spaces(deck)[number]
+    return abs(target.x - it.x) < 0.48 * deck.width and abs(target.y - it.y) < 0.48 * deck.length
+
+
 def taken(deck: Plan, guests: list[Guest], targets: list) -> set[int]:
     """Spaces that are given away, or in which somebody stands."""
-    own = [each.target for each in guests if each.target is not None]
-    others = [each for each in targets if each.length >= SHORT and not any(each is one for one in own)]
-    strange = {
-        i for i, it in enumerate(plan.spaces(deck)) for each in others
-        if abs(each.x - it.x) < 0.48 * deck.width and abs(each.y - it.y) < 0.48 * deck.length
-    }  # fmt: skip
+    others = strangers(guests, targets)
+    strange = {i for i in range(deck.spaces) if any(stands_in(deck, i, each) for each in others)}
     return strange | {each.space for each in guests}
 
 
@@ -260,6 +270,28 @@ def move_on(p: Parameters, time: float, guests: list[Guest]) -> float:
     return left
 
 
+def give_another(p: Parameters, guests: list[Guest], targets: list) -> list:
+    """Another space for who finds a stranger in his own, the next one on his way; who is in the way where there is none, or too late."""
+    others, blocked = strangers(guests, targets), []
+    for guest in (each for each in guests if each.state == COMING and each.status):
+        there = [each for each in others if stands_in(guest.deck, guest.space, each)]
+        if there and not replaced(p, guest, guests, targets):
+            blocked += there
+    return blocked
+
+
+def replaced(p: Parameters, guest: Guest, guests: list[Guest], targets: list) -> bool:
+    """Whether it has another space now: while it is in the aisle, one that it has not passed."""
+    deck, at = guest.deck, guest.status.rear + guest.car.rear if guest.status else 0.0
+    if at > way.turning_in(deck, guest.space, guest.car)[0] - LATE:
+        return False
+    free = set(range(min(int(p.spaces), deck.spaces))) - taken(deck, guests, targets)
+    ahead = [(s, each) for each in free if (s := way.turning_in(deck, each, guest.car)[0]) > at + LATE]
+    if ahead:
+        guest.space = min(ahead)[1]
+    return bool(ahead)
+
+
 def steps(guest: Guest, held: frozenset[int]) -> list[frozenset[int]]:
     """The rest of its way: what it holds, with the next tile, and tile by tile to its goal."""
     ahead = range(guest.high + 1, guest.goal() + 1)
@@ -294,11 +326,11 @@ def padded(values: list[float], size: int) -> Any:
     return tuple([float(each) for each in values] + [0.0] * (size - len(values)))
 
 
-def orders(deck: Plan, sees: Sees, guests: list[Guest], targets: list) -> Payload:
+def orders(deck: Plan, sees: Sees, guests: list[Guest], targets: list, blocked: list) -> Payload:
     """What is told."""
     blind = Target(0.0, 0.0, 0.0, 0.0)
     at = [guest.target or blind for guest in guests]
-    short = [each for each in targets if each.length < SHORT][:PERSONS]
+    short = [*(each for each in targets if each.length < SHORT), *blocked][:PERSONS]
     return Payload(
         count=float(len(guests)),
         age=sees.deck.age,
@@ -338,7 +370,8 @@ def decide(parameters, memory, sees):
     served = move_on(p, time, guests)
     queue = queue_of(deck, told, guests)
     take_in(p, m, time, guests, queue, targets)
+    blocked = give_another(p, guests, targets)
     grant(p, time, guests)
-    payload = orders(deck, sees, guests, targets)
+    payload = orders(deck, sees, guests, targets, blocked)
     log = Log(float(len(guests)), float(len(queue)), m.served + served, payload.persons, *deck)
     return remembered(m, time, guests, served), Does(Outbox(1, (payload,)), log)

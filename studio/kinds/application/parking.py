@@ -41,6 +41,7 @@ STANDS = 0.03  # [m/s]
 STOP = 5.0  # [m] before the gate, where the front waits for the garage
 SLOW_DOWN = 1.0  # [m/s²] to that stop
 ROLLING = 0.015  # [1] resistance of the tyres
+HARD, SOFT = 6.0, 3.0  # [m/s²] for who steps in its way nearer than from where it would stop softly; and twice how softly that is
 TURNED = 0.04  # [rad] from what the wheels are to be at before the car moves off
 EARLY = 1e-6  # [s]
 
@@ -204,13 +205,15 @@ def driven(p: Parameters, m: Memory, sees: Sees) -> tuple[Memory, Command, Way, 
         end = int(last[k])
         left = tracker.left_of(way, k, end, at)
     left = 1e3 if m.phase == COMING_BACK and end + 1 == way.x.size else left  # the driver goes on from there
-    free = min(tracker.permitted(way, k, car, m.permit), tracker.before_persons(way, k, end, car, persons(sees), p.margin))
+    clear = tracker.before_persons(way, k, end, car, persons(sees), p.margin)
+    free = min(tracker.permitted(way, k, car, m.permit), clear)
     knows = time - m.fixed < p.blind and time - m.ordered < p.blind
     g, v = float(way.direction[k]), float(way.direction[k]) * own.speed
     angle = tracker.wheels(way, k, at, own.speed, p.wheelbase)
     wanted = tracker.allowed(min(max(profile[k], 0.15), p.speed), min(left, free)) if knows else 0.0
     is_turned = abs(own.speed) > STANDS or abs(own.steering - angle) < TURNED
     u = min(max(2.0 * (wanted - v), -2.0), 0.8) if is_turned and wanted > 0.02 else -1.5
+    u = -HARD if clear < v * v / SOFT else u
     return m._replace(point=float(k)), also(pushed(p, u, g, own.speed), steer(angle)), way, tracker.error(way, k, *at)[0]
 
 
