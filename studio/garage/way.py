@@ -136,6 +136,15 @@ def turning_in(deck: Plan, number: int, car: Car) -> tuple[float, reeds_shepp.Wo
 
 
 @cache
+def fits(deck: Plan, number: int, car: Car) -> bool:
+    """Whether there is a way for a car into a space."""
+    try:
+        return bool(turning_in(deck, number, car)[1])
+    except ValueError:
+        return False
+
+
+@cache
 def into(deck: Plan, number: int, car: Car, first: float = -14.0) -> Way:
     """From the gate, or a station [m] before it, into a space."""
     s, word = turning_in(deck, number, car)

@@ -49,8 +49,8 @@ GROUPS = {
 
 
 def needed(name, commands):
-    """What the law adds to the gap [m] so that the car is asked for what holds its speed: (u - u_ahead)/k_p, h u/lambda, and of the law with
-    the leader (a_1 u_ahead - u)/a_5, whose leader tells that it does not accelerate."""
+    """What the law adds to the gap [m] so that the car is asked for what holds its speed: (u - u_ahead)/k_p, h u/lambda; of the one with
+    a leader (a_1 u_ahead - u)/a_5, which tells that it does not accelerate."""
     ahead, u = commands[APP_ACCELERATION, 1:-1], commands[APP_ACCELERATION, 2:]
     return {"cacc": (u - ahead) / 0.2, "acc": u * 1.2 / 0.1, "cacc_leader": (u - 0.5 * ahead) / 0.04}[name]
 

@@ -3,7 +3,7 @@
 It is a unit without a vehicle. At every look of the cameras it
     finds       its cars among what they see, each next to where the car takes itself to be; who is short is a person, who stands in a
                 space and is nobody's has taken it
-    takes in    the first of the queue at the gate, when a space and the ground under it are free, and says which space
+    takes in    the first of the queue at the gate, when a space that it gets into and the ground under it are free, and says which space
     calls back  who has been parked for `stay`
     replaces    the space of who comes in, when a stranger stands in it and the car is still in the aisle; else it has the car wait
     grants      tiles of the aisle, to those ahead first: to whom asks for no more than is free and safe (studio/garage/reservation.py);
@@ -124,9 +124,8 @@ class Guest:
     @property
     def car(self) -> Car:
         """What its ways depend on."""
-        told = self.status
-        assert told is not None
-        return Car(told.wheelbase, told.length, told.width, told.front, told.radius)
+        assert self.status is not None
+        return car_of(self.status)
 
     @property
     def front(self) -> float:
@@ -145,6 +144,11 @@ class Guest:
     def goal(self) -> int:
         """The last tile that it asks for."""
         return self.turn()[1] if self.state == COMING else tile(self.deck.whole + OUT)
+
+
+def car_of(told: Status) -> Car:
+    """What a car tells of itself."""
+    return Car(told.wheelbase, told.length, told.width, told.front, told.radius)
 
 
 def tile(s: float) -> int:
@@ -228,6 +232,17 @@ def choose(p: Parameters, queue: list[Status], free: list[int], first: int) -> i
     return free[int(allocation.optimal(allocation.queued(cars, depth, first, int(p.zones)))[0])]
 
 
+def chosen(p: Parameters, queue: list[Status], free: list[int], first: int, car: Car) -> int | None:
+    """The same among the spaces that the first one gets into; nothing where it gets into none."""
+    left = list(free)
+    while left:
+        number = choose(p, queue, left, first)
+        if way.fits(deck_of(p), number, car):
+            return number
+        left.remove(number)
+    return None
+
+
 def is_at_gate(deck: Plan, target) -> bool:
     """Whether somebody is before the gate, or in it."""
     return -deck.gate - 11.0 < target.x < -deck.gate + 1.0 and abs(target.y + deck.radius) < 2.0
@@ -244,8 +259,11 @@ def take_in(p: Parameters, m: Memory, time: float, guests: list[Guest], queue: l
     first = max(there, key=lambda each: each.x)
     status = min(queue, key=lambda each: away(first, each))
     under = frozenset(range(tile(-1e3), tile(first.x + deck.gate + 0.5 * status.length + 0.5) + 1))
-    if away(first, status) < QUEUE and not any(under & each.holds for each in guests):
-        guest = Guest(deck, status.ticket, COMING, choose(p, queue, free, int(m.served) + len(guests)), time, min(under), max(under))
+    if away(first, status) > QUEUE or any(under & each.holds for each in guests):
+        return
+    number = chosen(p, queue, free, int(m.served) + len(guests), car_of(status))
+    if number is not None:
+        guest = Guest(deck, status.ticket, COMING, number, time, min(under), max(under))
         guest.status, guest.target = status, first
         guests.append(guest)
 
@@ -286,10 +304,10 @@ def replaced(p: Parameters, guest: Guest, guests: list[Guest], targets: list) ->
     if at > way.turning_in(deck, guest.space, guest.car)[0] - LATE:
         return False
     free = set(range(min(int(p.spaces), deck.spaces))) - taken(deck, guests, targets)
-    ahead = [(s, each) for each in free if (s := way.turning_in(deck, each, guest.car)[0]) > at + LATE]
-    if ahead:
-        guest.space = min(ahead)[1]
-    return bool(ahead)
+    ahead = sorted((plan.spaces(deck)[each].station, each) for each in free if plan.spaces(deck)[each].station > at + LATE)
+    number = next((each for _, each in ahead if way.fits(deck, each, guest.car)), None)
+    guest.space = guest.space if number is None else number
+    return number is not None
 
 
 def steps(guest: Guest, held: frozenset[int]) -> list[frozenset[int]]:
