@@ -108,7 +108,7 @@ def test_a_partner_that_falls_silent():
 
 @pytest.mark.parametrize(("after", "evades"), [(0.02, False), (0.06, False), (0.14, True)])
 def test_a_partner_that_is_gone(after, evades):
-    """B is taken away before it has answered, while it brakes, and when A steers: A brakes, which is the safe default, or goes on steering."""
+    """B is taken away before it has answered, while it brakes, and when A steers: A brakes, as is the safe default, or goes on."""
     document = together(parameters={"patience": 0.3})
     document["script"]["gone"] = {"when": {"kind": "time", "at": APPEARS + after}, "do": {"kind": "remove", "vehicle": "B"}}
     (record,) = run([document])
