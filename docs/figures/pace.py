@@ -19,7 +19,7 @@ from studio.execution.loop import as_fast_as_possible
 from studio.execution.record import Record
 from studio.execution.simulation import simulation
 from studio.garage import plan
-from studio.sample import folder
+from studio.road.drawn.deck import deck as draw_deck
 from studio.validation.figure import drawn
 
 PAGES = Path(__file__).resolve().parent.parent / "pages" / "explanation"
@@ -31,10 +31,17 @@ SEEDS, TOGETHER = 20, 5
 def deck(
     cars: int, *, duration: float, stay: float = 60.0, seed: int = 1, garage: dict[str, Any] | None = None,
     cameras: dict[str, Any] | None = None, parking: dict[str, Any] | None = None, apart: float = 8.0, script: dict[str, Any] | None = None,
-    loss: float = 0.0,
+    loss: float = 0.0, shape: plan.Plan = plan.SIXTY,
 ) -> dict[str, Any]:  # fmt: skip
     """A scenario: a queue of cars `apart` [m] from the street into the deck, which are called back `stay` [s] after they have parked."""
     names = [f"car_{i}" for i in range(1, cars + 1)]
+    built = {
+        "groups": shape.groups,
+        "together": shape.together,
+        "space_length": shape.length,
+        "space_width": shape.width,
+        "aisle": shape.aisle,
+    }
     one = {"route": "in_and_out", "model": "electric_compact", "speed": 0.0, "sensors": {}, "gps": {"drift": 0.3, "noise": 0.1}}
     return {
         "version": 3, "title": "Deck", "seed": seed, "clock": {"duration": duration},
@@ -43,7 +50,7 @@ def deck(
         "vehicles": {name: one | {"position": {"along": 115.0 - apart * i}} for i, name in enumerate(names)},
         "stations": {"garage": {"position": {"x": 0, "y": 0}, "sensors": {"cameras": CAMERAS | (cameras or {})}}},
         "applications": {
-            "house": {"application": "garage", "units": ["garage"], "parameters": {"stay": stay} | (garage or {})},
+            "house": {"application": "garage", "units": ["garage"], "parameters": {"stay": stay} | built | (garage or {})},
             "parking": {"application": "parking", "units": names, "listens_to": ["garage"] * cars, "parameters": parking or {}},
         },
         "script": script or {},
@@ -52,11 +59,11 @@ def deck(
     }  # fmt: skip
 
 
-def run(documents: list[dict[str, Any]]) -> list[Record]:
-    """The records of scenarios that are run side by side."""
+def run(documents: list[dict[str, Any]], shape: plan.Plan = plan.SIXTY) -> list[Record]:
+    """The records of scenarios that are run side by side, on a deck of a shape."""
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
-        (place / "parking_deck.osm").write_bytes((folder() / "maps" / "parking_deck.osm").read_bytes())
+        draw_deck(shape).write(place / "parking_deck.osm")
         prepared = []
         for i, document in enumerate(documents):
             (place / f"{i}.yaml").write_text(json.dumps(document, default=float), encoding="utf-8")
@@ -87,8 +94,8 @@ def outline(axes, shape, **style) -> None:
 
 def draw_ways(axes, record: Record) -> None:
     """The deck, and the ways of its cars."""
-    outline(axes, plan.structure().intersection(shapely.box(-40, -16.2, 34, 16.2)), color="#999999")
-    for it in plan.spaces():
+    outline(axes, plan.structure(plan.SIXTY).intersection(shapely.box(-40, -16.2, 34, 16.2)), color="#999999")
+    for it in plan.spaces(plan.SIXTY):
         axes.fill(
             [it.x - 1.25, it.x + 1.25, it.x + 1.25, it.x - 1.25], np.repeat([it.y - 2.5, it.y + 2.5], 2), fill=False, edgecolor="#dddddd"
         )

@@ -34,6 +34,7 @@ SENSORS = {
     "around": AROUND,
     "lane": {"kind": "lane_markings", "noise": 0.01, "heading_noise": 0.001},
     "road": {"kind": "digital_map"},
+    "condition": {"kind": "road_condition"},
 }
 
 

@@ -12,11 +12,12 @@ import shapely
 
 from studio.execution.record import Record
 from studio.garage import plan
-from studio.garage.plan import Pose
+from studio.garage.plan import Plan, Pose
 from studio.kind.metric import Found
 
 DRIVING_IN, PARKED, COMING_BACK, GIVEN_BACK = 1.0, 2.0, 3.0, 4.0
 LOGGED = ("phase", "x", "y", "left")  # what the application logs; others may log or sense things of these names, but not all of them
+PLAN = ("groups", "together", "space_length", "space_width", "aisle")  # what a garage logs of its deck
 EVERY = 0.2  # [s] clearances are measured
 
 
@@ -39,6 +40,16 @@ def stays(record: Record) -> Iterator[Stay]:
                 phase, x, y, left = (record.probes[group + each].values for each in LOGGED)
                 if np.any(phase == DRIVING_IN):
                     yield Stay(name, phase, x, y, left)
+
+
+def deck(record: Record) -> Plan:
+    """The deck of the garage that logs one."""
+    for probe in record.probes:
+        group = probe.removesuffix(PLAN[0])
+        if group != probe and all(group + each in record.probes for each in PLAN):
+            groups, together, *rest = (float(record.probes[group + each].values[-1]) for each in PLAN)
+            return Plan(int(groups), int(together), *rest)
+    return plan.SIXTY
 
 
 def begun(record: Record, stay: Stay, phase: float) -> float:
@@ -95,7 +106,7 @@ def nearest(record: Record, k: int, moving: list[str]) -> Found:
     best = Found(float("inf"), (), float(record.time[k]))
     for name in moving:
         others = [other for other in there if other != name]
-        away = shapely.distance(there[name], np.array([there[other] for other in others] + [plan.structure()]))
+        away = shapely.distance(there[name], np.array([there[other] for other in others] + [plan.structure(deck(record))]))
         i = int(np.argmin(away))
         if away[i] < best.value:
             best = Found(float(away[i]), (name, others[i]) if i < len(others) else (name,), float(record.time[k]))

@@ -118,12 +118,20 @@ def generate_grid(out: MapOut) -> None:
 
 
 @generate.command("deck")
-def generate_deck(out: MapOut) -> None:
-    """Draws a parking deck: one level, a one-way loop, sixty spaces, pillars and walls. Import it with --parking-aisles."""
-    from studio.road.drawn.deck import deck
+def generate_deck(
+    out: MapOut,
+    groups: Annotated[int, typer.Option(help="Groups of spaces in each of the four rows.", min=1, max=20)] = 5,
+    together: Annotated[int, typer.Option(help="Spaces between two pillars.", min=1, max=10)] = 3,
+    length: Annotated[float, typer.Option(help="Length of a space [m].", min=4, max=7)] = 5.0,
+    width: Annotated[float, typer.Option(help="Width of a space [m].", min=2, max=4)] = 2.5,
+    aisle: Annotated[float, typer.Option(help="Width of the aisles [m].", min=4, max=10)] = 6.0,
+) -> None:
+    """Draws a parking deck: one level, a one-way loop, four rows of spaces, pillars and walls. Import it with --parking-aisles."""
+    from studio.road.drawn.deck import Shape, deck
 
-    deck().write(out)
-    print(f"{out}: a parking deck of 60 spaces")
+    shape = Shape(groups, together, length, width, aisle)
+    deck(shape).write(out)
+    print(f"{out}: a parking deck of {shape.spaces} spaces")
 
 
 # -- input and output --------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from math import atan, cos, sin, sqrt
 import numpy as np
 
 from studio.garage import way as ways
-from studio.garage.plan import Pose
+from studio.garage.plan import Plan, Pose
 from studio.garage.reeds_shepp import wrapped
 from studio.garage.way import Car, Way, error
 
@@ -48,9 +48,9 @@ def fixed(at: Pose, fix: Pose, middle: float, fixes: float) -> Pose:
 
 
 @cache
-def profile(number: int, car: Car, is_back: bool, speed: float) -> tuple[Way, np.ndarray, np.ndarray]:
+def profile(deck: Plan, number: int, car: Car, is_back: bool, speed: float) -> tuple[Way, np.ndarray, np.ndarray]:
     """A way, the speed [m/s] at each of its points, and the last point of the stretch in one direction that each belongs to."""
-    way = ways.out_of(number, car) if is_back else ways.into(number, car)
+    way = ways.out_of(deck, number, car) if is_back else ways.into(deck, number, car)
     ends = np.flatnonzero(np.append(np.diff(way.direction) != 0.0, True))
     last = ends[np.searchsorted(ends, np.arange(way.x.size))]
     v = np.where((way.direction < 0.0) | (np.abs(way.bend) > TIGHT), TURNING, speed)

@@ -1,9 +1,9 @@
 """The way of a car into a space and out again, found before it is driven.
 
-into(number, car)     along the aisle past the space, then by the shortest way of J. A. Reeds and L. A. Shepp backward into it, such that no
-                      wall, pillar or car in any other space comes nearer than CLEARANCE; the shortest such way, a change of direction
-                      counting as CHANGE
-out_of(number, car)   the same way back to the aisle, and along it through the gate
+into(deck, number, car)     along the aisle past the space, then by the shortest way of J. A. Reeds and L. A. Shepp backward into it, such
+                            that no wall, pillar or car in any other space comes nearer than CLEARANCE; the shortest such way, a change
+                            of direction counting as CHANGE
+out_of(deck, number, car)   the same way back to the aisle, and along it through the gate
 
 A way is a table of poses of the middle of the rear axle, STEP apart: that point of a car moves along the car's own heading, forward and
 backward (curvature kappa, road wheels at atan(L kappa)).
@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 
 from studio.garage import plan, reeds_shepp
-from studio.garage.plan import WHOLE, Pose, box
+from studio.garage.plan import Plan, Pose, box
 
 STEP = 0.05  # [m]
 CLEARANCE = 0.3  # [m] that a planned way keeps: 0.15 in the end, and 0.15 for what is not followed exactly
@@ -26,7 +26,6 @@ CHANGE = 4.0  # [m] that a change of direction is worth
 PIECE = 0.5  # [m] that another piece is worth: at each the wheels turn while the car drives
 CHECKED = 4  # every so many steps it is looked whether something is near
 TRIED = np.arange(2.0, 9.0, 0.125)  # [m] beyond the space from where it is driven in
-LEAVES = WHOLE + 4.0  # [m] station at which the driver has a car back
 
 
 class Car(NamedTuple):
@@ -66,10 +65,10 @@ class Way(NamedTuple):
         return float(self.driven[-1])
 
 
-def straightened(first: float, last: float) -> np.ndarray:
+def straightened(deck: Plan, first: float, last: float) -> np.ndarray:
     """The aisle from station to station, [x y heading bend direction, point]."""
     stations = np.linspace(first, last, max(round((last - first) / STEP), 1) + 1)
-    return np.array([(*plan.along(s), plan.bend(s), 1.0) for s in stations]).T
+    return np.array([(*plan.along(deck, s), plan.bend(deck, s), 1.0) for s in stations]).T
 
 
 def drawn(start: Pose, word: reeds_shepp.Word, r: float) -> np.ndarray:
@@ -84,11 +83,11 @@ def drawn(start: Pose, word: reeds_shepp.Word, r: float) -> np.ndarray:
     return np.array(rows).T
 
 
-def joined(parts: list[np.ndarray]) -> Way:
+def joined(deck: Plan, parts: list[np.ndarray]) -> Way:
     """Parts one after another."""
     x, y, heading, bend, direction = np.concatenate(parts, axis=1)
     driven = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-    return Way(x, y, heading, bend, direction, driven, np.array([plan.station(*at) for at in zip(x, y, strict=True)]))
+    return Way(x, y, heading, bend, direction, driven, np.array([plan.station(deck, *at) for at in zip(x, y, strict=True)]))
 
 
 def is_clear(rows: np.ndarray, car: Car, around: shapely.Geometry) -> bool:
@@ -98,9 +97,9 @@ def is_clear(rows: np.ndarray, car: Car, around: shapely.Geometry) -> bool:
     return not bool(np.any(shapely.dwithin(np.array(outlines), around, CLEARANCE)))
 
 
-def goal(number: int, car: Car) -> Pose:
+def goal(deck: Plan, number: int, car: Car) -> Pose:
     """Where the rear axle is of a car that stands in the middle of a space."""
-    it = plan.spaces()[number]
+    it = plan.spaces(deck)[number]
     return Pose(it.x - car.middle * cos(it.heading), it.y - car.middle * sin(it.heading), it.heading)
 
 
@@ -109,12 +108,12 @@ def swings(word: reeds_shepp.Word) -> bool:
     return any(a.turn * b.turn < 0 and a.length * b.length > 0.0 for a, b in pairwise(word))
 
 
-def candidates(number: int, car: Car):
+def candidates(deck: Plan, number: int, car: Car):
     """Ways in: cost [m], station from which the aisle is left, and the word."""
-    to = goal(number, car)
+    to = goal(deck, number, car)
     for past in TRIED:
-        s = plan.spaces()[number].station + float(past)
-        start = plan.along(s)
+        s = plan.spaces(deck)[number].station + float(past)
+        start = plan.along(deck, s)
         dx, dy, c, d = to.x - start.x, to.y - start.y, cos(start.heading), sin(start.heading)
         local = ((dx * c + dy * d) / car.radius, (dy * c - dx * d) / car.radius, reeds_shepp.wrapped(to.heading - start.heading))
         for word in reeds_shepp.words(*local):
@@ -125,31 +124,40 @@ def candidates(number: int, car: Car):
 
 
 @cache
-def turning_in(number: int, car: Car) -> tuple[float, reeds_shepp.Word]:
+def turning_in(deck: Plan, number: int, car: Car) -> tuple[float, reeds_shepp.Word]:
     """From which station [m] a car drives into a space, and how; raises ValueError where it cannot."""
-    around = plan.full(number)
-    around = around.intersection(plan.box(Pose(*plan.spaces()[number][:3]), 14.0, 4.0, 36.0))
+    around = plan.full(deck, number)
+    around = around.intersection(plan.box(Pose(*plan.spaces(deck)[number][:3]), 14.0, 4.0, 36.0))
     shapely.prepare(around)
-    for _, s, word in sorted(candidates(number, car), key=lambda each: each[0]):
-        if is_clear(drawn(plan.along(s), word, car.radius), car, around):
+    for _, s, word in sorted(candidates(deck, number, car), key=lambda each: each[0]):
+        if is_clear(drawn(plan.along(deck, s), word, car.radius), car, around):
             return s, word
     raise ValueError(f"a car of {car.length:g} m by {car.width:g} m that turns with {car.radius:g} m does not get into space {number}")
 
 
 @cache
-def into(number: int, car: Car, first: float = -14.0) -> Way:
-    """From the gate, or a station [m] before it, into a space."""
-    s, word = turning_in(number, car)
-    return joined([straightened(first, s), drawn(plan.along(s), word, car.radius)])
+def fits(deck: Plan, number: int, car: Car) -> bool:
+    """Whether there is a way for a car into a space."""
+    try:
+        return bool(turning_in(deck, number, car)[1])
+    except ValueError:
+        return False
 
 
 @cache
-def out_of(number: int, car: Car) -> Way:
+def into(deck: Plan, number: int, car: Car, first: float = -14.0) -> Way:
+    """From the gate, or a station [m] before it, into a space."""
+    s, word = turning_in(deck, number, car)
+    return joined(deck, [straightened(deck, first, s), drawn(plan.along(deck, s), word, car.radius)])
+
+
+@cache
+def out_of(deck: Plan, number: int, car: Car) -> Way:
     """From a space through the gate."""
-    s, word = turning_in(number, car)
-    back = drawn(plan.along(s), word, car.radius)[:, ::-1].copy()
+    s, word = turning_in(deck, number, car)
+    back = drawn(plan.along(deck, s), word, car.radius)[:, ::-1].copy()
     back[4] *= -1.0
-    return joined([back, straightened(s, LEAVES)])
+    return joined(deck, [back, straightened(deck, s, deck.leaves)])
 
 
 def nearest(way: Way, x: float, y: float, near: int, reach: int = 60) -> int:

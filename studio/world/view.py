@@ -1,8 +1,9 @@
 """What kinds are given: the world as a sensor sees it, the way of a message, and the words they answer with.
 
 A sensor looks at the true world and makes its own errors. `around` finds who is near; `look` and `glimpse` tell which bodies can be seen,
-and what of them; `report` writes a target down; random numbers come from `draw` and `draw_normal`, each with a number of its own, 0 to 15,
-and one that tells the targets apart. A radio draws with `chance`, `chances` and `chance_normal`, which count likewise.
+and what of them; `friction_on` tells how slippery the ground is; `report` writes a target down; random numbers come from `draw` and
+`draw_normal`, each with a number of its own, 0 to 15, and one that tells the targets apart. A radio draws with `chance`, `chances` and
+`chance_normal`, which count likewise.
 """
 
 from math import cos, sin
@@ -13,6 +14,7 @@ from numba import literal_unroll
 from studio.compiled import inlined
 from studio.model.random import normal, normals, uniform, uniforms
 from studio.vehicle.state import V_X, YAW_RATE
+from studio.world.passes.ground import friction_on as friction_on
 from studio.world.passes.neighbour import within
 from studio.world.passes.sight import glimpse as glimpse
 from studio.world.passes.sight import is_on_other_level as is_on_other_level
@@ -69,6 +71,8 @@ class View(NamedTuple):
     sight: Any  # bodies that `look` has seen
     receiver: Any  # settings of the satellite receivers, [row, vehicle]
     satellite: Any  # their errors, and the sky that they have
+    weather: Any  # friction of the roads, per world
+    pieces: Any  # of slippery stretches, [row, piece]
 
 
 class Me(NamedTuple):

@@ -384,7 +384,7 @@ class World:
         return (
             tick, g.longest, v.state, v.parameter, w.of, w.number, u.now, u.world, u.vehicle, u.entity, w.seed, g.grid, g.places, g.found,
             o.table, o.first, o.count, o.standing, r.place_of, r.shadow, v.mind, r.points, r.chart, r.path_first, r.path_count,
-            r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight, u.gps_set, u.satellite,
+            r.stop_first, r.stop_count, r.stop_station, r.stop_link, r.shown, u.sight, u.gps_set, u.satellite, r.weather, r.pieces,
         )  # fmt: skip
 
     @cached_property

@@ -43,20 +43,22 @@ def steady(folder, group):
 
 GROUPS = {
     "cacc": {"listens_to": ["car_0", "car_1", "car_2"], "parameters": {"headway": 0.5, "standstill": 2.0}},
+    "cacc_leader": {"listens_to": [["car_0"], ["car_1", "car_0"], ["car_2", "car_0"]], "parameters": {"distance": 5.0}},
     "acc": {"parameters": {"headway": 1.2, "standstill": 2.0}},
 }
 
 
 def needed(name, commands):
-    """What the law adds to the gap [m] so that the car is asked for what holds its speed: (u - u_ahead)/k_p, and h u/lambda."""
-    u = commands[APP_ACCELERATION, 2:]
-    return (u - commands[APP_ACCELERATION, 1:-1]) / 0.2 if name == "cacc" else u * 1.2 / 0.1
+    """What the law adds to the gap [m] so that the car is asked for what holds its speed: (u - u_ahead)/k_p, h u/lambda; of the one with
+    a leader (a_1 u_ahead - u)/a_5, which tells that it does not accelerate."""
+    ahead, u = commands[APP_ACCELERATION, 1:-1], commands[APP_ACCELERATION, 2:]
+    return {"cacc": (u - ahead) / 0.2, "acc": u * 1.2 / 0.1, "cacc_leader": (u - 0.5 * ahead) / 0.04}[name]
 
 
-@pytest.mark.parametrize(("name", "headway"), [("cacc", 0.5), ("acc", 1.2)])
-def test_the_gap_is_that_of_the_law(tmp_path, name, headway):
-    """r + h v: 15.889 and 35.333 m at 100 km/h, at the speed that the cars have, for cars that are asked for nothing there."""
+@pytest.mark.parametrize(("name", "standstill", "headway"), [("cacc", 2.0, 0.5), ("acc", 2.0, 1.2), ("cacc_leader", 5.0, 0.0)])
+def test_the_gap_is_that_of_the_law(tmp_path, name, standstill, headway):
+    """r + h v: 15.889, 35.333 and 5.000 m at 100 km/h, at the speed that the cars have, for cars that are asked for nothing there."""
     gaps, speeds, commands = steady(tmp_path, {"application": name} | GROUPS[name])
     assert speeds == pytest.approx(SPEED, abs=0.02)
-    assert gaps[2:] - needed(name, commands) == pytest.approx(2.0 + headway * speeds[2:], abs=0.02)
-    assert gaps[2:] == pytest.approx(2.0 + headway * SPEED, abs=0.03)
+    assert gaps[2:] - needed(name, commands) == pytest.approx(standstill + headway * speeds[2:], abs=0.02)
+    assert gaps[2:] == pytest.approx(standstill + headway * SPEED, abs=0.03)

@@ -16,19 +16,19 @@ COMPACT = Car(2.765, 4.261, 1.809, 0.84, 4.6)
 LATERAL, LONGITUDINAL, YAW = 0.15, 0.25, np.radians(3.0)  # of a parked car: domain notes, section 3
 
 
-def trace(record, name, of):
-    return record.probes[f"{name}.parking.{of}"].values
+def trace(record, name, of, group="parking"):
+    return record.probes[f"{name}.{group}.{of}"].values
 
 
-def first(record, name, phase):
+def first(record, name, phase, group="parking"):
     """The sample at which a phase begins."""
-    return int(np.argmax(trace(record, name, "phase") == phase))
+    return int(np.argmax(trace(record, name, "phase", group) == phase))
 
 
-def off(record, name):
+def off(record, name, group="parking", deck=plan.SIXTY):
     """How far a parked car is from the middle of its space: along, across [m], turned [rad]."""
-    k = first(record, name, 3.0) - 1
-    it = plan.spaces()[int(trace(record, name, "space")[k])]
+    k = first(record, name, 3.0, group) - 1
+    it = plan.spaces(deck)[int(trace(record, name, "space", group)[k])]
     x, y = middle(record, name)
     dx, dy, c, s = x[k] - it.x, y[k] - it.y, cos(it.heading), sin(it.heading)
     return dx * c + dy * s, dy * c - dx * s, wrapped(float(record.trace(f"{name}.heading")[k]) - it.heading)
@@ -57,7 +57,7 @@ def test_they_know_where_they_are_and_keep_to_their_way(ten):
     """Root of the mean square of the offset from the way at most 0.10 m; true, not as the car takes it."""
     for stay in stays(ten):
         assert np.sqrt(np.mean(errors(ten, stay) ** 2)) < 0.12
-        path, on = way.into(int(trace(ten, stay.vehicle, "space").max()), COMPACT), stay.phase == 1.0
+        path, on = way.into(plan.SIXTY, int(trace(ten, stay.vehicle, "space").max()), COMPACT), stay.phase == 1.0
         x, y = middle(ten, stay.vehicle)
         heading = ten.trace(f"{stay.vehicle}.heading")
         rear = np.column_stack([x - COMPACT.middle * np.cos(heading), y - COMPACT.middle * np.sin(heading)])[on]
@@ -71,7 +71,14 @@ def test_they_drive_hardly_more_than_their_way(ten):
 
 
 PERSON = {"kind": "mover", "who": "pedestrian", "line": [[-14.0, -8.0]]}
-STRANGER = {"kind": "mover", "who": "box", "line": [[plan.spaces()[0].x, plan.spaces()[0].y]], "length": 4.2, "width": 1.7}
+STRANGER = {
+    "kind": "mover",
+    "who": "box",
+    "line": [[plan.spaces(plan.SIXTY)[0].x, plan.spaces(plan.SIXTY)[0].y]],
+    "length": 4.2,
+    "width": 1.7,
+}
+WALKER = {"kind": "mover", "who": "pedestrian", "line": [[-14.0, -12.0], [-14.0, -3.0]], "speed": 1.2, "stays": False}
 OUTAGE = {"kind": "sensor_fault", "unit": "garage", "sensor": "cameras"}
 NEAREST = {"allocation": "first_come"}
 
@@ -88,6 +95,8 @@ def trouble():
         "full": deck(2, duration=190.0, stay=20.0, garage={"spaces": 1}),
         "person": deck(1, duration=100.0, garage=NEAREST, script={"person": between(10.0, 45.0, PERSON)}),
         "stranger": deck(1, duration=70.0, garage=NEAREST, script={"box": {"do": STRANGER}}),
+        "minutes": deck(1, duration=260.0, garage=NEAREST, script={"person": between(10.0, 200.0, PERSON)}),
+        "late": deck(1, duration=80.0, garage=NEAREST, script={"box": {"when": {"kind": "time", "at": 12.0}, "do": STRANGER}}),
         "short": deck(1, duration=70.0, garage=NEAREST, script={"dark": between(14.0, 15.6, OUTAGE)}),
         "long": deck(1, duration=90.0, garage=NEAREST, script={"dark": between(14.0, 34.0, OUTAGE)}),
         "lossy": deck(2, duration=90.0, garage=NEAREST, loss=0.5),
@@ -119,6 +128,73 @@ def test_a_space_in_which_a_stranger_stands_is_not_given_away(trouble):
     record = trouble["stranger"]
     assert trace(record, "car_1", "space").max() != 0.0 and trace(trouble["short"], "car_1", "space").max() == 0.0
     assert len(list(parking_times(record))) == 1 and touched(record) == 0
+
+
+def test_who_stands_in_the_aisle_for_minutes(trouble):
+    """190 s: the car waits as long, nothing is given up, and it parks when the way is free again."""
+    record = trouble["minutes"]
+    at = (record.time > 40.0) & (record.time < 199.0)
+    assert np.all(np.abs(record.trace("car_1.speed")[at]) < 0.05)
+    assert touched(record) == 0 and len(list(parking_times(record))) == 1
+
+
+def test_a_stranger_who_takes_the_space_that_was_given_away(trouble):
+    """At 12 s, while the car is on its way there: it is given another one, and nobody is touched."""
+    record = trouble["late"]
+    given = trace(record, "car_1", "space")[trace(record, "car_1", "phase") == 1.0]
+    assert given[0] == 0.0 and given[-1] != 0.0
+    assert touched(record) == 0 and len(list(parking_times(record))) == 1
+
+
+def walked(begin):
+    """Somebody walks across the aisle from a time on."""
+    return deck(1, duration=70.0, garage=NEAREST, script={"walker": {"when": {"kind": "time", "at": begin}, "do": WALKER}})
+
+
+def test_somebody_who_walks_into_its_way():
+    """At moments half a second apart, while the car comes: it stops for him, or one of them is through; nobody is touched, it parks."""
+    records = run([walked(begin) for begin in np.arange(7.0, 13.0, 0.5)])
+    slowest = []
+    for record in records:
+        assert touched(record) == 0 and len(list(parking_times(record))) == 1
+        passing = np.abs(middle(record, "car_1")[0] + 18.0) < 4.0
+        slowest.append(np.abs(record.trace("car_1.speed")[passing & (record.time < 30.0)]).min())
+    assert min(slowest) < 0.1 and max(slowest) > 1.0, "some of them are stopped for, some are not in the way"
+
+
+OTHER = plan.Plan(3, 4, 5.2, 2.6, 6.5)  # 48 spaces in shorter rows, wider
+
+
+def test_another_deck():
+    """The garage is told its measures, and tells the cars: three come and leave, in the middle of their spaces."""
+    (record,) = run([deck(3, duration=200.0, stay=20.0, shape=OTHER)], OTHER)
+    assert len(list(parking_times(record))) == gone(record) == 3 and touched(record) == 0 and clearance(record).value >= 0.15
+    for stay in stays(record):
+        along, across, turned = off(record, stay.vehicle, deck=OTHER)
+        assert abs(across) <= LATERAL and abs(along) <= LONGITUDINAL and abs(turned) <= YAW
+
+
+MEASURES = ("wheelbase", "length", "width", "front_overhang", "radius", "mass", "wheel")
+MODELS = {
+    "car_1": ("suv", (2.81, 4.7, 1.89, 0.87, 4.8, 2000.0, 0.359)),
+    "car_2": ("smart_fortwo", (1.81, 2.5, 1.52, 0.35, 4.0, 900.0, 0.279)),
+    "car_3": ("electric_compact", (2.765, 4.261, 1.809, 0.84, 4.6, 1850.0, 0.34)),
+}
+
+
+def test_models_of_all_sizes():
+    """A large one with a converter, a small one with a clutch, a compact one: each by its own measures, within the same tolerances."""
+    document = deck(3, duration=230.0, stay=20.0)
+    group = document["applications"].pop("parking")
+    for name, (model, measures) in MODELS.items():
+        parameters = dict(zip(MEASURES, measures, strict=True))
+        document["vehicles"][name] |= {"model": model}
+        document["applications"][f"{name}_parks"] = group | {"units": [name], "listens_to": ["garage"], "parameters": parameters}
+    (record,) = run([document])
+    assert len(list(parking_times(record))) == gone(record) == 3 and touched(record) == 0 and clearance(record).value >= 0.15
+    for name in MODELS:
+        along, across, turned = off(record, name, f"{name}_parks")
+        assert abs(across) <= LATERAL and abs(along) <= LONGITUDINAL and abs(turned) <= YAW
 
 
 def test_a_short_gap_of_the_cameras_is_bridged(trouble):

@@ -1,10 +1,11 @@
 """Kinds of one's own that go wrong: the run fails, says who did what, and nobody else is hurt; what is not lost is not called lost."""
 
+import numpy as np
 import pytest
 
 from studio.errors import KindError
 from studio.kind import registry
-from tests.application.test_ports import DECIDE, HEAD, INTENT, SAMPLE, made, refused, run  # noqa: F401 - made is a fixture
+from tests.application.test_ports import DECIDE, HEAD, INTENT, SAMPLE, TALKER, made, refused, run  # noqa: F401 - made is a fixture
 
 SENSOR = '''
 """Something around. Source: made up."""
@@ -62,6 +63,30 @@ def test_a_radio_that_goes_wrong_fails_the_run(made):  # noqa: F811
     made(odd=text)
     found = run({"mine": {"application": "cacc", "units": ["follower_1"], "listens_to": ["leader"]}}, radio={"kind": "odd"})
     assert found.status == "failed" and "on the radio 'odd' cannot be sent" in found.error
+
+
+def test_a_message_of_a_megabyte_is_refused(made):  # noqa: F811
+    """By the name of the file, with what is allowed."""
+    with pytest.raises(KindError, match=r"intent.py: SIZE is 1000000, not 1 to 10000"):
+        made(intent=INTENT.replace("SIZE = 120", "SIZE = 1_000_000"))
+
+
+def test_who_sends_as_much_as_may_be_hurts_nobody(made):  # noqa: F811
+    """Radios refuse messages larger than their frames. 64 of the largest in every tick, 4.5 MB a second from each: the run goes on."""
+    talker = TALKER.replace("memory.n % 5.0 == 0.0", "memory.n >= 0.0").replace('Outbox, "intent", 1]', 'Outbox, "intent", 64]')
+    talker = talker.replace("Outbox(send, (Payload(1.0, sees.own.speed),))", "Outbox(64 * send, (Payload(1.0, sees.own.speed),) * 64)")
+    talker, group = talker.replace("@compiled", ""), {"mine": {"application": "talker", "units": ["leader", "follower_1"]}}
+    made(intent=INTENT.replace("SIZE = 120", "SIZE = 1400"), talker=talker)
+    found, quiet = run(group, seconds=0.2), run({}, seconds=0.2)
+    assert found.status == "done", found.error
+    assert found.record.messages.time.size > 1000
+    np.testing.assert_array_equal(found.trace("follower_2.speed"), quiet.trace("follower_2.speed"))
+
+
+def test_a_message_larger_than_a_frame_is_refused(made):  # noqa: F811
+    made(intent=INTENT.replace("SIZE = 120", "SIZE = 10_000"), talker=TALKER)
+    said = refused({"mine": {"application": "talker", "units": ["leader", "follower_1"]}}, radio={"kind": "wlan"})
+    assert "'talker' sends 'intent', which is larger than the radio 'wlan' takes" in said
 
 
 @pytest.mark.parametrize("above", ["", "@compiled"])

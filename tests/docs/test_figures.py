@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import binom
 
 from docs.figures import feasibility, story
-from docs.figures.feasibility import Grid, bounds, colour, mapped, needed
+from docs.figures.feasibility import Grid, bounds, colour, found, kept, mapped, needed, sample
 
 GRID = Grid((50.0, 90.0), (12.0, 40.0, 60.0), 3)
 
@@ -33,11 +33,32 @@ def test_how_many_runs_a_bound_takes():
     assert bounds(36, 36)[0] >= 0.9 > bounds(35, 35)[0]
 
 
-def test_a_map_in_short():
-    """Nearer than the tyres allow nothing is solved, farther than anybody needs all is; more latency solves nothing that less did not."""
-    quick, slow = mapped(GRID, {}), mapped(GRID, {"latency": 0.2})
-    assert np.all(quick[0] == 0) and np.all(quick[2] == GRID.runs) and quick[1].min() == GRID.runs
-    assert np.all(slow <= quick) and slow[1, 1] == 0
+def test_how_many_runs_a_width_takes():
+    """So many are enough whatever comes out, and one fewer is not."""
+    for width in (0.5, 0.2):
+        n = sample(width)
+        apart = [[upper - lower for lower, upper in (bounds(k, each) for k in range(each + 1))] for each in (n, n - 1)]
+        assert max(apart[0]) <= width < max(apart[1])
+
+
+def test_a_map_in_short(tmp_path, monkeypatch):
+    """Nearer than tyres allow nothing is solved, farther than anybody needs all; latency solves nothing. What was run is not run again."""
+    file, quick, slow = tmp_path / "kept.csv", "20 ms, no loss, dry", "latency 200 ms"
+    monkeypatch.setattr(feasibility, "SLICES", {title: feasibility.SLICES[title] for title in (quick, slow)})
+    mapped(GRID, file)
+    maps, before = found(file), kept(file)
+    assert {runs for places in maps.values() for _, runs in places.values()} == {3}
+    solved = {title: {place: k for place, (k, _) in places.items()} for title, places in maps.items()}
+    assert all(solved[quick][kmh, 12.0] == 0 and solved[quick][kmh, 60.0] == 3 == solved[quick][kmh, 40.0] for kmh in GRID.speeds)
+    assert all(solved[slow][place] <= k for place, k in solved[quick].items()) and solved[slow][90.0, 40.0] == 0
+    file.write_text("".join(file.read_text().splitlines(keepends=True)[:-2]))
+    more = GRID._replace(runs=4)
+    mapped(more, file)
+    assert found(file)[quick][90.0, 60.0] == (4, 4) and kept(file)[: len(before) - 2] == before[:-2]
+    assert sorted(each.first for each in kept(file)[len(before) - 2 :]) == [1, 1] + [4] * (len(before) - 2)
+    text = file.read_text()
+    mapped(more, file)
+    assert file.read_text() == text
 
 
 def test_the_story_is_told_as_it_happens():

@@ -1,5 +1,7 @@
 """Reservation: every interleaving of small decks, counted; no deadlock where it grants, and everybody arrives."""
 
+from itertools import product
+
 import pytest
 
 from studio.garage.reservation import grants, is_free
@@ -53,6 +55,53 @@ def test_it_never_comes_into_a_doomed_state(ways, states, lost, stand):
     assert not granted & doomed(ways, free)
     ends = tuple(len(each) for each in ways)
     assert all(state == ends or any(grants(ways, state, car) for car in range(len(ways))) for state in granted), "somebody can always go on"
+
+
+def together(ways, state):
+    """All states that one step of any of the cars at once leads to: a tile that is left in a step is free in the next one."""
+    held = [way[place] if 0 <= place < len(way) else frozenset() for way, place in zip(ways, state, strict=True)]
+    for moves in product((0, 1), repeat=len(ways)):
+        wanted = [ways[i][state[i] + 1] if state[i] + 1 < len(ways[i]) else frozenset() for i, moved in enumerate(moves) if moved]
+        others = [held[j] for i, moved in enumerate(moves) if moved for j in range(len(ways)) if j != i]
+        may = all(state[i] < len(ways[i]) for i, moved in enumerate(moves) if moved) and len(frozenset().union(*wanted)) == sum(
+            map(len, wanted)
+        )
+        if may and not any(tiles & other for tiles, other in pairs(wanted, others, len(ways) - 1)):
+            yield tuple(place + moved for place, moved in zip(state, moves, strict=True))
+
+
+def pairs(wanted, others, each):
+    """Every tile that is wanted with what each of the others holds."""
+    return [(tiles, others[k * each + j]) for k, tiles in enumerate(wanted) for j in range(each)]
+
+
+def least_steps(ways):
+    """The fewest steps in which all can arrive, by search."""
+    seen = now = {(-1,) * len(ways)}
+    count, ends = 0, tuple(len(way) for way in ways)
+    while ends not in now:
+        now = {after for state in now for after in together(ways, state)} - seen
+        seen, count = seen | now, count + 1
+    return count
+
+
+def steps(ways):
+    """Steps that it takes when every car that is granted a step makes it, the first one first."""
+    places, count = [-1] * len(ways), 0
+    while any(place < len(way) for place, way in zip(places, ways, strict=True)):
+        before = list(places)
+        for car, way in enumerate(ways):
+            left = {tile for i, old in enumerate(before) if i != car and 0 <= old < len(ways[i]) for tile in ways[i][old]}
+            wanted = way[places[car] + 1] if places[car] + 1 < len(way) else frozenset()
+            places[car] += not wanted & left and grants(ways, tuple(places), car)
+        count += 1
+    return count
+
+
+@pytest.mark.parametrize(("ways", "least", "ours"), [(ring(3), 7, 9), (ring(4), 7, 9), (LANE, 8, 8), (CASES[3][0], 12, 12)])
+def test_how_many_steps_it_takes(ways, least, ours):
+    """O14: what is possible, and what it takes here: in a circle the banker lets cars wait that could have gone on."""
+    assert least_steps(ways) == least and steps(ways) == ours
 
 
 def test_four_cars_in_a_circle_the_fourth_is_refused():

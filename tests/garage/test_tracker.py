@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from studio.garage import tracker, way
-from studio.garage.plan import Pose
+from studio.garage.plan import SIXTY, Pose
 from studio.garage.way import Car
 
 COMPACT = Car(2.765, 4.261, 1.809, 0.84, 4.6)
@@ -44,7 +44,7 @@ def test_both_errors_fade_forward_and_backward(g):
 
 def test_it_comes_to_a_stand_at_every_end():
     """The speed falls as v² = 2 a s to each, and is never more than the turn's or the aisle's."""
-    found, v, last = tracker.profile(7, COMPACT, False, 2.5)
+    found, v, last = tracker.profile(SIXTY, 7, COMPACT, False, 2.5)
     ends = np.unique(last)
     assert np.all(v[ends] == 0.0) and v.max() == 2.5
     assert np.all(v <= np.sqrt(2.0 * tracker.DECELERATION * (found.driven[last] - found.driven)) + 1e-9)
@@ -52,7 +52,7 @@ def test_it_comes_to_a_stand_at_every_end():
 
 
 def test_it_stops_before_somebody_on_its_way():
-    found, _, last = tracker.profile(7, COMPACT, False, 2.5)
+    found, _, last = tracker.profile(SIXTY, 7, COMPACT, False, 2.5)
     k = 100
     front = found.x[k] + COMPACT.wheelbase + COMPACT.front
     free = tracker.before_persons(found, k, int(last[k]), COMPACT, [(float(front) + 3.0, -8.0)], 1.0)
@@ -61,7 +61,7 @@ def test_it_stops_before_somebody_on_its_way():
 
 
 def test_pointing_along_a_bend():
-    found = way.into(40, COMPACT)
+    found = way.into(SIXTY, 40, COMPACT)
     k = int(np.argmax(found.bend > 0.1))
     at = Pose(float(found.x[k + 40]), float(found.y[k + 40]), float(found.heading[k + 40]))
     assert tracker.wheels(found, k + 40, at, 2.0, 2.765) == pytest.approx(atan(2.765 / 8.0), abs=1e-3)

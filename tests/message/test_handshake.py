@@ -71,6 +71,25 @@ def unheard(messages, times_sent):
     return np.array(lost)
 
 
+def heard_within(messages, tries):
+    """In which rounds one of the first so many requests was heard, and one of the first so many acknowledgements after it."""
+    sender, found = messages.sender, []
+    heard = np.zeros(sender.size, dtype=bool)
+    heard[messages.of[messages.is_received]] = True
+    came = np.full(sender.size, np.inf)
+    np.minimum.at(came, messages.of[messages.is_received], messages.came[messages.is_received])
+    for pair in range(PAIRS):
+        mine = np.flatnonzero(sender == messages.units.index(f"asks_{pair}"))
+        other = np.flatnonzero(sender == messages.units.index(f"answers_{pair}"))
+        for i in range(int(SECONDS / ROUND) - 1):
+            begin, end = i * ROUND - 1e-6, (i + 1) * ROUND - 1e-6
+            answers = other[(messages.time[other] >= begin) & (messages.time[other] < end)]
+            known = came[answers].min()  # until then who asks sends requests
+            requests = mine[(messages.time[mine] >= begin) & (messages.time[mine] < known)]
+            found.append(heard[requests[:tries]].any() and heard[answers[:tries]].any())
+    return np.array(found)
+
+
 @pytest.mark.parametrize("loss", [0.1, 0.3, 0.5])
 def test_time_of_a_handshake(own_kinds, loss):
     """P(done by 45 + 20 m ms) is that of at most m failures before the third success: 5960 handshakes, three standard errors, seed 1."""
@@ -86,6 +105,8 @@ def test_time_of_a_handshake(own_kinds, loss):
     waits = (took - 0.045) / 0.02
     np.testing.assert_allclose(waits, np.round(waits), atol=1e-3)  # no wait for ticks: every loss costs one repetition
     assert took.mean() == pytest.approx(0.045 + 0.02 * 3.0 * loss / q, abs=3.0 * 0.02 * sqrt(3.0 * loss / q**2 / n))
+    both = (1.0 - loss**3) ** 2  # request and answer within three tries each: 0.947 at a loss of 0.3
+    assert np.mean(heard_within(record.messages, 3)) == pytest.approx(both, abs=3.0 * sqrt(both * (1.0 - both) / n) + 1.0 / n)
     never = loss**5  # a commitment that is sent five times: 0.00243 at a loss of 0.3
     assert np.mean(unheard(record.messages, 5)) == pytest.approx(never, abs=3.0 * sqrt(never * (1.0 - never) / n) + 1.0 / n)
 

@@ -19,6 +19,8 @@ def test_the_quintic():
     np.testing.assert_allclose(np.gradient(y, u)[1:-1], dy[1:-1], atol=1e-6)
     np.testing.assert_allclose(np.gradient(dy, u)[1:-1], ddy[1:-1], atol=2e-3)
     assert evasion.change_time(3.5, 5.0518) == pytest.approx(2.0, rel=1e-4)
+    jerk = np.gradient(ddy, u)[1:-1]
+    assert 3.5 / 8.0 * np.abs(jerk).max() == pytest.approx(60.0 * 3.5 / 8.0, rel=5e-3)  # 60 W/T³
 
 
 @pytest.mark.parametrize(("y", "u"), [(1.0, 0.3813), (1.8, 0.5076), (2.0, 0.5382), (2.5, 0.6187)])
@@ -33,8 +35,25 @@ def test_cooperative_distance_in_a_city(kmh, expected):
     assert found == pytest.approx(expected, rel=5e-3)
 
 
+@pytest.mark.parametrize(("kmh", "expected"), [(50, 16.29), (70, 22.80), (90, 29.32)])
+def test_distance_with_nobody_beside(kmh, expected):
+    """O1 of the checks: only the lag of the steering, 0.1 s, and 1.95 of 3.25 m of a quintic within 5 m/s², which takes 1.937 s."""
+    T = evasion.change_time(3.25, 5.0)
+    assert pytest.approx(1.9372, abs=1e-3) == T
+    assert kmh / 3.6 * (evasion.STEERING_LAG + T * evasion.moment(1.95 / 3.25)) == pytest.approx(expected, rel=5e-3)
+
+
+@pytest.mark.parametrize(("kmh", "way"), [(5, 1.113), (10, 2.869), (20, 8.311)])
+def test_the_way_to_stand_before_somebody_whom_only_the_deck_sees(kmh, way):
+    """O14: 0.1 s until the next look, 0.25 s until it is given, 0.02 s by radio, 0.2 s until the brakes act, then 3 m/s²."""
+    assert evasion.stopping_distance(kmh / 3.6, 3.0, 0.1 + 0.25 + 0.02 + 0.2, 0.0) == pytest.approx(way, rel=5e-3)
+
+
 def test_stopping_distance():
-    """100 km/h, 0.85 g: 46.27 m; with a ramp of 0.3 s 50.40 m."""
+    """100 km/h, 0.85 g: 46.27 m; with a ramp of 0.3 s 50.40 m; with a second before 74.05 m; 50 km/h 11.57 m; at 0.3 131.1 m."""
+    assert evasion.stopping_distance(100 / 3.6, 0.85 * GRAVITY, 1.0, 0.0) == pytest.approx(74.05, rel=2e-3)
+    assert evasion.stopping_distance(50 / 3.6, 0.85 * GRAVITY, 0.0, 0.0) == pytest.approx(11.57, rel=2e-3)
+    assert evasion.stopping_distance(100 / 3.6, 0.3 * GRAVITY, 0.0, 0.0) == pytest.approx(131.1, rel=2e-3)
     a = 0.85 * GRAVITY
     assert evasion.stopping_distance(100 / 3.6, a, 0.0, 0.0) == pytest.approx(46.27, rel=2e-3)
     assert evasion.stopping_distance(100 / 3.6, a, 0.0, 0.3) == pytest.approx(50.40, rel=5e-3)

@@ -103,19 +103,19 @@ def test_nothing_stands_on_the_road(town):
 
 def test_the_deck_has_sixty_spaces_that_one_enters_from_the_nearer_aisle(parking):
     spaces = parking.scenery.spaces
-    assert spaces.shape[1] == 60 == 4 * deck.GROUPS * deck.TOGETHER and parking.scenery.along_kerbs == 0
-    assert spaces[[SPACE_LENGTH, SPACE_WIDTH]] == pytest.approx(np.tile([[deck.LENGTH], [deck.WIDTH]], 60), abs=GRAIN)
-    aisle = deck.RADIUS * np.sign(spaces[SPACE_Y])
+    assert spaces.shape[1] == 60 == 4 * deck.SIXTY.groups * deck.SIXTY.together and parking.scenery.along_kerbs == 0
+    assert spaces[[SPACE_LENGTH, SPACE_WIDTH]] == pytest.approx(np.tile([[deck.SIXTY.length], [deck.SIXTY.width]], 60), abs=GRAIN)
+    aisle = deck.SIXTY.radius * np.sign(spaces[SPACE_Y])
     assert np.sin(spaces[SPACE_HEADING]) == pytest.approx(np.sign(spaces[SPACE_Y] - aisle), abs=1e-4)
-    assert np.abs(spaces[SPACE_X]).max() == pytest.approx(deck.ROW / 2 - deck.GAP - deck.WIDTH / 2, abs=GRAIN)
+    assert np.abs(spaces[SPACE_X]).max() == pytest.approx(deck.SIXTY.row / 2 - deck.GAP - deck.SIXTY.width / 2, abs=GRAIN)
 
 
 def test_the_deck_has_its_pillars_and_walls(parking):
     pillars = [b for b in parking.scenery.buildings if b.height == deck.CLEAR]
-    assert len(pillars) == 4 * (deck.GROUPS + 1) + 2
+    assert len(pillars) == 4 * (deck.SIXTY.groups + 1) + 2
     assert [polygon(pillar).area for pillar in pillars] == pytest.approx([deck.PILLAR**2] * len(pillars), abs=2 * GRAIN * deck.PILLAR)
     length = sum(np.hypot(*np.diff(wall.line)).sum() for wall in parking.scenery.walls)
-    around = 4.0 * (deck.END + deck.SIDE + deck.WALL)
+    around = 4.0 * (deck.SIXTY.end + deck.SIXTY.side + deck.WALL)
     assert length == pytest.approx(around - 2 * deck.OPENING, abs=8 * GRAIN)
 
 
@@ -150,7 +150,7 @@ def test_cars_pass_walls_and_pillars_at_walking_pace():
     setting = job.prepare(job.load(SCENARIOS / "parking_deck.yaml"))
     scenery = setting.network.scenery
     solid = [polygon(b) for b in scenery.buildings] + [shapely.LineString(w.line.T).buffer(w.thickness / 2) for w in scenery.walls]
-    inside = shapely.box(-deck.END, -deck.SIDE, deck.END, deck.SIDE)
+    inside = shapely.box(-deck.SIXTY.end, -deck.SIXTY.side, deck.SIXTY.end, deck.SIXTY.side)
     for car in setting.cars:
         line = shapely.LineString(car.path.points[:2].T)
         # a car is 1.8 m wide

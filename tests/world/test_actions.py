@@ -1,6 +1,7 @@
 """Actions: each does what it says on a small world, to closed forms with stated tolerances; who overlaps is told."""
 
 from math import cos, sin
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,11 +11,13 @@ from studio import job
 from studio.cli import main
 from studio.errors import ScenarioError
 from studio.execution.event import foreseen
+from studio.kinds.action import follow_path
 from studio.road.drawn.motorway import motorway
 from studio.vehicle.command import RING, U_STEER
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import PSI, X, Y
 from studio.world.build import build
+from studio.world.maneuver import Sees
 from studio.world.obstacle import walk
 from studio.world.snapshot import restore, snapshot
 from studio.world.table.mind import COMMANDS_WHEEL, GAP, SCRIPT_HAS
@@ -22,6 +25,15 @@ from studio.world.table.street import O_HEADING, O_SPEED, O_X, O_Y, OBSTACLE
 from studio.world.tick import tick
 
 TICK = 0.02
+
+
+def test_pure_pursuit_steers_along_the_arc_through_its_point():
+    """atan(2 L sin(alpha)/L_d): 24.784° for a wheelbase of 2.7 m and a point 4 m away, 20° to the left (check 50)."""
+    alpha = np.radians(20.0)
+    pool = np.array([[0.0, 100.0 * np.cos(alpha)], [0.0, 100.0 * np.sin(alpha)]])
+    sees = Sees(0.0, 5.0, *[0.0] * 13, 2.7, pool)
+    told = follow_path.act.py_func(SimpleNamespace(line=(0, 2), preview=0.8), sees)
+    assert np.degrees(told.steering) == pytest.approx(24.784, abs=1e-3) and told.steers and not told.drives
 
 
 @pytest.fixture(scope="module")

@@ -25,6 +25,11 @@ All of it carries the number that who asked has given it. The safe default is to
 the other one was heard to brake but is not seen to, and where braking alone is enough. Who has accepted and hears no commitment until
 GRACE after the deadline goes on as before.
 
+How slippery the road is only its sensor (`road_condition`) tells it, which may be wrong: DOUBT standard deviations less are taken; where it
+gives nothing, the road is taken to be dry. No more is asked of the tyres than that: not of A across and along, not of B, which offers what
+it can do, not of who brakes along. Where the road does not give `lateral`, the way aside takes longer, and A begins it only when it will
+be past the obstacle in time; else it brakes.
+
 What is in the way counts when the sensor is sure of it (`confidence`) and has been for `recognition`. The way aside is the quintic of
 studio/model/evasion.py, within `lateral` m/s²; it may brake meanwhile, within what the tyres have left of `grip`. It begins when the other
 one, braking as it has told, will have fallen back by LONG_MARGIN at the moment at which both would come within SIDE_MARGIN.
@@ -80,6 +85,12 @@ OMEGA = 3.0  # [1/s] both poles of the error
 STANDS, SLOWEST = 0.3, 3.0  # [m/s]
 ENOUGH, RESUMED = 6.0, 4.0  # [m] to who has gone ahead; [s] until it is the driver's again
 EARLY = 1e-6  # [s]
+DRY = 9.8  # [m/s²] that tyres have on a dry test track; estimated for the electric compact, whose least is 0.99 g, of the axles across
+ACROSS = 0.85  # [1] of what the tyres have is used across: the outer ones do more than their part
+LEAST = 0.05  # [1] no road is taken to be more slippery: wet ice
+SETTLING = 0.1  # [s] over which what the sensor tells is smoothed
+DOUBT = 2.0  # [1] standard deviations by which the road is taken to be worse
+CLEAR = WIDTH + SIDE_MARGIN  # [m] aside where the car is past an obstacle as wide as itself
 GRACE = 0.3  # [s] in which a commitment that was given at the last moment may still come
 AGAIN = 1.5  # [m/s²] with which it goes on after it has braked for another one
 RESUME_HEADWAY, RESUME_GAP = 1.5, 3.0  # [s], [m]
@@ -135,6 +146,7 @@ class Memory(NamedTuple):
     place: Annotated[float, "m", "offset at which the way aside began, to the left"] = 0.0
     first: Annotated[float, "m", "distance at which the obstacle was recognised"] = -1.0
     closed: Annotated[float, "1", "number of the last maneuver that is over"] = 0.0
+    road: Annotated[float, "m/s²", "that the tyres have on this road, as far as it can be told"] = 9.8
 
 
 class Sees(NamedTuple):
@@ -146,6 +158,7 @@ class Sees(NamedTuple):
     around: Annotated[Targets, "blind_spot", 8]
     lane: Annotated[Targets, "lane_markings", 1]
     road: Annotated[Targets, "digital_map", 1]
+    condition: Annotated[Targets, "road_condition", 1]
     heard: Annotated[Inbox, "maneuver", 4]
 
 
@@ -158,6 +171,7 @@ class Log(NamedTuple):
     confidence: Annotated[float, "1"] = 0.0  # of the obstacle
     distance: Annotated[float, "m"] = 0.0  # to it, at which it was recognised
     aside: Annotated[float, "m"] = 0.0  # where the way aside has the car, to the left
+    road: Annotated[float, "m/s²"] = 0.0  # that the tyres are taken to have
 
 
 class Does(NamedTuple):
@@ -194,6 +208,40 @@ class Beside(NamedTuple):
 def lag(v):
     """By how much [s] the car is behind the way of its steering."""
     return TURN_LAG + YAW_LAG * v
+
+
+@compiled
+def road_of(sees, before):
+    """What the tyres have on this road [m/s²], by the sensor and less by its doubt; as before where it tells nothing."""
+    told = sees.condition.target[0]
+    return DRY * max(told.friction - DOUBT * told.sigma, LEAST) if sees.condition.count > 0 else before
+
+
+@compiled
+def felt(m, sees):
+    """The road that is counted on: it stays the same from a request to the end of the way aside, and while another one counts on it."""
+    is_bound = m.stage in (ASKING, COMMITTED, EVADING, WEIGHING, YIELDING)
+    share = 0.0 if is_bound else min(sees.clock.tick / SETTLING, 1.0)
+    road = m.road + share * (road_of(sees, m.road) - m.road)
+    return Memory(
+        m.stage, m.since, m.identity, m.asking, m.deadline, m.sent, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first,
+        m.closed, road,
+    )  # fmt: skip
+
+
+@compiled
+def across(p, m):
+    """Lateral acceleration [m/s²] of the way aside on this road."""
+    return min(p.lateral, ACROSS * m.road)
+
+
+@compiled
+def is_in_time(p, m, v, wait, distance):
+    """Whether the way aside, begun after `wait` [s], leads past what is so far [m] away; a road that gives `lateral` is not asked."""
+    if across(p, m) >= p.lateral:
+        return True
+    T = evasion.change_time(p.width, across(p, m))
+    return v * (wait + lag(v) + T * evasion.moment(CLEAR / p.width)) <= distance
 
 
 @compiled
@@ -270,9 +318,9 @@ def answer(memory, heard):
 
 
 @compiled
-def plan(p, time, v, age, offered, beside):
+def plan(p, m, time, v, age, offered, beside):
     """When the wheels are to turn, and when the other one's brakes act [s]."""
-    T, braked = evasion.change_time(p.width, p.lateral), time - age + BRAKE_LAG
+    T, braked = evasion.change_time(p.width, across(p, m)), time - age + BRAKE_LAG
     overlap = evasion.moment(min(max((abs(beside.left) - WIDTH - SIDE_MARGIN) / p.width, 0.0), 1.0))
     lost = 0.5 * p.evasion_braking * (T * overlap) ** 2  # what the own braking takes of the way that the other one falls back
     clear = braked + evasion.clearing_time(LONG_MARGIN - fallen_back(beside) + lost, offered)
@@ -290,21 +338,22 @@ def is_braking(p, time, memory, beside):
 def entered(m, stage, time):
     """Another stage, from now on."""
     return Memory(
-        stage, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first, m.closed
+        stage, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first,
+        m.closed, m.road,
     )  # fmt: skip
 
 
 @compiled
 def alone(m):
     """Without a maneuver: what is done now is of none that was before, and nothing is said of it."""
-    return Memory(m.stage, m.since, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, 0.0, m.home, m.home, 0.0, m.first, m.closed)
+    return Memory(m.stage, m.since, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, 0.0, m.home, m.home, 0.0, m.first, m.closed, m.road)
 
 
 @compiled
 def over(m, stage, time):
     """The maneuver is over: nothing more of it is minded."""
     closed = m.identity if m.identity != 0.0 else m.closed
-    return Memory(stage, time, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, m.offered, m.home, m.home, 0.0, m.first, closed)
+    return Memory(stage, time, 0.0, -1.0, 0.0, -1.0, 0.0, 0.0, m.offered, m.home, m.home, 0.0, m.first, closed, m.road)
 
 
 @compiled
@@ -317,7 +366,8 @@ def free(m):
 def arrived(m, time):
     """The other lane is the own one now."""
     return Memory(
-        ASIDE, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.goal, m.goal, m.place, m.first, m.closed
+        ASIDE, time, m.identity, m.asking, m.deadline, -1.0, m.begin, m.braked, m.offered, m.goal, m.goal, m.place, m.first,
+        m.closed, m.road,
     )  # fmt: skip
 
 
@@ -332,9 +382,10 @@ def number_of(time, own):
 def recognised(p, m, sees, obstacle, beside, side):
     """What is done about an obstacle: braking where that is enough or all there is, going around it where nobody is beside, else asking."""
     time, goal = sees.clock.time, m.home + side * p.width
-    stage = BRAKING if side == 0.0 else ASKING if beside.count > 0 else EVADING
+    is_useless = side == 0.0 or not is_in_time(p, m, sees.own.speed, 0.0, obstacle.distance)
+    stage = BRAKING if is_useless else ASKING if beside.count > 0 else EVADING
     identity, deadline = number_of(time, sees.own), time + p.patience
-    return Memory(stage, time, identity, -1.0, deadline, -1.0, time, 0.0, 0.0, m.home, goal, 0.0, obstacle.distance, m.closed)
+    return Memory(stage, time, identity, -1.0, deadline, -1.0, time, 0.0, 0.0, m.home, goal, 0.0, obstacle.distance, m.closed, m.road)
 
 
 @compiled
@@ -344,15 +395,15 @@ def is_recognised(p, obstacle):
 
 
 @compiled
-def must_evade(p, v, distance):
+def must_evade(p, m, v, distance):
     """Whether braking alone is not enough, or is not wanted."""
-    return p.always or evasion.stopping_distance(v, p.braking, BRAKE_LAG, BRAKE_LAG) + LONG_MARGIN > distance
+    return p.always or evasion.stopping_distance(v, min(p.braking, m.road), BRAKE_LAG, BRAKE_LAG) + LONG_MARGIN > distance
 
 
 @compiled
-def must_brake(p, v, distance):
+def must_brake(p, m, v, distance):
     """Whether half of all braking is needed to stand in time: the driver would have begun."""
-    return v * v > p.braking * max(distance - LONG_MARGIN, 0.1)
+    return v * v > min(p.braking, m.road) * max(distance - LONG_MARGIN, 0.1)
 
 
 @compiled
@@ -360,24 +411,27 @@ def as_asking(p, m, sees, obstacle, beside, side, offset):
     """The part of who has an obstacle before him."""
     time, v = sees.clock.time, sees.own.speed
     if m.stage in (IDLE, ASIDE) and is_recognised(p, obstacle) and v > SLOWEST:
-        if must_evade(p, v, obstacle.distance):
+        if must_evade(p, m, v, obstacle.distance):
             new = recognised(p, m, sees, obstacle, beside, side)
             return new if new.stage != EVADING else started(new, time, offset)
-        return entered(alone(m), BRAKING, time) if must_brake(p, v, obstacle.distance) else m
+        return entered(alone(m), BRAKING, time) if must_brake(p, m, v, obstacle.distance) else m
     if m.stage == ASKING:
         accepted, refused, offered, age = answer(m, sees.heard)
         if refused or time > m.deadline:
             return entered(m, BRAKING, time)
         if accepted >= max(beside.count, 1):
-            begin, braked = plan(p, time, v, age, offered, beside)
+            begin, braked = plan(p, m, time, v, age, offered, beside)
+            if not is_in_time(p, m, v, begin - time, obstacle.distance):
+                return entered(m, BRAKING, time)
             return Memory(
-                COMMITTED, time, m.identity, -1.0, m.deadline, -1.0, begin, braked, offered, m.home, m.goal, 0.0, m.first, m.closed
+                COMMITTED, time, m.identity, -1.0, m.deadline, -1.0, begin, braked, offered, m.home, m.goal, 0.0, m.first,
+                m.closed, m.road,
             )  # fmt: skip
     if m.stage == COMMITTED and not is_braking(p, time, m, beside):
         return entered(m, BRAKING, time)
     if m.stage == COMMITTED and time >= m.begin:
         return started(m, time, offset)
-    if m.stage == EVADING and time > m.since + evasion.change_time(p.width, p.lateral) + lag(v):
+    if m.stage == EVADING and time > m.since + evasion.change_time(p.width, across(p, m)) + lag(v):
         return arrived(m, time)
     if m.stage == BRAKING and v < STANDS and not obstacle.is_there:
         return over(m, free(m), time)
@@ -388,7 +442,8 @@ def as_asking(p, m, sees, obstacle, beside, side, offset):
 def started(m, time, offset):
     """The wheels turn."""
     return Memory(
-        EVADING, time, m.identity, -1.0, m.deadline, -1.0, time, m.braked, m.offered, m.home, m.goal, offset, m.first, m.closed
+        EVADING, time, m.identity, -1.0, m.deadline, -1.0, time, m.braked, m.offered, m.home, m.goal, offset, m.first,
+        m.closed, m.road,
     )  # fmt: skip
 
 
@@ -441,7 +496,8 @@ def called(p, m, sees, obstacle):
         if is_asked or follows:
             stage, offered = WEIGHING if is_asked else FOLLOWING, -told.acceleration
             return Memory(
-                stage, time, identity, message.sender, told.deadline, -1.0, 0.0, 0.0, offered, m.home, m.home, 0.0, m.first, m.closed
+                stage, time, identity, message.sender, told.deadline, -1.0, 0.0, 0.0, offered, m.home, m.home, 0.0, m.first,
+                m.closed, m.road,
             )  # fmt: skip
     return m
 
@@ -500,7 +556,7 @@ def way_aside(p, m, time):
     """Offset [m], its rate [m/s] and second derivative [m/s²] of the way aside at a time [s]; without an evasion it is the own lane."""
     if m.stage != EVADING:
         return m.home, 0.0, 0.0
-    T, W = evasion.change_time(p.width, p.lateral), m.goal - m.place
+    T, W = evasion.change_time(p.width, across(p, m)), m.goal - m.place
     u = (time - m.begin) / T
     return m.place + W * evasion.share(u), W / T * evasion.slope(u), W / (T * T) * evasion.bend(u)
 
@@ -519,8 +575,8 @@ def steering(p, m, sees, offset):
 @compiled
 def evading(p, m, own, time):
     """Acceleration [m/s²] while going around: no more braking than the tyres have left, by the way and by what the car does."""
-    across = max(abs(way_aside(p, m, time)[2]), abs(own.yaw_rate * own.speed))
-    return -min(p.evasion_braking, evasion.left_over(p.grip, across))
+    used = max(abs(way_aside(p, m, time)[2]), abs(own.yaw_rate * own.speed))
+    return -min(p.evasion_braking, evasion.left_over(min(p.grip, m.road), used))
 
 
 @compiled
@@ -532,11 +588,11 @@ def speeding(p, m, sees, obstacle):
     if stage in (ASKING, COMMITTED):
         return accelerate(0.0)
     if stage == BRAKING:
-        return accelerate(-p.braking)
+        return accelerate(-min(p.braking, m.road))
     if stage == YIELDING:
-        return accelerate(-p.yielding)
+        return accelerate(-min(p.yielding, m.road))
     if stage == FOLLOWING:
-        return accelerate(-min(max(m.offered, 0.0), p.braking))
+        return accelerate(-min(max(m.offered, 0.0), p.braking, m.road))
     return accelerate(drive_on(sees.own, obstacle)) if stage in (ASIDE, RESUMING) or m.home != 0.0 else leave()
 
 
@@ -551,7 +607,7 @@ def command(p, m, sees, obstacle, offset):
 def message_of(p, m, sees, beside, side):
     """What the car says of the maneuver, and where it is."""
     stage, own = int(m.stage), sees.own
-    offered, (left, right) = p.yielding if stage == YIELDING else p.braking, lanes_of(sees)
+    offered, (left, right) = min(p.yielding if stage == YIELDING else p.braking, m.road), lanes_of(sees)
     return Payload(
         SAID[stage] * 1.0, m.identity, m.asking, -1.0, m.deadline, side, LONG_MARGIN, -offered, max(beside.ahead, -1e3),
         own.gps_x, own.gps_y, sees.road.target[0].heading, left, right,
@@ -570,14 +626,15 @@ def is_said(p, m, time):
 def said(m, time):
     """A message has gone out."""
     return Memory(
-        m.stage, m.since, m.identity, m.asking, m.deadline, time, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first, m.closed
+        m.stage, m.since, m.identity, m.asking, m.deadline, time, m.begin, m.braked, m.offered, m.home, m.goal, m.place, m.first,
+        m.closed, m.road,
     )  # fmt: skip
 
 
 @compiled
 def decide(parameters, memory, sees):
     """One moment."""
-    p, m, time = parameters, memory, sees.clock.time
+    p, m, time = parameters, felt(memory, sees), sees.clock.time
     offset = offset_of(sees, m.home)
     side = copysign(1.0, m.goal - m.home) if m.goal != m.home else side_of(p, m, sees)
     obstacle, beside = look_ahead(p, sees, offset - m.home), look_aside(side, sees)
@@ -588,7 +645,7 @@ def decide(parameters, memory, sees):
     says = is_said(p, m, time)
     if says:
         m = said(m, time)
-    log = Log(m.stage, obstacle.confidence, m.first, way_aside(p, m, time)[0] if m.stage in (EVADING, ASIDE) else 0.0)
+    log = Log(m.stage, obstacle.confidence, m.first, way_aside(p, m, time)[0] if m.stage in (EVADING, ASIDE) else 0.0, m.road)
     does = Does(
         command(p, m, sees, obstacle, offset),
         Outbox(1 if says else 0, (message_of(p, m, sees, beside, side),)),

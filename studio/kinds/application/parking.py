@@ -28,8 +28,8 @@ from studio.application.contract import (
     steer,
 )
 from studio.garage import plan, tracker
-from studio.garage.plan import GATE, RADIUS, Pose
-from studio.garage.way import LEAVES, Car, Way, nearest
+from studio.garage.plan import Plan, Pose
+from studio.garage.way import Car, Way, nearest
 from studio.kind.settings import Part, number
 from studio.kinds.message.parking_order import COME_BACK, DRIVE_IN, MOST
 from studio.kinds.message.parking_status import COMING_BACK, DRIVING_IN, GIVEN_BACK, OUTSIDE, PARKED, Payload
@@ -38,9 +38,10 @@ KIND = "application"
 TITLE = "Automated parking (PACE): a car in a garage"
 COMMANDS = ACCELERATION | STEERING | DRIVE_TORQUE | BRAKE_TORQUE | GEAR
 STANDS = 0.03  # [m/s]
-STOP = -GATE - 5.0  # [m] east, where the front waits for the garage
+STOP = 5.0  # [m] before the gate, where the front waits for the garage
 SLOW_DOWN = 1.0  # [m/s²] to that stop
 ROLLING = 0.015  # [1] resistance of the tyres
+HARD, SOFT = 6.0, 3.0  # [m/s²] for who steps in its way nearer than from where it would stop softly; and twice how softly that is
 TURNED = 0.04  # [rad] from what the wheels are to be at before the car moves off
 EARLY = 1e-6  # [s]
 
@@ -76,6 +77,11 @@ class Memory(NamedTuple):
     permit: Annotated[float, "m", "station that the front may reach"] = -1e3
     point: Annotated[float, "1", "of its way"] = 0.0
     sent: Annotated[float, "s", "when the last status was"] = -1.0
+    groups: Annotated[float, "1", "the deck, as the garage tells it"] = 0.0
+    together: Annotated[float, "1"] = 0.0
+    space_length: Annotated[float, "m"] = 0.0
+    space_width: Annotated[float, "m"] = 0.0
+    aisle: Annotated[float, "m"] = 0.0
 
 
 class Sees(NamedTuple):
@@ -109,6 +115,20 @@ class Does(NamedTuple):
 def car_of(p: Parameters) -> Car:
     """What ways depend on."""
     return Car(p.wheelbase, p.length, p.width, p.front_overhang, p.radius)
+
+
+def deck_of(m: Memory) -> Plan:
+    """The deck before it, as it was told; one without spaces before that."""
+    return Plan(int(m.groups), int(m.together), m.space_length, m.space_width, m.aisle)
+
+
+def with_plan(m: Memory, sees: Sees) -> Memory:
+    """With the plan that the garage tells."""
+    told = sees.heard.message[0]
+    if sees.heard.count == 0 or not told.received:
+        return m
+    a = told.payload
+    return m._replace(groups=a.groups, together=a.together, space_length=a.space_length, space_width=a.space_width, aisle=a.aisle)
 
 
 def ticket_of(time: float, own: Own) -> float:
@@ -173,7 +193,7 @@ def pushed(p: Parameters, u: float, gear: float, v: float) -> Command:
 def driven(p: Parameters, m: Memory, sees: Sees) -> tuple[Memory, Command, Way, float]:
     """One moment on its way: the point of it, the command, the way, and the offset."""
     car, time, own = car_of(p), sees.clock.time, sees.own
-    way, profile, last = tracker.profile(int(m.space), car, m.phase == COMING_BACK, p.speed)
+    way, profile, last = tracker.profile(deck_of(m), int(m.space), car, m.phase == COMING_BACK, p.speed)
     at, k = Pose(m.x, m.y, m.heading), int(m.point)
     if k == 0 and m.phase == DRIVING_IN:
         k = int(nearest(way, m.x, m.y, 0, 2000))
@@ -185,20 +205,22 @@ def driven(p: Parameters, m: Memory, sees: Sees) -> tuple[Memory, Command, Way, 
         end = int(last[k])
         left = tracker.left_of(way, k, end, at)
     left = 1e3 if m.phase == COMING_BACK and end + 1 == way.x.size else left  # the driver goes on from there
-    free = min(tracker.permitted(way, k, car, m.permit), tracker.before_persons(way, k, end, car, persons(sees), p.margin))
+    clear = tracker.before_persons(way, k, end, car, persons(sees), p.margin)
+    free = min(tracker.permitted(way, k, car, m.permit), clear)
     knows = time - m.fixed < p.blind and time - m.ordered < p.blind
     g, v = float(way.direction[k]), float(way.direction[k]) * own.speed
     angle = tracker.wheels(way, k, at, own.speed, p.wheelbase)
     wanted = tracker.allowed(min(max(profile[k], 0.15), p.speed), min(left, free)) if knows else 0.0
     is_turned = abs(own.speed) > STANDS or abs(own.steering - angle) < TURNED
     u = min(max(2.0 * (wanted - v), -2.0), 0.8) if is_turned and wanted > 0.02 else -1.5
+    u = -HARD if clear < v * v / SOFT else u
     return m._replace(point=float(k)), also(pushed(p, u, g, own.speed), steer(angle)), way, tracker.error(way, k, *at)[0]
 
 
-def waiting(sees: Sees) -> Command:
+def waiting(deck: Plan, sees: Sees) -> Command:
     """Before the gate, with the driver at the wheel: it stops there."""
-    left, v = STOP - sees.own.gps_x - 2.3, sees.own.speed
-    is_near = abs(sees.own.gps_y + RADIUS) < 4.0 and -25.0 < -left < 6.0
+    left, v = -deck.gate - STOP - sees.own.gps_x - 2.3, sees.own.speed
+    is_near = deck.groups > 0 and abs(sees.own.gps_y + deck.radius) < 4.0 and -25.0 < -left < 6.0
     return accelerate(-min(v * v / (2.0 * max(left, 0.2)) + 0.3, 3.0)) if is_near and v * v > 2.0 * SLOW_DOWN * max(left, 0.0) else leave()
 
 
@@ -222,14 +244,15 @@ def status(p: Parameters, m: Memory, sees: Sees) -> Payload:
     x, y = middle(p, m)
     if is_outside:
         x, y = sees.own.gps_x, sees.own.gps_y
-    rear = plan.station(m.x, m.y) - car.rear if m.fixes > 0.0 else -1e3
+    rear = plan.station(deck_of(m), m.x, m.y) - car.rear if m.fixes > 0.0 else -1e3
     return Payload(m.ticket, m.phase, x, y, float(rear), *car)
 
 
 def decide(parameters, memory, sees):
     """One tick."""
     p, m, time = parameters, memory, sees.clock.time
-    m = m if m.ticket else m._replace(ticket=ticket_of(time, sees.own))
+    m = with_plan(m if m.ticket else m._replace(ticket=ticket_of(time, sees.own)), sees)
+    deck = deck_of(m)
     i = place_of(m, sees)
     m = ordered(located(p, m, sees, i), sees, i)
     command, log = leave(), Log(m.phase, m.space, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -239,10 +262,10 @@ def decide(parameters, memory, sees):
         x, y = middle(p, m)
         log = Log(m.phase, m.space, x, y, atan2(sin(m.heading), cos(m.heading)), aside, way.length - float(way.driven[int(m.point)]))
     elif m.phase == OUTSIDE:
-        command = waiting(sees)
+        command = waiting(deck, sees)
     if m.phase == PARKED:
         command = also(accelerate(-1.0), steer(0.0))
-    is_near = m.phase != GIVEN_BACK or plan.station(m.x, m.y) < LEAVES + 15.0
+    is_near = m.phase != GIVEN_BACK or plan.station(deck, m.x, m.y) < deck.leaves + 15.0
     says = is_near and time - m.sent >= p.repetition - EARLY
     m = m._replace(sent=time if says else m.sent)
     return m, Does(command, Outbox(1 if says else 0, (status(p, m, sees),)), log)

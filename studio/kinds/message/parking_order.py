@@ -1,7 +1,8 @@
 """Orders of a garage to the cars that are handed over to it: where each is, which space it has, how far it may drive; and who walks about.
 
 A garage that localises and directs the cars in it (types 2 and 3 of ISO 23374-1). Of each car the same place in every list; a car knows
-itself by the ticket that it has told when it came. A head of 60 bytes with signature, 20 a car and 8 a person are estimated.
+itself by the ticket that it has told when it came. The plan of the deck goes along. A head of 60 bytes with signature and plan, 20 a car
+and 8 a person are estimated.
 """
 
 from typing import Annotated, NamedTuple
@@ -35,6 +36,11 @@ class Payload(NamedTuple):
     persons: Annotated[float, "1", "how many are told of"] = 0.0
     person_x: Annotated[Four, "m", "east"] = (0.0, 0.0, 0.0, 0.0)
     person_y: Annotated[Four, "m", "north"] = (0.0, 0.0, 0.0, 0.0)
+    groups: Annotated[float, "1", "of spaces in each row of the deck; 0 before anything was told"] = 0.0
+    together: Annotated[float, "1", "spaces of a group"] = 0.0
+    space_length: Annotated[float, "m", "of a space"] = 0.0
+    space_width: Annotated[float, "m", "of a space"] = 0.0
+    aisle: Annotated[float, "m", "width of the aisles"] = 0.0
 
 
 @compiled

@@ -124,6 +124,16 @@ def friction_at(x, y, friction, near, found, table):
     return friction
 
 
+@inlined
+def friction_on(world, x, y, weather, table):
+    """Friction [1] of the ground at any point of a world: of what acts there, the last of the file, else that of the weather."""
+    friction = weather[world]
+    for i in range(table.shape[1]):
+        if table[PIECE_WORLD, i] == world and table[PIECE_ACTS, i] > 0.0 and covers(i, x, y, table):
+            friction = table[PIECE_FRICTION, i]
+    return friction
+
+
 @lean
 def near_pieces(v, world, state, table, near):
     """Fills `near` with the pieces around a vehicle that act; how many there are."""
