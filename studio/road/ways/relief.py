@@ -11,6 +11,7 @@ needs; a level that is mapped goes on as far as it is mapped. The land under the
 crossings is land all over, and has no relief.
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ import shapely
 
 from studio.road.network import Lane, Network, curve
 from studio.road.network.index import once
+from studio.road.ways.path import PATH_HEIGHT, PATH_SPACING, Path
 
 APART = 3.0  # [m] of height between lanes that pass above each other
 GENTLE = 0.03  # [1] slope of the longest ramp that is thought of
@@ -33,7 +35,8 @@ UPRIGHT = 4.0  # [1] what a metre of height counts for where the nearest lane is
 @dataclass(frozen=True, eq=False)
 class Relief:
     """Places along all lanes: `points` float64[3, n] east, north and height [m], `lift` float64[n] above the land [m], `slope`
-    float64[2, n] of the lift to the east and north [1]; the places of lane i are those from first[i] to first[i + 1], at `station` [m].
+    float64[2, n] of the lift to the east and north [1]; the places of lane i are those from first[i] to first[i + 1], at `station` [m] and
+    on the mapped `level`.
     """
 
     points: np.ndarray
@@ -41,6 +44,7 @@ class Relief:
     slope: np.ndarray
     first: np.ndarray
     station: np.ndarray
+    level: np.ndarray
 
     def of_lane(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Stations [m], places float64[2, n] and lifts of a lane."""
@@ -72,11 +76,20 @@ def relief_of(network: Network) -> Relief | None:
     return shaped(network, off, below, apart) if off or is_laid else None
 
 
+def height_at(path: Path, station: np.ndarray) -> np.ndarray:
+    """Height of the road [m] at stations of a path [m]."""
+    known = path.points[PATH_HEIGHT]
+    return np.interp(np.nan_to_num(station), np.arange(known.size) * PATH_SPACING, known)
+
+
 # -- where lanes pass above each other -------------------------------------------------------------
 
 
-def crossings(lanes: tuple[Lane, ...], height: list[np.ndarray]) -> tuple[list[tuple[int, float]], list[tuple[int, float]], list[float]]:
-    """By these heights, lane and station [m] of who is off the ground at every crossing and of who is on it, and by how much they are apart [m]."""
+Spots = list[tuple[int, float]]  # a lane and a station on it [m]
+
+
+def crossings(lanes: tuple[Lane, ...], height: list[np.ndarray]) -> tuple[Spots, Spots, list[float]]:
+    """Who is off the ground, by these heights, and who is on it where lanes cross; and how far each of the first is from the other [m]."""
     lines = np.array([shapely.LineString(lane.centre.T) for lane in lanes])
     low, high = (np.array([end(z) for z in height]) for end in (np.min, np.max))
     i, j = shapely.STRtree(lines).query(lines, predicate="intersects")
@@ -124,9 +137,10 @@ def shaped(network: Network, off: list, below: list, apart: list[float]) -> Reli
     level, lift = along(network.lanes, stations, first, [(levels(lane), lifts(lane)) for lane in network.lanes])
     if off:
         left = np.concatenate([points[:2], points[2:] - lift])
-        lift = lift + guessed(links(network, first, points, level), left, first, [[nearest(stations, first, *each) for each in of] for of in (off, below)], apart)
+        crossed = [[nearest(stations, first, *each) for each in spots] for spots in (off, below)]
+        lift = lift + guessed(links(network, first, points, level), left, first, crossed, apart)
     lift[np.abs(lift) < LEAST] = 0.0
-    return Relief(points, lift, slopes(points, lift, first), first, stations)
+    return Relief(points, lift, slopes(points, lift, first), first, stations, level)
 
 
 def guessed(far, points: np.ndarray, first: np.ndarray, crossed: list[list[int]], apart: list[float]) -> np.ndarray:
@@ -176,7 +190,7 @@ def links(network: Network, first: np.ndarray, points: np.ndarray, level: np.nda
     far = np.maximum(np.hypot(*(points[:2, b] - points[:2, a])), TOUCH)
     far[(level[a] == level[b]) & (level[a] != 0.0)] = TOUCH
     chains = [(each.from_lane, *each.via, each.to_lane) for each in network.connections]
-    joints = np.array([(first[x + 1] - 1, first[y]) for chain in chains for x, y in zip(chain, chain[1:], strict=False)], dtype=int)
+    joints = np.array([(first[x + 1] - 1, first[y]) for chain in chains for x, y in itertools.pairwise(chain)], dtype=int)
     joints = np.unique(joints.reshape(-1, 2), axis=0).T
     rows, columns = np.concatenate([a, joints[0]]), np.concatenate([b, joints[1]])
     return coo_matrix((np.concatenate([far, np.full(joints.shape[1], TOUCH)]), (rows, columns)), shape=(points.shape[1],) * 2)
@@ -220,7 +234,7 @@ def land(known: np.ndarray, at: np.ndarray) -> np.ndarray:
 def slopes(points: np.ndarray, lift: np.ndarray, first: np.ndarray) -> np.ndarray:
     """The slope of the lift to the east and north at every place, along its lane."""
     found = np.zeros((2, lift.size))
-    for a, b in zip(first[:-1], first[1:], strict=True):
+    for a, b in itertools.pairwise(first):
         if lift[a:b].any():
             step = np.gradient(points[:2, a:b], axis=1)
             found[:, a:b] = step * np.gradient(lift[a:b]) / np.maximum((step * step).sum(axis=0), TOUCH)

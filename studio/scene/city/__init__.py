@@ -68,7 +68,10 @@ def layers(network: Network) -> list[Layer]:
     """Everything of the city that never moves, from the ground up; each is one draw call."""
     relief = relief_of(network)
     if relief is None or not relief.lift.any():
-        return [Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND), *on_ground(network, network, shapely.Polygon())]
+        return [
+            Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND),
+            *on_ground(network, network, shapely.Polygon()),
+        ]
     above, land = aloft(network, relief), on_land(network, relief)
     return [
         Layer("ground", glb(holed(ground_form(horizon(network)), above.opened), Material(unlit=True)), GROUND),

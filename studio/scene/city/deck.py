@@ -39,7 +39,7 @@ SAME = 1.5  # [m] of height between lanes that are one ground
 LINE, INSET, PAINT = 0.12, 0.1, 0.03  # [m] width of a line, from the edge of the lane, above the road
 DASHES = 3  # of three quads along a line between lanes one is painted
 HEADROOM = 4.7  # [m] of a tunnel
-CONCRETE, UNDERSIDE, PIER, PORTAL = "#b3afa7", "#7d7a74", "#a5a199", "#3a3b3d"
+CONCRETE, UNDERSIDE, PIER, PORTAL = "#b3afa7", "#a9a59d", "#a5a199", "#3a3b3d"
 DEEP = 0.3  # [m] below the land, from which on the ground is open
 
 
@@ -82,9 +82,10 @@ def aloft(network: Network, relief: Relief) -> Aloft:
     spans, under = passes(p, others)
     deck = p.follows & (p.z > 0.0) & widened((p.level > 0.0) | spans, p)
     covered = p.follows & (p.z < -DEEP) & ((p.level < 0.0) | under) & (p.z < -HEADROOM + THICK)
+    stands = [*walls(p, walled, outer, deck, covered), *undersides(p, outer, deck), *piers(p, others, deck), *ends(p, outer, deck, covered)]
     return Aloft(
         roads=joined([*carriageway(p, open_sides, outer), *lines(network, p, open_sides)]),
-        solids=joined([*walls(p, walled, outer, deck, covered), *undersides(p, outer, deck), *piers(p, others, deck), *ends(p, outer, deck, covered)]),
+        solids=joined(stands),
         shadow=shadow(p, outer),
         opened=ground(p, outer, p.follows & (p.z < 0.0)),
         covered=ground(p, outer, covered),
@@ -95,15 +96,14 @@ def places(network: Network, relief: Relief) -> Places:
     """The places of all stretches off the land."""
     rows: list[list[np.ndarray]] = []
     for lane, a, b in off_land(network, relief):
-        one = network.lanes[lane]
+        one, n = network.lanes[lane], b - a + 1
         station, at, lift = (each[..., a : b + 1] for each in relief.of_lane(lane))
         step = np.gradient(at, axis=1)
         step = step / np.maximum(np.hypot(*step), 1e-9)
-        fast = network.roads[one.road].speed >= FAST if one.road in network.roads else False
-        n = station.size
-        levels = np.interp(station / max(one.length, 1e-9), np.linspace(0.0, 1.0, one.level.size), one.level) if one.level.size else np.zeros(n)
-        rows.append([np.full(n, lane), at, lift, np.array([-step[1], step[0]]), np.full(n, one.width / 2.0), station, levels,
-                     np.full(n, SHOULDER if fast else MARGIN), np.arange(n) < n - 1])  # fmt: skip
+        margin = SHOULDER if network.roads[one.road].speed >= FAST else MARGIN
+        level = relief.level[relief.first[lane] + a : relief.first[lane] + b + 1]
+        own = [np.full(n, lane), at, lift, np.array([-step[1], step[0]]), np.full(n, one.width / 2.0), station, level]
+        rows.append([*own, np.full(n, margin), np.arange(n) < n - 1])
     return Places(*(np.concatenate(column, axis=-1) for column in zip(*rows, strict=True)))
 
 
@@ -141,7 +141,7 @@ def widened(spans: np.ndarray, p: Places) -> np.ndarray:
 
 
 def quads(a: np.ndarray, z_a: np.ndarray, b: np.ndarray, z_b: np.ndarray, where: np.ndarray, colour: np.ndarray) -> Surface:
-    """Quads between two lines float64[2, n] at these heights, from each place of `where` to the next; seen from the left of the way if `a`
+    """Quads between two lines float64[2, n] at these heights, from each place of `where` to the next; seen from the right of the way if `a`
     is above `b`, from above if it is to the left of it."""
     i = np.flatnonzero(where)
     corners = [np.column_stack([line[0, k], line[1, k], np.broadcast_to(z, line.shape[1])[k]])
@@ -182,7 +182,6 @@ def walls(p: Places, walled: dict, outer: dict, deck: np.ndarray, covered: np.nd
         inside, outside = outer[side], outer[side] + side * PARAPET_WIDTH * p.left
         here = p.follows & walled[side] & np.append(walled[side][1:], False)
         up = here & (p.z >= 0.0) & ~covered
-        foot = np.where(deck, np.maximum(p.z - THICK, FOOT), FOOT)
         top = p.z + PARAPET
         found += [face(inside, top, p.z, up, colour, -side), lid(inside, outside, top, up, colour, side)]
         # the foot of the outer side may step where a deck begins: each quad has its own
@@ -198,7 +197,7 @@ def walls(p: Places, walled: dict, outer: dict, deck: np.ndarray, covered: np.nd
 
 def face(line: np.ndarray, top: np.ndarray, low: np.ndarray, where: np.ndarray, colour: np.ndarray, side: float) -> Surface:
     """An upright band along a line, seen from its left (1) or right (-1)."""
-    return quads(line, top, line, low, where, colour) if side > 0.0 else quads(line, low, line, top, where, colour)
+    return quads(line, low, line, top, where, colour) if side > 0.0 else quads(line, top, line, low, where, colour)
 
 
 def lid(inside: np.ndarray, outside: np.ndarray, z: np.ndarray, where: np.ndarray, colour: np.ndarray, side: float) -> Surface:
