@@ -34,6 +34,7 @@ CLEARANCE = 2.5  # [m] of height between lanes that pass above each other
 REACH = 3.0  # [m] beside a lane that a deck spans too
 ABUTMENT = 2  # places by which a deck reaches beyond what it spans
 FOOT = -0.2  # [m] where walls begin: in the ground
+SUNK = 0.05  # [m] that walls begin below the road, so that there is no slit
 PROBE = 0.3  # [m] beyond an edge, where one looks for another lane
 SAME = 1.5  # [m] of height between lanes that are one ground
 LINE, INSET, PAINT = 0.12, 0.1, 0.03  # [m] width of a line, from the edge of the lane, above the road
@@ -163,7 +164,7 @@ def carriageway(p: Places, open_sides: dict, outer: dict) -> list[Surface]:
 
 
 def lines(network: Network, p: Places, open_sides: dict) -> list[Surface]:
-    """Edge lines where a carriageway ends, and broken ones between its lanes."""
+    """Edge lines where a carriageway ends, one between directions, and broken ones between lanes."""
     white, found = on_level_ground("#eceae3"), []
     for side in (1.0, -1.0):
         a, b = sorted((-INSET, -INSET - LINE), reverse=side > 0.0)
@@ -172,7 +173,8 @@ def lines(network: Network, p: Places, open_sides: dict) -> list[Surface]:
     inner = np.array([lane.internal or network.lanes_of(lane.road)[-1].id == lane.id for lane in network.lanes])
     broken = (np.floor(p.station / 4.0).astype(int) % DASHES == 0) & ~inner[p.lane] & ~open_sides[side]
     a, b = sorted((LINE / 2.0, -LINE / 2.0), reverse=side > 0.0)
-    return [*found, quads(p.edge(side, a), p.z + PAINT, p.edge(side, b), p.z + PAINT, p.follows & broken, white)]
+    middle = inner[p.lane] & ~np.array([lane.internal for lane in network.lanes])[p.lane] & ~open_sides[side]
+    return [*found, quads(p.edge(side, a), p.z + PAINT, p.edge(side, b), p.z + PAINT, p.follows & (broken | middle), white)]
 
 
 def walls(p: Places, walled: dict, outer: dict, deck: np.ndarray, covered: np.ndarray) -> list[Surface]:
@@ -182,16 +184,16 @@ def walls(p: Places, walled: dict, outer: dict, deck: np.ndarray, covered: np.nd
         inside, outside = outer[side], outer[side] + side * PARAPET_WIDTH * p.left
         here = p.follows & walled[side] & np.append(walled[side][1:], False)
         up = here & (p.z >= 0.0) & ~covered
-        top = p.z + PARAPET
-        found += [face(inside, top, p.z, up, colour, -side), lid(inside, outside, top, up, colour, side)]
+        top, below = p.z + PARAPET, p.z - SUNK
+        found += [face(inside, top, below, up, colour, -side), lid(inside, outside, top, up, colour, side)]
         # the foot of the outer side may step where a deck begins: each quad has its own
         for part, low in ((up & deck, np.maximum(p.z - THICK, FOOT)), (up & ~deck, np.full(p.z.size, FOOT))):
             found.append(face(outside, top, low, part, colour * 0.92, side))
         down = here & (p.z < 0.0) & ~covered
         rim = np.full(p.z.size, KERB_WALL)
-        found += [face(inside, rim, p.z, down, colour * 0.85, -side), lid(inside, outside, rim, down, colour, side),
+        found += [face(inside, rim, below, down, colour * 0.85, -side), lid(inside, outside, rim, down, colour, side),
                   face(outside, rim, np.full(p.z.size, FOOT), down, colour * 0.92, side)]  # fmt: skip
-        found.append(face(inside, np.minimum(p.z + HEADROOM, FOOT), p.z, here & covered, linear(PORTAL) * 1.6, -side))
+        found.append(face(inside, np.full(p.z.size, FOOT), below, here & covered, linear(PORTAL) * 1.6, -side))
     return found
 
 
