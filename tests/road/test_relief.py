@@ -1,4 +1,4 @@
-"""The relief: what crosses others on another level is off the land by what lies between them, all else is on it, whatever hills there are."""
+"""The relief: what crosses others on another level is off the land by what lies between them, all else is on it, on any hills."""
 
 import numpy as np
 import pytest

@@ -31,10 +31,11 @@ def pictures(loaded):
     """Time [s] and picture of every tick of a run but the first, and when lights and objects in it were looked at: a tick ago, but
     for the last."""
     running = simulation(job.prepare(loaded))
+    relief = relief_of(running.cases[0].setting.network)
     while not running.is_over:
         seen = running.time
         running.advance()
-        yield running.time, running.time if running.is_over else seen, frame(running.world, poses(running.world.vehicles, relief_of(running.cases[0].setting.network)))
+        yield running.time, running.time if running.is_over else seen, frame(running.world, poses(running.world.vehicles, relief))
 
 
 @pytest.mark.parametrize("name", SAMPLES)

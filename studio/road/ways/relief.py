@@ -76,6 +76,16 @@ def relief_of(network: Network) -> Relief | None:
     return shaped(network, off, below, apart) if off or is_laid else None
 
 
+def road_height(network: Network, x: float, y: float) -> float:
+    """Height of the nearest lane to a place [m], of several as near that of the lowest."""
+    if not any(lane.height.any() for lane in network.lanes):
+        return 0.0
+    point, lines = shapely.Point(x, y), [shapely.LineString(lane.centre.T) for lane in network.lanes]
+    far = shapely.distance(lines, point)
+    near = np.flatnonzero(far <= far.min() + 1.0)
+    return min(value(network.lanes[i].height, network.lanes[i], float(lines[i].project(point))) for i in near.tolist())
+
+
 def height_at(path: Path, station: np.ndarray) -> np.ndarray:
     """Height of the road [m] at stations of a path [m]."""
     known = path.points[PATH_HEIGHT]
