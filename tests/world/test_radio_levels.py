@@ -20,6 +20,7 @@ map: {{file: map.osm, radius: 900}}
 clock: {{duration: 1}}
 radio: {{kind: ad_hoc, buildings: false, range: {range}, delay: 0.001, delay_variation: 0.0, loss: 0.0, deck_loss: {loss}}}
 routes: {{over: {{roads: ["11"]}}, under: {{roads: ["14"]}}}}
+applications: {{behind: {{application: cacc, units: [down], listens_to: [up]}}}}
 vehicles:
   up: {{route: over, position: {{along: 398}}, speed: 0}}
   down: {{route: under, position: {{along: 298}}, speed: 0}}
