@@ -203,7 +203,10 @@ class Layers:
     def line(self, name: str, points: list[tuple[float, float]], heights: np.ndarray) -> answer.LayerLine:
         """A line of a vehicle on roads of these heights [m]."""
         relief = relief_of(self.setting.network)
-        lifts = relief.at(*np.array(points).T, heights)[0] if relief is not None and points else np.zeros(0)
+        lifts = np.zeros(0)
+        if relief is not None and points:
+            x, y = np.array(points).T
+            lifts, _ = relief.at(x, y, heights)
         return answer.LayerLine(car=self.number[name], points=rounded(points), lifts=np.round(lifts, 2).tolist() if lifts.any() else [])
 
 

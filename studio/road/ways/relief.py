@@ -253,6 +253,6 @@ def slopes(points: np.ndarray, lift: np.ndarray, first: np.ndarray) -> np.ndarra
 
 def tree_of(points: np.ndarray):
     """A search tree over places float64[rows, n]."""
-    from scipy.spatial import cKDTree
+    from scipy.spatial import KDTree
 
-    return cKDTree(points.T)
+    return KDTree(points.T)

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from studio.road.network import Network
 from studio.road.ways.relief import Relief
@@ -70,8 +71,8 @@ class Aloft:
     roads: Surface
     solids: Surface
     shadow: Mesh
-    opened: shapely.Geometry
-    covered: shapely.Geometry
+    opened: BaseGeometry
+    covered: BaseGeometry
 
 
 def aloft(network: Network, relief: Relief) -> Aloft:
@@ -249,7 +250,7 @@ def piers(p: Places, others: Neighbours, deck: np.ndarray) -> list[Surface]:
 # -- on the ground ---------------------------------------------------------------------------------
 
 
-def ground(p: Places, outer: dict, where: np.ndarray, shift: np.ndarray | None = None) -> shapely.Geometry:
+def ground(p: Places, outer: dict, where: np.ndarray, shift: np.ndarray | None = None) -> BaseGeometry:
     """The ground below some quads as a plane shape."""
     i = np.flatnonzero(where)
     a, b = (line if shift is None else line + shift for line in (outer[1.0], outer[-1.0]))

@@ -108,7 +108,7 @@ class Neighbours:
 
     def near(self, places: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Which places float64[2, n] are within a reach [m] of which lanes, and the lift of the lane there [m]."""
-        points = shapely.points(places.T)
+        points = np.asarray(shapely.points(places.T))
         place, lane = self.tree.query(points, predicate="dwithin", distance=reach)
         s = shapely.line_locate_point(self.lines[lane], points[place])
         # all lanes one behind the other, so that one look-up serves them all
