@@ -107,7 +107,7 @@ def listened(settings: Sequence[Setting], world: World) -> list[np.ndarray]:
 
 def hopeless(setting: Setting) -> Iterator[Happening]:
     """What is told before a run: entries of the script that can never begin, or never end."""
-    place = Place(setting.scenario, setting.network)
+    place = Place(setting.scenario, setting.network, setting.locks)
     for site in setting.sites:
         for turn, part in (("begin", site.entry.when), ("end", site.entry.until)):
             if part is not None and (reason := place.never(part)):

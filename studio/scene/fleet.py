@@ -85,10 +85,10 @@ class Fleet:
             self._move_shadows(poses, places)
 
     def _move_wheels(self, poses: np.ndarray, places: np.ndarray) -> None:
-        # wheels stand on the road: they follow the yaw, not the roll and pitch of the body
+        # wheels stand on the road: they follow yaw and tilt of it, not the roll and pitch of the body
         c, s = np.cos(poses[pose.YAW])[:, None], np.sin(poses[pose.YAW])[:, None]
         x, y, z = np.moveaxis(self._offsets, -1, 0)
-        wheels = places[:, None, :] + np.stack([c * x - s * y, s * x + c * y, z], axis=-1)
+        wheels = places[:, None, :] + np.stack([c * x - s * y, s * x + c * y, z - x * np.tan(poses[pose.TILT])[:, None]], axis=-1)
         yaw = poses[pose.YAW][:, None] + poses[pose.STEER][:, None] * np.array([1, 1, 0, 0], np.float32)
         spin = np.repeat(poses[pose.WHEEL_ANGLE], 4)
         put(self._wheels, wheels.reshape(-1, 3), quaternions(yaw.ravel(), spin, np.zeros_like(spin)))
@@ -97,8 +97,8 @@ class Fleet:
         lifted = places + np.array([0.0, 0.0, SHADOW_HEIGHT], np.float32)
         thrown = lifted + np.column_stack([self._throw, np.full(len(places), 0.01, np.float32)])
         yaw = np.tile(poses[pose.YAW], 2)
-        level = np.zeros_like(yaw)
-        put(self._shadows, np.concatenate([lifted, thrown]), quaternions(yaw, level, level))
+        tilt = np.tile(poses[pose.TILT], 2)
+        put(self._shadows, np.concatenate([lifted, thrown]), quaternions(yaw, tilt, np.zeros_like(yaw)))
 
     def remove(self) -> None:
         """Take the vehicles off the server."""

@@ -19,13 +19,14 @@ LENGTH, BOARD, STRIPES = 1.5, 0.25, 6  # [m] of a barrier, [m] height of its boa
 
 class Place(NamedTuple):
     """An object: one of `SHAPES`, where it stands [m], the heading of its length [rad], its length and width [m], which those of
-    `STRETCHED` obey."""
+    `STRETCHED` obey, and how high above the land its road is [m]."""
 
     kind: str
     x: float
     y: float
     heading: float
     size: tuple[float, float] = (1.0, 1.0)
+    lift: float = 0.0
 
 
 def cone() -> Surface:
@@ -109,6 +110,7 @@ class Obstacles:
             if any(place.kind == kind for place in places)
         ]
         self.shown = np.zeros(len(places), np.int8)
+        self.lift = np.array([each.lift for each in places], np.float32)
         self.where = np.array([each[1:4] for each in places], np.float32).reshape(-1, 3).T.copy()
 
     def batch(self, server: viser.ViserServer, kind: str, members: np.ndarray, places: Sequence[Place]) -> tuple:
@@ -128,7 +130,8 @@ class Obstacles:
             return
         for members, node in self.batches:
             x, y, heading = where[:, members]
-            node.batched_positions = np.where(standing[members, None] > 0, np.stack([x, y, 0.0 * x], axis=1), HIDDEN).astype(np.float32)
+            at = np.stack([x, y, self.lift[members]], axis=1)
+            node.batched_positions = np.where(standing[members, None] > 0, at, HIDDEN).astype(np.float32)
             if not np.array_equal(heading, self.where[2, members]):
                 node.batched_wxyzs = turns(heading)
         self.shown, self.where = standing.copy(), where.copy()

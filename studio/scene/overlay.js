@@ -120,9 +120,9 @@
       return count;
     },
 
-    trails: (ink) => lines(ink, state.seen?.trails, (line, pose) => [...line.points, [pose.x, pose.y]], { width: 3, alpha: 0.75 }),
+    trails: (ink) => lines(ink, state.seen?.trails, (line, pose) => [...risen(line), [pose.x, pose.y, pose.z]], { width: 3, alpha: 0.75 }),
 
-    paths: (ink) => lines(ink, state.seen?.paths, (line) => line.points, { width: 4, alpha: 0.5, dash: [2, 6], cap: "round" }),
+    paths: (ink) => lines(ink, state.seen?.paths, risen, { width: 4, alpha: 0.5, dash: [2, 6], cap: "round" }),
 
     sensors(ink) {
       let count = 0;
@@ -228,6 +228,11 @@
     return found.sort((one, other) => isTraffic(one[0]) - isTraffic(other[0]) || one[2][2] - other[2][2]);
   }
 
+  // the points of a line, as high as the road is drawn there
+  function risen({ points, lifts }) {
+    return points.map(([x, y], i) => [x, y, lifts?.[i] ?? 0]);
+  }
+
   function lines(ink, some, points, { width, alpha, dash = [], cap = "butt" }) {
     let count = 0;
     for (const line of some ?? []) {
@@ -235,7 +240,7 @@
       if (!pose || !car) continue;
       Object.assign(ink, { strokeStyle: shown(car.color), lineWidth: width, globalAlpha: alpha, lineCap: cap });
       ink.setLineDash(dash);
-      if (trace(ink, points(line, pose).map(([x, y]) => [x, y, 0.15]))) ink.stroke();
+      if (trace(ink, points(line, pose).map(([x, y, z]) => [x, y, z + 0.15]))) ink.stroke();
       count++;
     }
     ink.setLineDash([]);

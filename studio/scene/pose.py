@@ -13,7 +13,9 @@ YAW, ROLL, PITCH = 3, 4, 5
 STEER, WHEEL_ANGLE = 6, 7
 # 1: shown, 0: hidden
 VISIBLE = 8
-POSE_ROWS = 9
+# of the road as it is drawn, along the vehicle [rad], nose-down positive as its pitch
+TILT = 9
+POSE_ROWS = 10
 
 
 def standing(count: int) -> np.ndarray:

@@ -7,6 +7,7 @@ import viser
 
 from studio.road.network import Network
 from studio.road.network.signals import AMBER, GREEN, RED, RED_AMBER
+from studio.road.ways.relief import relief_of
 from studio.scene.glb import Material, glb
 from studio.scene.shape import Surface, ball, box, cylinder, joined
 
@@ -24,7 +25,8 @@ HIDDEN = np.array([0.0, 0.0, -500.0], np.float32)
 
 def masts(network: Network) -> Surface:
     """Masts and arms of all signals as one mesh."""
-    return joined([_mast(network, links) for links in _approaches(network).values()])
+    lift = lifts(network)
+    return joined([_mast(network, links).moved(z=float(lift[links[0]])) for links in _approaches(network).values()])
 
 
 def head_places(network: Network) -> tuple[np.ndarray, np.ndarray]:
@@ -32,6 +34,12 @@ def head_places(network: Network) -> tuple[np.ndarray, np.ndarray]:
     signals = network.signals
     ahead = BEHIND_LINE
     return signals.link_x + ahead * np.cos(signals.link_heading), signals.link_y + ahead * np.sin(signals.link_heading)
+
+
+def lifts(network: Network) -> np.ndarray:
+    """How high above the land the stop line of every link is [m]."""
+    relief = relief_of(network)
+    return np.array([relief.of_lane(lane)[2][-1] if relief else 0.0 for lane in network.signals.link_lane])
 
 
 def _approaches(network: Network) -> dict[str, list[int]]:
@@ -70,13 +78,14 @@ class Lamps:
         x, y = head_places(network)
         heading = network.signals.link_heading
         turns = np.stack([np.cos(heading / 2), 0 * heading, 0 * heading, np.sin(heading / 2)], 1).astype(np.float32)
-        heads = np.stack([x, y, 0 * x], 1).astype(np.float32)
+        lift = lifts(network)
+        heads = np.stack([x, y, lift], 1).astype(np.float32)
         self._heads = server.scene.add_batched_glb(
             "/signals/heads", glb(_head(), Material(roughness=0.6)), turns, heads, lod="off", cast_shadow=False, receive_shadow=False
         )
         before = 0.14 + PROUD
         x, y = x - before * np.cos(heading), y - before * np.sin(heading)
-        self._places = {name: np.stack([x, y, np.full(len(x), z)], 1).astype(np.float32) for name, z in LAMP_HEIGHTS.items()}
+        self._places = {name: np.stack([x, y, lift + z], 1).astype(np.float32) for name, z in LAMP_HEIGHTS.items()}
         self._nodes = {name: self._add(server, name, turns) for name in LAMP_HEIGHTS}
         self._shown = np.full(len(x), -1)
 

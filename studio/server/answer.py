@@ -781,6 +781,7 @@ class LayerLine(BaseModel):
 
     car: int
     points: list[Spot] = Field(description="[m]")
+    lifts: list[float] = Field([], description="how high above the land each lies [m]; none where all lie on it")
 
 
 class Layers(BaseModel):

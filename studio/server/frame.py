@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from studio.road.ways.relief import Relief, relief_of
 from studio.scene import pose
 from studio.scene.fleet import Look
 from studio.scene.obstacle import Place
@@ -18,7 +19,7 @@ from studio.world.thing import things
 from studio.world.world import Vehicles, World
 
 JUMP = 5.0  # [m] a car that moved farther within a tick has come in anew, and is not drawn on its way
-MOTION = (pose.X, pose.Y, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEEL_ANGLE)
+MOTION = (pose.X, pose.Y, pose.Z, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, pose.WHEEL_ANGLE, pose.TILT)
 
 
 class Frame(NamedTuple):
@@ -42,18 +43,23 @@ def first_frame(setting: Setting) -> Frame:
     found = list(things(setting.sites))
     standing = [int(setting.sites[each.entry].is_there_from_the_start) for each in found]
     objects = np.array([(each.x, each.y, each.heading) for each in found], np.float32).reshape(-1, 3).T
-    return Frame(poses(at_start(setting)), first_lights(setting), np.array(standing, dtype=np.int8), objects)
+    return Frame(poses(at_start(setting), relief_of(setting.network)), first_lights(setting), np.array(standing, dtype=np.int8), objects)
 
 
 def places(setting: Setting) -> list[Place]:
     """All objects that may stand on the road."""
-    return [Place(each.looks, each.x, each.y, each.heading, (each.length, each.width)) for each in things(setting.sites)]
+    found, relief = list(things(setting.sites)), relief_of(setting.network)
+    at = np.array([(each.x, each.y, each.height) for each in found]).reshape(-1, 3).T
+    lift = relief.at(*at)[0] if relief is not None and found else np.zeros(len(found))
+    return [
+        Place(each.looks, each.x, each.y, each.heading, (each.length, each.width), float(z)) for each, z in zip(found, lift, strict=True)
+    ]
 
 
-def poses(vehicles: Vehicles) -> np.ndarray:
+def poses(vehicles: Vehicles, relief: Relief | None) -> np.ndarray:
     """float32[POSE_ROWS, vehicle] of the vehicles now; the body rolls, pitches and heaves on its springs.
 
-    The picture is flat: height and slope of the road, those under the first wheel, are taken off.
+    The picture is flat but for the relief: height and slope of the road, those under the first wheel, are taken off.
     """
     state, parameter = vehicles.state, vehicles.parameter
     n = state.shape[1]
@@ -66,6 +72,17 @@ def poses(vehicles: Vehicles) -> np.ndarray:
     rows[pose.STEER] = state[DELTA]
     rows[pose.WHEEL_ANGLE] = vehicles.wheels[ROTATION, 2 * n : 3 * n]
     rows[pose.VISIBLE] = state[ACTIVE]
+    return lifted(rows, relief, height + g_x * state[X] + g_y * state[Y])
+
+
+def lifted(rows: np.ndarray, relief: Relief | None, height: np.ndarray) -> np.ndarray:
+    """Poses float32[POSE_ROWS, n] on roads of these heights [m], put where these are drawn: above the land, or below it."""
+    if relief is not None and rows.shape[1]:
+        lift, (g_x, g_y) = relief.at(rows[pose.X], rows[pose.Y], height)
+        tilt = -np.arctan(g_x * np.cos(rows[pose.YAW]) + g_y * np.sin(rows[pose.YAW]))
+        rows[pose.Z] += lift
+        rows[pose.PITCH] += tilt
+        rows[pose.TILT] = tilt
     return rows
 
 

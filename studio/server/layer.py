@@ -19,7 +19,8 @@ from studio.execution.message import Messages
 from studio.execution.record import Body, Record
 from studio.kind import registry
 from studio.kind.sensor import Looking
-from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y
+from studio.road.ways.path import PATH_HEADING, PATH_HEIGHT, PATH_SPACING, PATH_X, PATH_Y
+from studio.road.ways.relief import height_at, relief_of
 from studio.server import answer
 from studio.world.setting import Setting
 
@@ -175,11 +176,13 @@ class Layers:
         """Where everybody came from."""
         t = record.time[i]
         steps = np.unique(np.searchsorted(record.time[: i + 1], np.arange(t - TRAIL, t, TRAIL_STEP)))
-        x, y = (record.channel(name) for name in ("x", "y"))
+        x, y, station = (record.channel(name) for name in ("x", "y", "station"))
         for v, name in enumerate(record.vehicles):
             points = [(float(x[v, j]), float(y[v, j])) for j in steps if isfinite(x[v, j])]
             if name in self.number and isfinite(x[v, i]) and points:
-                yield answer.LayerLine(car=self.number[name], points=rounded(points))
+                there = [j for j in steps if isfinite(x[v, j])]
+                heights = height_at(self.setting.cars[self.number[name]].path, station[v, there])
+                yield self.line(name, points, heights)
 
     def paths(self, record: Record, i: int) -> Iterator[answer.LayerLine]:
         """Where everybody's way leads within the next seconds."""
@@ -187,14 +190,24 @@ class Layers:
         for v, name in enumerate(record.vehicles):
             if name in self.number and isfinite(station[v]) and isfinite(speed[v]):
                 reach = max(AHEAD * float(speed[v]), LEAST_AHEAD)
-                yield answer.LayerLine(car=self.number[name], points=rounded(self.way(name, float(station[v]), reach)))
+                yield self.line(name, *self.way(name, float(station[v]), reach))
 
-    def way(self, name: str, station: float, reach: float) -> list[tuple[float, float]]:
-        """Points of a vehicle's path from a station on [m]."""
+    def way(self, name: str, station: float, reach: float) -> tuple[list[tuple[float, float]], np.ndarray]:
+        """Points of a vehicle's path from a station on, and the heights of the road there [m]."""
         points = self.setting.cars[self.number[name]].path.points
         at = np.arange(station, station + reach, PATH_STEP) / PATH_SPACING
         known, own = np.arange(points.shape[1]), at[at <= points.shape[1] - 1]
-        return list(zip(np.interp(own, known, points[PATH_X]).tolist(), np.interp(own, known, points[PATH_Y]).tolist(), strict=True))
+        x, y, height = (np.interp(own, known, points[row]) for row in (PATH_X, PATH_Y, PATH_HEIGHT))
+        return list(zip(x.tolist(), y.tolist(), strict=True)), height
+
+    def line(self, name: str, points: list[tuple[float, float]], heights: np.ndarray) -> answer.LayerLine:
+        """A line of a vehicle on roads of these heights [m]."""
+        relief = relief_of(self.setting.network)
+        lifts = np.zeros(0)
+        if relief is not None and points:
+            x, y = np.array(points).T
+            lifts, _ = relief.at(x, y, heights)
+        return answer.LayerLine(car=self.number[name], points=rounded(points), lifts=np.round(lifts, 2).tolist() if lifts.any() else [])
 
 
 def missing(record: Record, kept: Collection[str]) -> dict[str, str]:

@@ -17,9 +17,10 @@ from studio.execution.brought import Brought, acting_since, turns_of
 from studio.execution.cast import Cast
 from studio.execution.happening import Happening
 from studio.execution.record import SAME_TIME, Body, Record
+from studio.road.ways.relief import Relief, height_at, relief_of
 from studio.scene import pose
 from studio.server import answer
-from studio.server.frame import Frame, blend
+from studio.server.frame import Frame, blend, lifted
 from studio.server.layer import Layers, missing
 from studio.store import trace
 from studio.store.runs import Row, Runs
@@ -149,7 +150,7 @@ def replay(runs: Runs, run: int, path: Path) -> Replay:
         run=run,
         setting=setting,
         time=time[::stride],
-        poses=poses(time, columns, known, about["cast"], about["bodies"], stride),
+        poses=poses(time, columns, known, about["cast"], about["bodies"], stride, setting),
         columns=np.array([number[name] for name in known], dtype=np.int64),
         happenings=tuple(runs.events(run)),
         brought=about["brought"],
@@ -171,8 +172,9 @@ def checked(row: Row, vehicles: tuple[str, ...], names: set[str]) -> list[str]:
 
 
 def poses(time: np.ndarray, columns: dict[str, np.ndarray], vehicles: list[str], cast: Cast, bodies: dict[str, Body],
-          stride: int) -> np.ndarray:  # fmt: skip
+          stride: int, setting: Setting) -> np.ndarray:  # fmt: skip
     """float32[POSE_ROWS, vehicle, sample] of every n-th sample."""
+    relief, paths = relief_of(setting.network), {car.name: car.path for car in setting.cars}
     made, none = np.zeros((pose.POSE_ROWS, len(vehicles), time[::stride].size), np.float32), np.zeros(time.size)
     for v, name in enumerate(vehicles):
         own = {quantity: columns.get(f"{name}.{quantity}", none) for quantity in (*POSED, *ROLLING)}
@@ -181,7 +183,15 @@ def poses(time: np.ndarray, columns: dict[str, np.ndarray], vehicles: list[str],
         made[pose.PITCH, v] += slope(own["station"], name, cast)[::stride]
         made[pose.WHEEL_ANGLE, v] = turned(time, own["speed"], bodies[name].radius)[::stride]
         made[pose.VISIBLE, v] = np.isfinite(columns[f"{name}.x"])[::stride]
+        if relief is not None and name in paths:
+            lay(made, v, relief, height_at(paths[name], own["station"][::stride]))
     return made
+
+
+def lay(made: np.ndarray, v: int, relief: Relief, height: np.ndarray) -> None:
+    """Puts a vehicle where its road is drawn, at the samples at which it is there."""
+    there = np.flatnonzero(made[pose.VISIBLE, v])
+    made[:, v, there] = lifted(made[:, v, there], relief, height[there])
 
 
 def slope(station: np.ndarray, name: str, cast: Cast) -> np.ndarray:

@@ -28,6 +28,7 @@ from studio.execution.loop import Pace
 from studio.execution.message import lately
 from studio.execution.simulation import Case, Simulation, simulation
 from studio.kind.registry import load_folder
+from studio.road.ways.relief import relief_of
 from studio.scenario import file
 from studio.server import answer
 from studio.server.frame import blend, frame, poses
@@ -79,6 +80,7 @@ class Live:
 
     def __post_init__(self) -> None:
         self.lookout = Lookout(self.simulation)
+        self.relief = relief_of(self.case.setting.network)
 
     @property
     def case(self) -> Case:
@@ -87,7 +89,7 @@ class Live:
 
     def run(self) -> None:
         """Until the run is over."""
-        self.before = self.after = poses(self.simulation.world.vehicles)
+        self.before = self.after = poses(self.simulation.world.vehicles, self.relief)
         self.pace.restart(self.simulation.time)
         self.pipe.send(("channels", self.channels()))
         self.news(force=True)
@@ -142,7 +144,7 @@ class Live:
     def tick(self) -> None:
         """One tick; remembers the poses before and after it."""
         self.simulation.advance()
-        self.before, self.after = self.after, poses(self.simulation.world.vehicles)
+        self.before, self.after = self.after, poses(self.simulation.world.vehicles, self.relief)
         self.advanced = time.perf_counter()
 
     def show(self, force: bool = False) -> None:

@@ -226,7 +226,7 @@ def hosts_named(group: str, unit: str | None, w: int, world: World) -> Iterator[
 
 def placing(of: Placement, entry: int, w: int, setting: Setting, world: World) -> Found:
     """A vehicle is put somewhere."""
-    station = of.along - joined_at(of.vehicle, setting.scenario, setting.network)
+    station = of.along - joined_at(of.vehicle, setting.scenario, setting.network, setting.lock_of(of.vehicle))
     yield Once(entry, partial(put, v=world.column(of.vehicle, w), station=station, speed=of.speed))
 
 

@@ -12,7 +12,8 @@ End                         about the run
 They are data: names and stations, which the world looks up on its map.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -23,6 +24,7 @@ from studio.kind import registry
 from studio.kind.area import Area
 from studio.kind.stretch import LaneStretch, Stretch
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import lane_line
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
@@ -165,10 +167,11 @@ Effect = OnRoad | Walk | Deed | End
 
 
 class Place:
-    """What an action may ask about the map: lengths and lanes."""
+    """What an action may ask about the map: lengths and lanes. `locks` are the sharpest curves [1/m] of those who drive a route, by its
+    name; of one that is not among them that of a car."""
 
-    def __init__(self, scenario: Scenario, network: Network) -> None:
-        self.scenario, self.network = scenario, network
+    def __init__(self, scenario: Scenario, network: Network, locks: Mapping[str, float] = MappingProxyType({})) -> None:
+        self.scenario, self.network, self.locks = scenario, network, locks
 
     def never(self, condition: Any) -> str:
         """Why a condition can never hold here, in words; empty when it may."""
@@ -231,7 +234,8 @@ class Place:
 
     def route(self, name: str) -> Path:
         """The line of a route; raises KeyError or RouteError."""
-        return road_path.path(self.network, connect(self.network, self.scenario.routes[name].roads))
+        lock = self.locks.get(name, LOCK)
+        return road_path.path(self.network, connect(self.network, self.scenario.routes[name].roads, lock=lock), lock=lock)
 
 
 def beside(line: Path, station: float, offset: float) -> tuple[float, float, float]:

@@ -54,5 +54,6 @@ def numbers_of(part: Any, setting: Setting, find: Find) -> list[float]:
     """A condition's settings as numbers; stations count on the path that the vehicle drives, which may begin later than its route."""
     made = numbers(part, find)
     for station, vehicle in stations(type(part)):
-        made[row_of(type(part), station)] -= joined_at(getattr(part, vehicle), setting.scenario, setting.network)
+        who = getattr(part, vehicle)
+        made[row_of(type(part), station)] -= joined_at(who, setting.scenario, setting.network, setting.lock_of(who))
     return made

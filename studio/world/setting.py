@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -15,9 +16,10 @@ from studio.errors import MapError, Problem, RouteError, ScenarioError, UnknownE
 from studio.kind import registry
 from studio.kind.settings import references
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways import path as road_path
 from studio.road.ways.route import connect
-from studio.scenario import catalogue
+from studio.scenario import catalogue, figures
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Scenario
 from studio.vehicle.command import RING
@@ -37,6 +39,7 @@ from studio.world.exclusive import exclusive
 from studio.world.footprint import Footprint, Overlap, overlaps
 from studio.world.site import Site, joins, place_problems, sites
 from studio.world.spot import spots
+from studio.world.standoff import standoffs
 from studio.world.thing import Thing, names, things
 from studio.world.value import values
 from studio.world.way import MOST_WORKS, Works
@@ -65,6 +68,16 @@ class Setting:
         """The vehicles, in the order of their columns."""
         return tuple(car.name for car in self.cars)
 
+    @cached_property
+    def locks(self) -> dict[str, float]:
+        """The sharpest curves [1/m] of those who drive each route."""
+        routes = {vehicle.route for vehicle in self.scenario.vehicles.values()}
+        return {route: min(self.lock_of(name) for name, each in self.scenario.vehicles.items() if each.route == route) for route in routes}
+
+    def lock_of(self, vehicle: str) -> float:
+        """The sharpest curve of a named vehicle [1/m]."""
+        return min(LOCK, *(figures.lock(car.model.values) for car in self.cars if car.name == vehicle))
+
     @property
     def changes_roads(self) -> bool:
         """Whether something in the script is about the roads."""
@@ -80,8 +93,9 @@ def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     locks = Locks(scenario, models)
     paths = paths_of(scenario, network, locks, where)
     cars = [named_car(name, scenario, models, path, where) for name, path in paths.items()]
-    found = sites(scenario, network)
+    found = sites(scenario, network, locks.of_routes())
     check_starts(cars, found, where)
+    refuse([face_to_face(*pair, where) for pair in standoffs(cars, network)], where)
     works = Works(found)
     check_works(cars, works, where)
     locks = Locks(asked.scenario, models)
@@ -280,7 +294,7 @@ def path_of(name: str, scenario: Scenario, network: Network, lock: float, where:
             f"{where} cannot be driven.",
             [Problem(f"{where}: {field}", error.message, remedy="; ".join(map(str, error.problems)))],
         ) from None
-    joined = 0.0 if start is None else joins(start, route.roads, network)
+    joined = 0.0 if start is None else joins(start, route.roads, network, lock)
     return road_path.annotated(path, route.speeds, joined)
 
 
@@ -346,6 +360,13 @@ def standing_first(found: tuple[Site, ...]) -> Iterator[tuple[str, Thing]]:
 def thing_at(each: Thing) -> tuple[float, float, float, float, float]:
     """Place, heading and size of a thing."""
     return each.x, each.y, each.heading, each.length, each.width
+
+
+def face_to_face(one: Car, other: Car, where: str) -> Problem:
+    """What is wrong with two that start towards each other on ground that both directions share."""
+    what = f"starts face to face with {other.name!r} on a street with one lane for both directions, where neither can pass"
+    remedy = "let one of them start before that street, or behind the other"
+    return Problem(f"{where}: vehicles.{one.name}.position", what, f"{one.station:g} m", remedy=remedy)
 
 
 def overlapping(each: Overlap, starting: Collection[str], where: str) -> Problem:

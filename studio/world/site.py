@@ -1,11 +1,11 @@
 """The script of a scenario in its place: what each entry does to the road, and where that lies.
 
 place_problems(scenario, network, where)   what is wrong with their places, all of it
-sites(scenario, network)                   →  Site, one for each entry of the script, in the order of the file
+sites(scenario, network, locks)            →  Site, one for each entry of the script, in the order of the file
 """
 
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, get_args
@@ -85,9 +85,9 @@ class Site:
         return float(first.line.points[PATH_X, at]), float(first.line.points[PATH_Y, at])
 
 
-def sites(scenario: Scenario, network: Network) -> tuple[Site, ...]:
-    """Every entry in its place; the scenario has none of its `place_problems`."""
-    place = Place(scenario, network)
+def sites(scenario: Scenario, network: Network, locks: Mapping[str, float]) -> tuple[Site, ...]:
+    """Every entry in its place, on routes of vehicles of these locks [1/m]; the scenario has none of its `place_problems`."""
+    place = Place(scenario, network, locks)
     effects = {name: list(effects_of(entry, place)) for name, entry in scenario.script.items()}
     closed = closings(effects)
     return tuple(site(name, scenario.script[name], found, place, closed) for name, found in effects.items())
@@ -149,17 +149,17 @@ def overlap(one: LaneStretch, other: LaneStretch) -> bool:
     return one.road == other.road and one.start - one.taper < other.end + other.taper and other.start - other.taper < one.end + one.taper
 
 
-def joined_at(vehicle: str, scenario: Scenario, network: Network) -> float:
-    """Station [m] of its route at which a vehicle's path begins."""
+def joined_at(vehicle: str, scenario: Scenario, network: Network, lock: float) -> float:
+    """Station [m] of its route at which the path of a vehicle of a lock [1/m] begins."""
     road = scenario.vehicles[vehicle].position.road
     if road is None:
         return 0.0
-    return joins(road, scenario.routes[scenario.vehicles[vehicle].route].roads, network)
+    return joins(road, scenario.routes[scenario.vehicles[vehicle].route].roads, network, lock)
 
 
-def joins(start: str, roads: list[str], network: Network) -> float:
-    """Station [m] at which a route from its first road comes to the road on which a vehicle starts."""
-    whole = road_path.path(network, connect(network, roads))
+def joins(start: str, roads: list[str], network: Network, lock: float) -> float:
+    """Station [m] at which a route of a vehicle of a lock [1/m] from its first road comes to the road on which it starts."""
+    whole = road_path.path(network, connect(network, roads, lock=lock), lock=lock)
     return next((station.s for station in whole.stations if station.road == start), 0.0)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from studio.road.ways.detour import Work
 from studio.road.ways.path import Path
+from studio.road.ways.relief import height_at
 from studio.world.effect import Closing, Row, Walk, beside
 from studio.world.site import Site
 from studio.world.table.street import BARRIER, BOX, CONE, CYCLIST, PEDESTRIAN
@@ -23,7 +24,8 @@ CONE_INSET, ROW_INSET = 0.15, 0.35  # [m] from the edge of the ground that is le
 
 
 class Thing(NamedTuple):
-    """One object: kind, place [m], heading [rad], the entry of the script that it belongs to, its size [m], and how it moves, if at all."""
+    """One object: kind, place [m], heading [rad], the entry of the script that it belongs to, its size [m], how it moves, if at all, and
+    the height of the road where it stands [m], 0 for one that moves."""
 
     kind: int
     x: float
@@ -33,6 +35,7 @@ class Thing(NamedTuple):
     length: float
     width: float
     walk: Walk | None = None
+    height: float = 0.0
 
     @property
     def looks(self) -> str:
@@ -76,7 +79,7 @@ def fence(work: Work, edges: tuple[int, ...], number: int) -> Iterator[Thing]:
 def at(line: Path, station: float, offset: float, kind: int, entry: int, *, turned: float = 0.0) -> Thing:
     """An object at a station of a line, `offset` [m] to its left, its length along the line or `turned` [rad] from it."""
     x, y, heading = beside(line, station, offset)
-    return Thing(kind, x, y, heading + turned, entry, *SIZES[kind])
+    return Thing(kind, x, y, heading + turned, entry, *SIZES[kind], height=float(height_at(line, np.array(station))))
 
 
 def moving(walk: Walk, number: int) -> Thing:

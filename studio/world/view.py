@@ -122,6 +122,7 @@ class Way(NamedTuple):
     from_place: float = 0.0  # what `place` of the radio gave, where the sender is
     to_place: float = 0.0  # likewise, where the receiver is
     table: Any = ()  # what `table` of the radio gave
+    decks: float = 0.0  # [1] roads between the two, where one is on a bridge or in a tunnel and the other is not
 
 
 class Draw(NamedTuple):

@@ -19,7 +19,7 @@ SUN = (-0.45, 0.35, -0.82)
 
 @pytest.fixture(scope="module")
 def flats(place):
-    areas = area_meshes(place)
+    areas = area_meshes(place, shapely.Polygon())
     return {
         "green": areas["green"],
         "water": areas["water"],

@@ -6,10 +6,13 @@ import pytest
 from studio import job
 from studio.errors import UnknownError
 from studio.execution.simulation import simulation
+from studio.road.assembly.storey import STOREY
+from studio.road.ways.relief import relief_of
 from studio.scene import pose
 from studio.server.frame import frame, poses
 from studio.server.replay import replay
 from studio.store.runs import open_runs
+from tests.road.plot import plot
 
 SAMPLES = ("grosser_stern_platoon", "stepping_out", "grosser_stern_roadworks")
 CHANGES = {"clock.duration": 6.0, "recording.traffic": True}
@@ -28,10 +31,11 @@ def pictures(loaded):
     """Time [s] and picture of every tick of a run but the first, and when lights and objects in it were looked at: a tick ago, but
     for the last."""
     running = simulation(job.prepare(loaded))
+    relief = relief_of(running.cases[0].setting.network)
     while not running.is_over:
         seen = running.time
         running.advance()
-        yield running.time, running.time if running.is_over else seen, frame(running.world, poses(running.world.vehicles))
+        yield running.time, running.time if running.is_over else seen, frame(running.world, poses(running.world.vehicles, relief))
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -75,3 +79,36 @@ def test_a_run_that_did_not_keep_where_anybody_was_cannot_be_played_back(sample,
     with pytest.raises(UnknownError, match="cannot be played back") as refused:
         replay(runs, run, sample)
     assert refused.value.problems[0].where == "recording.channels"
+
+
+FLYOVER = """
+version: 1
+title: Over and under
+map: {file: map.osm, radius: 900}
+clock: {duration: 8}
+routes: {over: {roads: ["11"]}, under: {roads: ["14"]}}
+vehicles:
+  up: {route: over, position: {along: 200}, speed: 12}
+  down: {route: under, position: {along: 180}, speed: 12}
+  above: {route: over, position: {along: 380}, speed: 12}
+"""
+
+
+def test_who_drives_on_a_bridge_is_seen_there(tmp_path, runs, monkeypatch):
+    """On its ramp and on its deck as high as the road is drawn, tilted as it is, and under it on the ground; played back as live."""
+    monkeypatch.setenv("STUDIO_CACHE", str(tmp_path / "cache"))
+    nodes = {1: (-400, 0), 2: (-50, 0), 3: (50, 0), 4: (400, 0), 5: (0, -300), 6: (0, 300)}
+    plot(tmp_path / "map.osm", nodes, {11: ([1, 2], {}), 12: ([2, 3], {"bridge": "yes"}), 13: ([3, 4], {}), 14: ([5, 6], {})})
+    path = tmp_path / "flyover.yaml"
+    path.write_text(FLYOVER, encoding="utf-8")
+    played = replay(runs, job.run(job.load(path), runs=runs).row.run, path)
+    relief = relief_of(played.setting.network)
+    highest = np.zeros(3)
+    for time, _, now in pictures(job.load(path)):
+        if np.isclose(played.time, time).any():
+            then = played.frame(time).poses
+            np.testing.assert_allclose(then[[pose.Z, pose.TILT]], now.poses[[pose.Z, pose.TILT]], atol=0.15)
+            highest = np.maximum(highest, now.poses[pose.Z])
+            lift, _ = relief.at(*now.poses[[pose.X, pose.Y]], [0.0, 0.0, STOREY])
+            assert now.poses[pose.Z, 1] == pytest.approx(0.0, abs=0.1) and now.poses[pose.Z, 2] == pytest.approx(lift[2], abs=0.15)
+    assert highest[0] > 3.0 and highest[1] < 0.1 and highest[2] == pytest.approx(STOREY, abs=0.15)

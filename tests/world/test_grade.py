@@ -140,5 +140,5 @@ def test_traffic_comes_in_again_on_its_slope(tmp_path):
 def test_the_flat_picture_shows_cars_on_its_plane(tmp_path):
     world = build([place(tmp_path, (0, 300, GRADE, 0))])
     steady(world, 5.0)
-    rows = poses(world.vehicles)
+    rows = poses(world.vehicles, None)
     assert abs(rows[pose.Z, 0]) < 0.05 and abs(rows[pose.PITCH, 0]) < 0.01

@@ -6,6 +6,7 @@ import yaml
 
 from studio import job
 from studio.assess.measure import measure_all
+from studio.errors import ScenarioError
 from studio.execution.simulation import simulation
 from studio.vehicle.parameter import FRONT, LENGTH
 from studio.vehicle.state import ACTIVE, V_X
@@ -157,3 +158,28 @@ def test_four_such_streets_that_meet(tmp_path):
         "south": ["-24", "-14", "-13", "-23"], "left": ["21", "11", "14", "24"], "right": ["-22", "-12", "14", "24"],
     }  # fmt: skip
     assert is_alive(measured(tmp_path, routes, 60.0, 400.0), 15)
+
+
+@pytest.mark.parametrize(("east", "west", "refused"), [
+    (330, 330, True), (300, 340, True), (345, 320, True),
+    (200, 330, False), (330, 150, False), (120, 120, False),  # one of them, or both, before the street
+    (380, 380, False),  # each behind the other
+])  # fmt: skip
+def test_two_that_start_face_to_face_are_refused(tmp_path, east, west, refused):
+    """250 m of street, 200 m with one lane, 250 m of street: from either end the ground begins some 20 m behind the first."""
+    street(tmp_path / "map.osm", 200.0)
+    cars = {name: {"route": name, "position": {"along": at}, "speed": 0} for name, at in (("east", east), ("west", west))}
+    routes = {"east": EAST, "west": WEST}
+    if refused:
+        with pytest.raises(ScenarioError) as told:
+            written(tmp_path, routes, cars)
+        (problem,) = told.value.problems
+        assert "vehicles.east.position" in problem.where and "face to face with 'west'" in problem.what
+        assert "before that street" in problem.remedy
+    else:
+        written(tmp_path, routes, cars)
+
+
+def test_three_in_a_row_are_not_face_to_face(tmp_path):
+    street(tmp_path / "map.osm", 200.0)
+    written(tmp_path, {"east": EAST}, {f"car_{i}": {"route": "east", "position": {"along": 300 + 20 * i}, "speed": 0} for i in range(3)})

@@ -14,12 +14,12 @@ from studio.compiled import compiled
 from studio.kind.preset import Preset
 from studio.kind.settings import Part, number
 from studio.model.radio import arrival, burst, propagation
-from studio.world.table.cause import BUILDING, BURST, CHANCE, OUT_OF_RANGE, RECEIVED
+from studio.world.table.cause import BUILDING, BURST, CHANCE, DECK, OUT_OF_RANGE, RECEIVED
 from studio.world.view import PAIR, Transmission, chances
 
 KIND = "radio"
 TITLE = "Ad hoc radio with constant delay and loss"
-NETWORK = {"range": 5000.0, "buildings": False, "bit_rate": 5e7}
+NETWORK = {"range": 5000.0, "buildings": False, "deck_loss": 0.0, "bit_rate": 5e7}
 PRESETS = {
     "802.11p": Preset("802.11p, line of sight", "field tests: about 4 ms; variation estimated", {"delay": 0.004, "delay_variation": 0.001}),
     "LTE": Preset("LTE with a server", "arXiv 1802.08027; variation estimated", {"delay": 0.040, "delay_variation": 0.015, **NETWORK}),
@@ -51,6 +51,14 @@ class Settings(Part):
         True,
         title="Shadowed by buildings",
         description="9 dB a wall and 0.4 dB a metre inside (Sommer et al., WONS 2011) count as distance",
+    )
+    deck_loss: float = number(
+        20.0,
+        unit="dB",
+        title="Weakened by a bridge",
+        description="where a road lies between two levels: past its edge, 1 m in its shadow (ITU-R P.526, one knife edge); estimated",
+        ge=0,
+        le=100,
     )
     path_loss_exponent: float = number(
         2.0,
@@ -99,10 +107,11 @@ def transmit(settings, way, draw):
 @compiled
 def fate(settings, way, draw, chance):
     """Why a message is lost, or that it is not."""
-    weakened = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
+    weakened = propagation.screened(way.walls, way.inside, way.decks, settings.buildings, settings.deck_loss)
     distance = propagation.felt_distance(way.distance, weakened, settings.path_loss_exponent)
     if distance > settings.range:
-        return OUT_OF_RANGE if way.distance > settings.range else BUILDING
+        under = propagation.felt_distance(way.distance, settings.deck_loss * way.decks, settings.path_loss_exponent)
+        return OUT_OF_RANGE if way.distance > settings.range else DECK if under > settings.range else BUILDING
     loss = min(settings.loss + settings.loss_per_metre * distance, 1.0)
     if settings.loss_run * (1.0 - loss) <= 1.0:
         return CHANCE if arrival.is_lost(distance, settings.range, loss, 0.0, chance) else RECEIVED

@@ -35,7 +35,7 @@ from studio.kind.settings import Part, number
 from studio.model.radio import arrival, burst, channel, congestion, fading, packet, propagation, shadowing
 from studio.model.radio.congestion import Control as Control
 from studio.model.radio.shadowing import Around as Around
-from studio.world.table.cause import BUILDING, BURST, BUSY, FADING, RECEIVED, TOO_WEAK
+from studio.world.table.cause import BUILDING, BURST, BUSY, DECK, FADING, RECEIVED, TOO_WEAK
 from studio.world.view import Transmission, chances, chances_of_message, pair_of
 
 KIND = "radio"
@@ -96,6 +96,14 @@ class Settings(Part):
     third_exponent: float = number(3.8, unit="1", title="Third exponent", ge=1, le=8)
     permittivity: float = number(1.02, unit="1", title="Permittivity of the ground", description="relative, for two_ray", ge=1, le=100)
     buildings: bool = Field(True, title="Weakened by buildings", description="9 dB a wall and 0.4 dB a metre inside")
+    deck_loss: float = number(
+        20.0,
+        unit="dB",
+        title="Weakened by a bridge",
+        description="where a road lies between two levels: past its edge, 1 m in its shadow (ITU-R P.526, one knife edge); estimated",
+        ge=0,
+        le=100,
+    )
     shadowing: float = number(4.0, unit="dB", title="Shadowing", description="standard deviation; 0: none", ge=0, le=20)
     shadowing_distance: float = number(
         25.0, unit="m", title="Correlation distance of shadows", description="within which places are alike", ge=1, le=1000
@@ -199,7 +207,7 @@ def transmit(settings, way, draw):
     What is too weak with the brightest shadow and fading is too weak; nobody has to look which there are. Nor which shadow there is where
     the brightest is not enough, with this fading or without any.
     """
-    taken = propagation.attenuation(way.walls, way.inside) if settings.buildings > 0.0 else 0.0
+    taken = propagation.screened(way.walls, way.inside, way.decks, settings.buildings, settings.deck_loss)
     clear = settings.transmit_power - path_loss(settings, way) - settings.noise
     (darkest, lightest), hopeless = shadow_bounds(settings, way), packet.HOPELESS[int(settings.rate)]
     if clear + lightest + brightest(settings, way) < hopeless:
@@ -253,9 +261,11 @@ def fate(settings, way, draw, clear, taken, draws):
 
 @compiled
 def weakness(settings, way, clear, taken, draws):
-    """Why a message is too weak: because of the distance, the buildings, or a moment."""
+    """Why a message is too weak: because of the distance, a bridge, the buildings, or a moment."""
     if not is_understood(settings, way, draws, clear):
         return TOO_WEAK
+    if way.decks > 0.0 and not is_understood(settings, way, draws, clear - settings.deck_loss * way.decks):
+        return DECK
     return FADING if taken == 0.0 or is_understood(settings, way, draws, clear - taken) else BUILDING
 
 

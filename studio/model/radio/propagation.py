@@ -81,6 +81,15 @@ def attenuation(walls, inside):
 
 
 @compiled
+def screened(walls, inside, decks, buildings, deck_loss):
+    """What buildings, where they count, and decks of bridges and tunnels take from a signal [dB]."""
+    weakened = deck_loss * decks
+    if buildings > 0.0:
+        weakened += attenuation(walls, inside)
+    return weakened
+
+
+@compiled
 def felt_distance(distance, weakened, exponent):
     """Distance [m] at which a signal would be as weak without buildings; `weakened` is their attenuation [dB]."""
     return distance * 10.0 ** (weakened / (10.0 * exponent))

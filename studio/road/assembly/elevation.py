@@ -203,22 +203,33 @@ def spot(node: int, grid: Grid, box: Box) -> Spot:
 # -- heights of the lanes --------------------------------------------------------------------------
 
 
-def with_heights(net: Net, ways: list[Way], grid: Grid, heights: Heights) -> Net:
-    """Lanes of roads have the height of the ways that they are made of; ways through junctions rise evenly."""
+def with_heights(net: Net, ways: list[Way], grid: Grid, land: Heights, storeys: Heights) -> Net:
+    """Lanes of roads have the height of the ways that they are made of, that of the land and of the storeys above or below it."""
+    lifts = laid(net, ways, grid, storeys)
+    whole = laid(net, ways, grid, {node: land.get(node, 0.0) + storeys.get(node, 0.0) for node in land | storeys}) if land else lifts
+    lanes = [replace(lane, height=z) if (z := whole.get(lane.id)) is not None else lane for lane in net.lanes]
+    lanes = [replace(lane, lift=z) if (z := lifts.get(lane.id)) is not None and z.any() else lane for lane in lanes]
+    return replace(net, lanes=tuple(lanes))
+
+
+def laid(net: Net, ways: list[Way], grid: Grid, heights: Heights) -> dict[int, np.ndarray]:
+    """The heights along those lanes that are not all at height 0, by the nodes' [m]; ways through junctions rise evenly."""
     if not heights:
-        return net
+        return {}
     lines = {
         way.id: (np.array([grid.places[node] for node in way.nodes]).T, np.array([heights.get(node, 0.0) for node in way.nodes]))
         for way in ways
     }
-    lanes = list(net.lanes)
+    found: dict[int, np.ndarray] = {}
     for lane in net.lanes:
         own = [lines[name] for name in net.origins.get(lane.road, ()) if name in lines]
         if not lane.internal and (not own or any(z.any() for _, z in own)):
-            lanes[lane.id] = replace(lane, height=height_along(lane.centre, own or list(lines.values())))
-    for each in (each for each in net.connections if lanes[each.from_lane].height[-1] or lanes[each.to_lane].height[0]):
-        bridge(lanes, each.from_lane, each.via, each.to_lane)
-    return replace(net, lanes=tuple(lanes))
+            found[lane.id] = height_along(lane.centre, own or list(lines.values()))
+    for each in net.connections:
+        ends = [float(found[lane][at]) if lane in found else 0.0 for lane, at in ((each.from_lane, -1), (each.to_lane, 0))]
+        if any(ends):
+            found |= risen([net.lanes[lane] for lane in each.via], *ends)
+    return found
 
 
 def height_along(centre: np.ndarray, lines: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
@@ -232,11 +243,10 @@ def height_along(centre: np.ndarray, lines: list[tuple[np.ndarray, np.ndarray]])
     return at[away.argmin(axis=0), np.arange(centre.shape[1])]
 
 
-def bridge(lanes: list[Lane], start: int, via: tuple[int, ...], end: int) -> None:
-    """Lets the ways through a junction rise evenly from one lane's end to the next one's start."""
-    total, done = sum(lanes[lane].length for lane in via), 0.0
-    a, b = lanes[start].height[-1], lanes[end].height[0]
+def risen(via: list[Lane], a: float, b: float) -> dict[int, np.ndarray]:
+    """The heights along the ways through a junction, which rise evenly from one lane's end to the next one's start."""
+    total, done, found = sum(lane.length for lane in via), 0.0, {}
     for lane in via:
-        s = done + curve.stations(lanes[lane].centre)
-        lanes[lane] = replace(lanes[lane], height=np.interp(s, [0.0, max(total, 1e-6)], [a, b]))
-        done += lanes[lane].length
+        found[lane.id] = np.interp(done + curve.stations(lane.centre), [0.0, max(total, 1e-6)], [a, b])
+        done += lane.length
+    return found

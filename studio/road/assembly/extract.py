@@ -81,8 +81,9 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     smooth = narrow.drivable(aligned(raw), lambda each: end_of(raw, each, ways, box), found.notes)
     smooth = shared.brought_together(smooth, cut, found.notes)
     grid = elevation.grid_of(cut, box)
-    heights = storey.with_storeys(elevation.mapped_heights(found, grid, cut, box), cut, grid, found.notes)
-    net = of_ways(level.with_levels(elevation.with_heights(smooth, cut, grid, heights), cut, grid), ways)
+    land = elevation.mapped_heights(found, grid, cut, box)
+    storeys = storey.storeys(land, cut, grid, found.notes)
+    net = of_ways(level.with_levels(elevation.with_heights(smooth, cut, grid, land, storeys), cut, grid), ways)
     return Plan(
         net=net,
         signalled=signalled(found, ways, box, net),

@@ -23,12 +23,12 @@ APART = 3.0  # [m] known heights that differ by so much at a crossing say it the
 AT_NODE = 1.0  # [m] ways that meet there do not cross
 
 
-def with_storeys(heights: Heights, ways: list[Way], grid: Grid, notes: Notes) -> Heights:
-    """The heights with those of storeys added, where ways cross on different levels and the heights do not tell so."""
+def storeys(heights: Heights, ways: list[Way], grid: Grid, notes: Notes) -> Heights:
+    """How high above the land, or how deep below it, nodes are where ways cross on different levels and the heights do not tell so."""
     level = {way.id: level_of(way.tags) for way in ways}
     crossed = {id(way): way for pair in crossings(ways, level, grid, heights) for way in pair}
     if not crossed:
-        return heights
+        return {}
     lying = {node: 0.0 for way in crossed.values() for node in way.nodes}
     for way in sorted(crossed.values(), key=lambda each: abs(level[each.id])):
         lying |= dict.fromkeys(way.nodes, STOREY * level[way.id]) if level[way.id] else {}
@@ -36,8 +36,7 @@ def with_storeys(heights: Heights, ways: list[Way], grid: Grid, notes: Notes) ->
         if level[way.id]:
             what = f"{STOREY * abs(level[way.id]):g} m {'above' if level[way.id] > 0 else 'below'} the ground, ramps of {RAMP:.0%}"
             notes.guess("storey", what, spot_of(way), source="layer, bridge or tunnel where others cross", sure="low", key="layer")
-    added = ramps(lying, grid)
-    return {node: heights.get(node, 0.0) + added.get(node, 0.0) for node in heights | added}
+    return ramps(lying, grid)
 
 
 def crossings(ways: list[Way], level: dict[int, int], grid: Grid, heights: Heights) -> Iterator[tuple[Way, Way]]:

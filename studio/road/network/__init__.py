@@ -24,7 +24,8 @@ class Lane:
     """One lane. `index` 0 is the lane at the kerb; `centre` is its centre line, float64[2, n] [m].
 
     `height` float64[n] [m] is that of the road at the points of `centre`; zeros where nothing is known. `level` float64[n] tells of
-    one that is not all on the ground on which level it is there.
+    one that is not all on the ground on which level it is there, `lift` float64[n] [m] how high above the land it lies, or how deep below
+    it, where a storey was laid for it; see ways/relief.py for all lanes.
     """
 
     id: int
@@ -38,6 +39,7 @@ class Lane:
     open: bool = True  # to cars; a bus lane is not
     height: np.ndarray = field(default_factory=lambda: np.zeros(0))
     level: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    lift: np.ndarray = field(default_factory=lambda: np.zeros(0))
     facing: int = -1  # the lane of the other direction on whose ground it lies, -1 for none
     goes_first: int = 0  # on such ground, 1 who comes on this lane, -1 who comes on the other, 0 none by sign
 

@@ -7,6 +7,7 @@ import numpy as np
 from studio.errors import MapError, Problem, RouteError
 from studio.model.random import TRIP, uniform
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways.path import PATH_SPEED, Path, path
 from studio.road.ways.route import connect
 
@@ -42,8 +43,8 @@ class Trip:
         return not any(0.0 <= stop - self.start < CLEAR for stop, _ in self.path.stop_lines)
 
 
-def trip(network: Network, *, seed: int = 1) -> Trip:
-    """The first trip drawn that is long enough and starts clear; where there is none, the longest one drawn.
+def trip(network: Network, *, seed: int = 1, lock: float = LOCK) -> Trip:
+    """The first trip drawn for a vehicle of a lock [1/m] that is long enough and starts clear; where there is none, the longest one drawn.
 
     Raises:
         MapError: the roads do not connect to anything that one could drive along.
@@ -52,7 +53,7 @@ def trip(network: Network, *, seed: int = 1) -> Trip:
     drawn = []
     for i in range(TRIES if roads else 0):
         start, end = (roads[int(uniform(seed, i, TRIP, which) * len(roads))] for which in (0, 1))
-        found = between(network, start, end)
+        found = between(network, start, end, lock)
         if found is None:
             continue
         if LONG_ENOUGH <= found.length <= TOO_LONG and found.starts_clear:
@@ -65,11 +66,11 @@ def trip(network: Network, *, seed: int = 1) -> Trip:
     return best
 
 
-def between(network: Network, start: str, end: str) -> Trip | None:
-    """The trip from one road to another; None where there is no way, or hardly any."""
+def between(network: Network, start: str, end: str, lock: float = LOCK) -> Trip | None:
+    """The trip from one road to another for a vehicle of a lock [1/m]; None where there is no way, or hardly any."""
     roads = (start,) if start == end else (start, end)
     try:
-        line = path(network, connect(network, roads))
+        line = path(network, connect(network, roads, lock=lock), lock=lock)
     except RouteError:
         return None
     if line.length < SHORTEST:

@@ -3,16 +3,20 @@
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from shapely.geometry.base import BaseGeometry
 
 from studio.road import kept
 from studio.road.network import Network
 from studio.road.network.outline import road_form
+from studio.road.ways.relief import relief_of
 from studio.scene import signal
 from studio.scene.city import building, marking, tree, verge
 from studio.scene.city.area import area_meshes
+from studio.scene.city.deck import Aloft, aloft
 from studio.scene.city.mesh import Mesh, flat
 from studio.scene.city.shadow import shadow_mesh
+from studio.scene.city.stretch import on_land
 from studio.scene.city.upright import uprights
 from studio.scene.colour import linear
 from studio.scene.glb import Material, glb
@@ -34,6 +38,7 @@ COLOURS = {
 }
 BEYOND = 2000.0  # [m] of ground around the map
 SPACE_MARGIN = 0.35  # [m] of ground around a space, to its neighbour and to the lane
+COVER_OPACITY = 0.45  # of the ground over a tunnel, so that one sees who drives in it
 SHADOW_COLOUR, SHADOW_OPACITY = "#10151c", 0.42
 
 
@@ -61,15 +66,30 @@ def city(network: Network) -> City:
 
 def layers(network: Network) -> list[Layer]:
     """Everything of the city that never moves, from the ground up; each is one draw call."""
-    form = road_form(network)
+    relief = relief_of(network)
+    if relief is None or not relief.lift.any():
+        return [
+            Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND),
+            *on_ground(network, network, shapely.Polygon()),
+        ]
+    above, land = aloft(network, relief), on_land(network, relief)
     return [
-        Layer("ground", glb(ground(radius=horizon(network)), Material(unlit=True)), GROUND),
-        *_areas(network),
-        *_shoulders(network, form),
+        Layer("ground", glb(holed(ground_form(horizon(network)), above.opened), Material(unlit=True)), GROUND),
+        *on_ground(network, land, above.opened),
+        *_aloft(above),
+    ]
+
+
+def on_ground(network: Network, land: Network, opened: BaseGeometry) -> list[Layer]:
+    """What lies and stands on the land, but where the ground is open; `land` is the part of the network that lies on it."""
+    form = road_form(land)
+    return [
+        *_areas(network, opened),
+        *_shoulders(land, form),
         _flat("road", flat(form), ROAD),
-        _flat("markings", marking.marking_mesh(network, form), MARKING),
+        _flat("markings", marking.marking_mesh(land, form), MARKING),
         *_buildings(network),
-        *_uprights(network, form),
+        *_uprights(network, land, form),
     ]
 
 
@@ -91,6 +111,30 @@ def ground(*, radius: float = SKY_RADIUS) -> Surface:
     return surface(vertices, np.concatenate(faces), on_level_ground(COLOURS["ground"]))
 
 
+def ground_form(radius: float) -> shapely.Polygon:
+    """The same disc as a plane shape."""
+    return shapely.Point(0.0, 0.0).buffer(radius * 0.99, quad_segs=12)
+
+
+def holed(form: BaseGeometry, opened: BaseGeometry) -> Surface:
+    """Ground with holes."""
+    mesh = flat(form.difference(opened))
+    return surface(mesh.vertices, mesh.faces, on_level_ground(COLOURS["ground"]))
+
+
+def _aloft(above: Aloft) -> list[Layer]:
+    """What lies off the land: roads, what carries them, their shadow, and ground over tunnels that one sees through."""
+    found = [Layer("aloft", glb(above.roads, Material(unlit=True))), Layer("decks", glb(above.solids, Material(roughness=0.85)))]
+    if len(above.shadow.faces):
+        shade = surface(above.shadow.vertices, above.shadow.faces, np.append(linear(SHADOW_COLOUR), SHADOW_OPACITY))
+        found.append(Layer("deck_shadow", glb(shade, Material(unlit=True, blend=True)), SHADOW))
+    if not above.covered.is_empty:
+        mesh = flat(above.covered)
+        cover = surface(mesh.vertices, mesh.faces, np.append(on_level_ground(COLOURS["ground"]), COVER_OPACITY))
+        found.append(Layer("cover", glb(cover, Material(unlit=True, blend=True)), GROUND))
+    return found
+
+
 def _flat(name: str, mesh: Mesh, height: float) -> Layer:
     return Layer(name, glb(_level(mesh, name), Material(unlit=True)), height)
 
@@ -101,8 +145,8 @@ def _level(mesh: Mesh, name: str, height: float = 0.0) -> Surface:
     return surface(vertices, mesh.faces, on_level_ground(COLOURS[name]))
 
 
-def _areas(network: Network) -> list[Layer]:
-    meshes = {kind: mesh for kind, mesh in area_meshes(network).items() if len(mesh.faces)}
+def _areas(network: Network, opened: BaseGeometry) -> list[Layer]:
+    meshes = {kind: mesh for kind, mesh in area_meshes(network, opened).items() if len(mesh.faces)}
     flats = [_level(mesh, kind, AREA) for kind, mesh in meshes.items()]
     spaces = network.scenery.spaces
     if spaces.size:
@@ -133,6 +177,6 @@ def _shoulders(network: Network, form: BaseGeometry) -> list[Layer]:
     return [] if beside.is_empty else [_flat("shoulder", flat(beside), ROAD)]
 
 
-def _uprights(network: Network, form: BaseGeometry) -> list[Layer]:
-    solids = [*uprights(network), *verge.rails(network, form), *([signal.masts(network)] if len(network.signals) else [])]
+def _uprights(network: Network, land: Network, form: BaseGeometry) -> list[Layer]:
+    solids = [*uprights(network), *verge.rails(land, form), *([signal.masts(network)] if len(network.signals) else [])]
     return [Layer("uprights", glb(joined(solids), Material(roughness=0.7)))] if solids else []

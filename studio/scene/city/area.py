@@ -11,10 +11,10 @@ from studio.road.network.plane import polygon
 from studio.scene.city.mesh import Mesh, flat
 
 
-def area_meshes(network: Network) -> dict[str, Mesh]:
-    """Ground of other colours, each kind as one mesh; none lies on another."""
+def area_meshes(network: Network, opened: BaseGeometry) -> dict[str, Mesh]:
+    """Ground of other colours, each kind as one mesh; none lies on another, nor where the ground is open."""
     forms = area_forms(network)
-    return {kind: flat(form) for kind, form in forms.items()}
+    return {kind: flat(form if opened.is_empty else form.difference(opened)) for kind, form in forms.items()}
 
 
 def area_forms(network: Network) -> dict[str, BaseGeometry]:

@@ -42,7 +42,7 @@ class Outlook:
 
     def __init__(self, setting: Setting) -> None:
         self.setting = setting
-        self.place = Place(setting.scenario, setting.network)
+        self.place = Place(setting.scenario, setting.network, setting.locks)
         self.cars = {car.name: car for car in setting.cars}
         self.sites = {site.name: site for site in setting.sites}
         self.known: dict[str, Guess] = {}

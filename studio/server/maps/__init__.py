@@ -21,11 +21,13 @@ from studio.road.formats import osm
 from studio.road.library import folder
 from studio.road.library.place import attribution, licence, name_of
 from studio.road.library.reader import ENDINGS, ending_of
-from studio.road.network import Network
+from studio.road.network import Lane, Network
+from studio.road.ways.relief import Relief, relief_of
 from studio.road.ways.trip import Trip, trip
 from studio.scenario import file as scenario_file
 from studio.scenario.schema import VERSION
 from studio.scenario.text.splice import written
+from studio.scene.city.stretch import land_of, runs
 from studio.server.maps import answer
 from studio.world.setting import USUAL_RADIUS
 
@@ -254,14 +256,15 @@ def local(places: list[tuple[float, float]], origin: tuple[float, float]) -> lis
 
 def plan_of(network: Network, report: dict[str, Any]) -> answer.MapPlan:
     """A network from above, with what its report points at."""
-    signals = network.signals
+    signals, relief = network.signals, relief_of(network)
     return answer.MapPlan(
         bounds_m=network.bounds,
         drive_side=network.drive_side,
         attribution=network.attribution,
         lanes=[
             {"id": each.id, "road": each.road, "index": each.index, "width": each.width, "speed": each.speed,
-             "internal": each.internal, "open": each.open, "centre": points(each.centre)} for each in network.lanes
+             "internal": each.internal, "open": each.open, "centre": points(each.centre)} | (stretches(each, relief) if relief else {})
+            for each in network.lanes
         ],
         roads=[
             {"id": each.id, "name": each.name, "lanes": list(each.lanes), "ways": list(each.ways)}
@@ -283,6 +286,18 @@ def plan_of(network: Network, report: dict[str, Any]) -> answer.MapPlan:
         **{kind: [{key: each.get(key, "corrected") for key in ("number", "kind", "x", "y")} for each in report[kind]]
            for kind in ("guesses", "skipped", "corrected")},
     )  # fmt: skip
+
+
+def stretches(lane: Lane, relief: Relief) -> dict[str, Any]:
+    """Which parts of a lane lie on the land, and which off it and how far."""
+    _, place, lift = relief.of_lane(lane.id)
+    if not lift.any():
+        return {}
+    off = [(float(lift[a + np.abs(lift[a : b + 1]).argmax()]), place[:, a : b + 1]) for a, b in runs(lift != 0.0)]
+    return {
+        "land": [points(centre) for _, _, centre in land_of(lane, relief)],
+        "aloft": [{"lift": round(most, 2), "centre": points(line)} for most, line in off],
+    }
 
 
 def points(line: np.ndarray) -> list[tuple[float, float]]:

@@ -201,6 +201,13 @@ class MapDetail(MapRow):
     corrections: list[MapCorrection]
 
 
+class PlanStretch(BaseModel):
+    """A part of a lane that lies off the land: on a bridge, in a tunnel, on the ramp to one."""
+
+    lift: float = Field(description="how high above the land it lies where that is most, negative: how deep below it [m]")
+    centre: Line
+
+
 class PlanLane(BaseModel):
     """A lane, or a way through a junction (`internal`)."""
 
@@ -212,6 +219,8 @@ class PlanLane(BaseModel):
     internal: bool
     open: bool = Field(description="to cars")
     centre: Line
+    land: list[Line] | None = Field(None, description="the parts that lie on the land; null: all of it")
+    aloft: list[PlanStretch] | None = Field(None, description="the parts that do not; null: none")
 
 
 class PlanRoad(BaseModel):

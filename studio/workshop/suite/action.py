@@ -47,7 +47,7 @@ def seen(seed: np.random.Generator) -> Sees:
 def strange(kind: Kind, chosen: list[Any]) -> str | None:
     """What is no effect."""
     setting = stage().cases[0].setting
-    place = Place(setting.scenario, setting.network)
+    place = Place(setting.scenario, setting.network, setting.locks)
     for each in chosen:
         found = kind.module.effects(each, place)
         if not isinstance(found, list) or not all(isinstance(one, get_args(Effect)) for one in found):

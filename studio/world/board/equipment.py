@@ -13,6 +13,7 @@ from studio.application import port
 from studio.application.port import INBOX, OUTBOX
 from studio.kind import registry
 from studio.kind.registry import Kind
+from studio.road.ways.relief import road_height
 from studio.scenario.schema import Application, Bus
 from studio.world.board.air import air
 from studio.world.board.post import Known, Need, Post, post, slots_of
@@ -33,6 +34,7 @@ from studio.world.table.unit import (
     TROUBLE,
     TRUE_X,
     TRUE_Y,
+    TRUE_Z,
     UNIT,
     UNIT_SET,
 )  # fmt: skip
@@ -91,7 +93,7 @@ def stand(settings: Sequence[Setting], units: Units) -> None:
     for w, each in enumerate(settings):
         for name, station in each.scenario.stations.items():
             u, (x, y) = units.number(name, w), each.spots[name]
-            units.now[[TRUE_X, TRUE_Y, HEADING, PRESENT], u] = x, y, station.heading, 1.0
+            units.now[[TRUE_X, TRUE_Y, TRUE_Z, HEADING, PRESENT], u] = x, y, road_height(each.network, x, y), station.heading, 1.0
             units.now[[COSINE, SINE], u] = np.cos(station.heading), np.sin(station.heading)
             units.now[[OWN_X, OWN_Y], u] = x, y
 

@@ -3,8 +3,8 @@
 from studio.compiled import inlined, lean
 from studio.model.random import BUS_NOISE, normal
 from studio.vehicle.command import RING, U
-from studio.vehicle.parameter import FRONT
-from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y
+from studio.vehicle.parameter import FRONT, H
+from studio.vehicle.state import A_X, ACTIVE, DELTA, PSI, V_X, YAW_RATE, X, Y, Z
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.satellite import fix
 from studio.world.table.mind import COMMANDS_DRIVE, DRIVER_HAS, INTERVENTION_HAS, V_DESIRED
@@ -29,6 +29,7 @@ from studio.world.table.unit import (
     TRUE_SPEED,
     TRUE_X,
     TRUE_Y,
+    TRUE_Z,
 )  # fmt: skip
 
 
@@ -43,6 +44,7 @@ def carry(vehicle, fixed, state, parameter, mind, commands, places, gps_set, wor
         if v < 0:
             continue
         now[TRUE_X, u], now[TRUE_Y, u], now[HEADING, u] = state[X, v], state[Y, v], state[PSI, v]
+        now[TRUE_Z, u] = state[Z, v] - parameter[H, v]
         now[COSINE, u], now[SINE, u] = places[COS, v], places[SIN, v]
         now[TRUE_SPEED, u] = state[V_X, v]
         now[BUMPER, u], now[PRESENT, u] = parameter[FRONT, v], state[ACTIVE, v]

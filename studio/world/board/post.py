@@ -34,6 +34,7 @@ from studio.world.board.air import EARLY, Air, remembered
 from studio.world.board.host import Fault
 from studio.world.board.log import Log, log_link
 from studio.world.board.sensing import stored
+from studio.world.passes.sight import OTHER_LEVEL, STEEPNESS
 from studio.world.table.cause import ABSENT, DROPPED, JAMMED, OUT_OF_RANGE, RECEIVED
 from studio.world.table.unit import (
     COSINE,
@@ -57,11 +58,13 @@ from studio.world.table.unit import (
     S_TIME,
     S_X,
     S_Y,
+    S_Z,
     SENT,
     SINE,
     TRUE_SPEED,
     TRUE_X,
     TRUE_Y,
+    TRUE_Z,
 )  # fmt: skip
 from studio.world.table.unit import JAMMED as IS_JAMMED
 from studio.world.view import Way
@@ -487,7 +490,7 @@ def send(i, unit, time, fixed, size, payload, now, ring, last, fresh):
     ring[S_NUMBER, column] = last[i]
     ring[S_TIME, column] = time
     ring[S_STAMP, column] = time * (1.0 + fixed[DRIFT, unit]) + fixed[OFFSET, unit]
-    ring[S_X, column], ring[S_Y, column] = now[TRUE_X, unit], now[TRUE_Y, unit]
+    ring[S_X, column], ring[S_Y, column], ring[S_Z, column] = now[TRUE_X, unit], now[TRUE_Y, unit], now[TRUE_Z, unit]
     ring[S_SIZE, column], ring[S_NEXT, column] = size, inf
     row = SENT_ROWS
     for value in literal_unroll(payload):
@@ -534,9 +537,20 @@ def taking_turns(posts: Sequence["Post"], instant: int) -> Sequence["Post"]:
 
 @inlined
 def apart(column, receiver, now, ring):
-    """How far a receiver is from the antenna of a message [m]."""
+    """How far a receiver is from the antenna of a message, in all three dimensions [m]."""
     dx, dy = now[TRUE_X, receiver] - ring[S_X, column], now[TRUE_Y, receiver] - ring[S_Y, column]
-    return sqrt(dx * dx + dy * dy)
+    dz = now[TRUE_Z, receiver] - ring[S_Z, column]
+    return sqrt(dx * dx + dy * dy + dz * dz)
+
+
+@inlined
+def decks_between(rise, distance):
+    """How many roads lie between two units of which one's road is so much higher [m]: 1 where it is a bridge over the other's, else 0.
+
+    From an antenna 1.5 m above a bridge with 10 to 20 m of it beside, whoever is near below is in the shadow of the bridge. The bounds are
+    those within which nobody is seen on the other level (passes/sight.py); beyond them it is a steep street, or a view past the edge.
+    """
+    return 1.0 if abs(rise) > OTHER_LEVEL + STEEPNESS * distance else 0.0
 
 
 @inlined
@@ -547,7 +561,7 @@ def way_of(sender, receiver, column, distance, wait, table, felt, fixed, now, lo
         distance, 0.0, 0.0, ring[S_SIZE, column], now[TRUE_SPEED, receiver],
         approach_of(sender, receiver, x1 - x0, y1 - y0, distance, now), ring[S_TIME, column],
         x0, y0, fixed[HEIGHT, sender], x1, y1, fixed[HEIGHT, receiver], load[sender], load[receiver], wait,
-        felt[sender], felt[receiver], table,
+        felt[sender], felt[receiver], table, decks_between(now[TRUE_Z, receiver] - ring[S_Z, column], distance),
     )  # fmt: skip
 
 
@@ -558,6 +572,7 @@ def behind(way, place, shadow):
     return Way(
         way.distance, float(walls), inside, way.size, way.speed, way.approach, way.time, way.from_x, way.from_y, way.from_height,
         way.to_x, way.to_y, way.to_height, way.from_load, way.load, way.wait, way.from_place, way.to_place, way.table,
+        way.decks,
     )  # fmt: skip
 
 

@@ -19,6 +19,13 @@ class Locks:
         """That of a model."""
         return min(LOCK, figures.lock(self.models[model].values))
 
+    def of_routes(self) -> dict[str, float]:
+        """The least of the named vehicles on each route."""
+        found: dict[str, float] = {}
+        for each in self.scenario.vehicles.values():
+            found[each.route] = min(found.get(each.route, LOCK), self.of(each.model))
+        return found
+
     def of_traffic(self, own: str | None = None) -> float:
         """The least of those that traffic of a model or type may have, or of all that are mixed."""
         traffic = self.scenario.traffic

@@ -48,6 +48,9 @@ const COLOURS = {
     edge: "#ffffff",
     asphalt: "#868c95",
     closed: "#b08f8f",
+    tunnel: "#c9cbc9",
+    bore: "#7d8288",
+    casing: "#3f454d",
     marking: "#ffffff",
     arrow: "#e9ecef",
     stop: "#ffffff",
@@ -65,6 +68,9 @@ const COLOURS = {
     edge: "#14161a",
     asphalt: "#6b7280",
     closed: "#7d5a5a",
+    tunnel: "#33383d",
+    bore: "#868e96",
+    casing: "#dee2e6",
     marking: "#dee2e6",
     arrow: "#ced4da",
     stop: "#ffffff",
@@ -77,7 +83,8 @@ const SQUARE = 250;
 
 /** The layers of a plan, which are made once and drawn often. */
 export function groundOf(plan: Plan): Ground {
-  const lanes = plan.lanes.filter(({ centre }) => centre.length > 1);
+  const lanes = plan.lanes.filter(({ centre }) => centre.length > 1).flatMap(onLand);
+  const aloft = plan.lanes.flatMap(offLand);
   const outside = lanes.filter(({ internal }) => !internal);
   const junctions = batched(plan.junctions, boundsOf, addRing);
   const { between, middle } = markings(outside, plan.drive_side);
@@ -89,6 +96,7 @@ export function groundOf(plan: Plan): Ground {
     })),
     { colour: "building", batches: batched(plan.buildings, outlineBounds, addOutline) },
     { colour: "wall", thin: 1, from: 0.4, batches: batched(plan.buildings, outlineBounds, addOutline) },
+    ...tunnels(aloft.filter(({ lift }) => lift < 0)),
     ...stripes(outside, "edge", 0.8),
     ...stripes(lanes.filter(({ open }) => open), "asphalt", 0),
     { colour: "asphalt", batches: junctions },
@@ -99,6 +107,7 @@ export function groundOf(plan: Plan): Ground {
     { colour: "marking", width: 0.15, from: 2.2, batches: batched(middle, boundsOf, addLine) },
     { colour: "arrow", from: 1.6, batches: batched(outside.flatMap(directions), boundsOf, addRing) },
     { colour: "stop", width: 0.5, from: 0.8, batches: batched(stopLines(plan), boundsOf, addLine) },
+    ...bridges(aloft.filter(({ lift }) => lift > 0), plan.drive_side),
     { colour: "signal", from: 0.8, batches: batched(plan.signals.map(lamp), boundsOf, addRing) },
   ];
   return {
@@ -126,6 +135,47 @@ function stripes(lanes: readonly PlanLane[], colour: Colour, more: number): Laye
 }
 
 const rounded = (width: number): number => Math.round(width * 4) / 4;
+
+// -- levels --------------------------------------------------------------------------------------
+
+/** A part of a lane that lies above the land, or below it [m]. */
+interface Stretch extends PlanLane {
+  lift: number;
+}
+
+/** The parts of a lane on the land, as lanes. */
+const onLand = (lane: PlanLane): PlanLane[] =>
+  lane.land ? lane.land.filter((centre) => centre.length > 1).map((centre) => ({ ...lane, centre })) : [lane];
+
+const offLand = (lane: PlanLane): Stretch[] =>
+  (lane.aloft ?? []).filter(({ centre }) => centre.length > 1).map(({ lift, centre }) => ({ ...lane, centre, lift }));
+
+/** Below everything else: pale, between broken lines. */
+function tunnels(lanes: readonly Stretch[]): Layer[] {
+  const sides = lanes.flatMap(({ centre, width }) => [beside(centre, width / 2), beside(centre, -width / 2)]);
+  return [...stripes(lanes, "tunnel", 0), { colour: "bore", width: 0.4, batches: batched(sides, boundsOf, addDashes) }];
+}
+
+/** Storey after storey, each over those below it: between dark lines. */
+function bridges(lanes: readonly Stretch[], side: DriveSide): Layer[] {
+  const storeys = [...new Set(lanes.map(storeyOf))].sort((one, other) => one - other);
+  return storeys.flatMap((storey) => {
+    const own = lanes.filter((lane) => storeyOf(lane) === storey);
+    const outside = own.filter(({ internal }) => !internal);
+    const { between, middle } = markings(outside, side);
+    return [
+      ...stripes(own, "casing", 1.4),
+      ...stripes(own.filter(({ open }) => open), "asphalt", 0.2),
+      ...stripes(own.filter(({ open }) => !open), "closed", 0),
+      { colour: "marking" as const, width: 0.15, from: 2.2, batches: batched(between, boundsOf, addDashes) },
+      { colour: "marking" as const, width: 0.15, from: 2.2, batches: batched(middle, boundsOf, addLine) },
+      { colour: "arrow" as const, from: 1.6, batches: batched(outside.flatMap(directions), boundsOf, addRing) },
+    ];
+  });
+}
+
+const STOREY = 4; // [m]
+const storeyOf = ({ lift }: Stretch): number => Math.round(lift / STOREY);
 
 // -- batches -------------------------------------------------------------------------------------
 

@@ -2636,6 +2636,12 @@ export interface components {
              * @description [m]
              */
             points: number[][];
+            /**
+             * Lifts
+             * @description how high above the land each lies [m]; none where all lie on it
+             * @default []
+             */
+            lifts: number[];
         };
         /**
          * LayerMessage
@@ -4011,6 +4017,19 @@ export interface components {
                 number,
                 number
             ][];
+            /**
+             * Land
+             * @description the parts that lie on the land; null: all of it
+             */
+            land?: [
+                number,
+                number
+            ][][] | null;
+            /**
+             * Aloft
+             * @description the parts that do not; null: none
+             */
+            aloft?: components["schemas"]["PlanStretch"][] | null;
         };
         /**
          * PlanMark
@@ -4094,6 +4113,25 @@ export interface components {
              * @description [m]
              */
             height: number;
+        };
+        /**
+         * PlanStretch
+         * @description A part of a lane that lies off the land: on a bridge, in a tunnel, on the ramp to one.
+         */
+        PlanStretch: {
+            /**
+             * Lift
+             * @description how high above the land it lies where that is most, negative: how deep below it [m]
+             */
+            lift: number;
+            /**
+             * Centre
+             * @description points [m], x east and y north from the map's centre
+             */
+            centre: [
+                number,
+                number
+            ][];
         };
         /**
          * Preset
