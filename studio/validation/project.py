@@ -15,7 +15,7 @@ overrides:
   - {maneuver: j_turn_20, criterion: "steady yaw_rate, averaged simulation", reason: "the sensor was mounted askew that day"}
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -177,7 +177,7 @@ def load(path: Path) -> Loaded:
     """A project with its logs read, mapped, cut, and looked at: nothing of it is used when one run is no good. Raises StudioError."""
     made = read(path)
     model = catalogue.find_vehicle(made.vehicle, made.changes, folder=path.parent)
-    parameters(made, model, path)
+    check_parameters(made.calibration, model, path.name)
     logs = Logs(path.parent, made.mapping)
     calibration = {name: logs.runs(each.calibration, each.kind) for name, each in made.maneuvers.items() if each.calibration}
     validation = {name: logs.runs(each.validation, each.kind) for name, each in made.maneuvers.items() if each.validation}
@@ -185,17 +185,17 @@ def load(path: Path) -> Loaded:
     return Loaded(made, path, model, calibration, validation)
 
 
-def parameters(made: Project, model: VehicleModel, path: Path) -> None:
+def check_parameters(steps: Mapping[str, Calibration], model: VehicleModel, where: str) -> None:
     """What is calibrated must be single numbers of the vehicle; raises ScenarioError."""
     full = model.values.model_dump()
     found = [
         Problem(f"calibration.{step}.parameters.{name}", "is no single number of the vehicle", remedy=edit.nearest_path(full, name))
-        for step, each in made.calibration.items()
+        for step, each in steps.items()
         for name in each.parameters
         if not (edit.has(full, name) and isinstance(edit.get(full, name), float))
     ]
     if found:
-        raise refused(path.name, found)
+        raise refused(where, found)
 
 
 @dataclass

@@ -126,6 +126,23 @@ def test_a_cut_beyond_its_log_is_refused_when_it_is_saved(client, project):
     assert detail(client, project)["text"] == before["text"]
 
 
+def test_what_is_no_number_of_the_vehicle_is_not_looked_for(client, project):
+    """Told when it is saved, with the nearest that there is; what stands there already hinders nobody who saves something else."""
+    before = detail(client, project)
+
+    def looked_for(path):
+        patch = [{"op": "add", "path": f"/calibration/lateral/parameters/{path}", "value": {"low": 0.5, "high": 2.0}}]
+        return client.patch(f"/api/validations/{project}", json=patch, headers=PATCH)
+
+    refused = looked_for("tyres.front_corner")
+    assert refused.status_code == 422 and detail(client, project)["text"] == before["text"]
+    (told,) = refused.json()["problems"]
+    assert told["where"] == "calibration.lateral.parameters.tyres.front_corner" and "tyres.front_cornering" in told["remedy"]
+    kept = looked_for("body.mass")
+    assert kept.status_code == 200
+    client.patch(f"/api/validations/{project}", json=kept.json()["inverse"], headers=PATCH)
+
+
 def test_a_new_project_gets_its_files_and_loses_none(client, running):
     made = client.post("/api/validations", json={"name": "mine", "title": "My car", "vehicle": "bmw_320i"})
     assert made.status_code == 201 and made.json()["document"]["title"] == "My car"

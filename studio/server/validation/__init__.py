@@ -188,8 +188,10 @@ class Projects:
 
     def write(self, name: str, before: str, after: Source) -> None:
         """Writes a project that is one, whose title is its own, and whose files are its own or were named before."""
-        self.check_title(name, project.of_text(after).title, before)
+        made = project.of_text(after)
+        self.check_title(name, made.title, before)
         check_inside(after.value, named(before))
+        self.check_parameters(name, made, before)
         file.write(self.folder / name / PROJECT, after.text)
 
     def check_title(self, name: str, title: str, before: str) -> None:
@@ -197,6 +199,19 @@ class Projects:
         if title in self.titles(but=name) and title != title_of(before):
             remedy = f"iterations are kept by title: choose another, such as {self.free_title(title)}"
             raise ConflictError("Another project has this title.", [Problem("title", "is taken", short(title), remedy=remedy)])
+
+    def check_parameters(self, name: str, made: project.Project, before: str) -> None:
+        """Raises ScenarioError for what is looked for anew and is no number of the vehicle, where that can be read."""
+        old = parameters_of(before)
+        new = {step: each for step, each in made.calibration.items() if not set(each.parameters) <= old}
+        if new and (model := self.model(name, made)):
+            project.check_parameters(new, model, PROJECT)
+
+    def model(self, name: str, made: project.Project) -> catalogue.VehicleModel | None:
+        """The vehicle of a project; none where it cannot be read, of which whoever uses it is told."""
+        with suppress(StudioError):
+            return catalogue.find_vehicle(made.vehicle, made.changes, folder=self.folder / name)
+        return None
 
     def check_cuts(self, name: str, before: str, after: Source) -> None:
         """Raises ScenarioError for runs cut beyond their logs that were not so before. Logs are read here, so nobody waits at the lock."""
@@ -245,6 +260,13 @@ def cuts_of(text: str) -> list[tuple[Run, str | None]]:
     with suppress(ScenarioError):
         return [each[1:] for each in project.of_text(source.read(text, PROJECT)).cuts]
     return []
+
+
+def parameters_of(text: str) -> set[str]:
+    """What is looked for by a text of a project; nothing by one that cannot be read."""
+    with suppress(ScenarioError):
+        return {path for each in project.of_text(source.read(text, PROJECT)).calibration.values() for path in each.parameters}
+    return set()
 
 
 def applied(text: str, patch: list[Operation]) -> tuple[Source, list[Operation]]:
