@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.assess.following import ttc
+from studio.assess.intact import intact
 from studio.execution.happening import Happening, happening
 from studio.execution.record import Record
 from studio.execution.simulation import Simulation
@@ -53,7 +54,8 @@ class Danger(NamedTuple):
 
 
 def found(record: Record, danger: Danger) -> Iterator[Happening]:
-    """All of one sort, vehicle by vehicle."""
+    """All of one sort, vehicle by vehicle; none of somebody who was hit before."""
+    record = intact(record)
     values = danger.values(record)
     for row, holds in enumerate(danger.holds(values)):
         for part in stretches(holds, record.time):
@@ -97,9 +99,8 @@ class Lookout:
         first, end = int(self.begins.min(initial=self.simulation.recorder.count)), self.simulation.recorder.count
         if first == end:
             return []
-        record = replace(
-            self.simulation.record_of(list(range(first, end))), called=self.called, happenings=tuple(self.simulation.cases[0].happenings)
-        )
+        happenings = tuple(self.simulation.cases[0].happenings)
+        record = intact(replace(self.simulation.record_of(list(range(first, end))), called=self.called, happenings=happenings))
         told = [event for number in range(len(DANGERS)) for event in self.over(number, record, first)]
         return sorted(told, key=lambda each: each.time)
 

@@ -5,6 +5,7 @@ import traceback
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from studio.assess.intact import intact
 from studio.assess.metric import Measured
 from studio.assess.scope import scoped
 from studio.execution.record import Record
@@ -19,9 +20,9 @@ def measure_all(
     """The measures that are listed, as the scenario has them, then every metric that none of them has the name of.
 
     Everything is looked at in the order of names, so that nothing hangs on the order in a scenario's file. One that raises measures
-    nothing, and is told with its traceback.
+    nothing, and is told with its traceback. Nothing counts of a vehicle from its first collision on.
     """
-    record = record.ordered()
+    record = intact(record.ordered())
     known, listed = registry.known("metric"), listed or {}
     asked = {name: known[each.kind] for name, each in listed.items()} | {name: known[name] for name in known if name not in listed}
     return {name: measured(each, record, listed.get(name), tell) for name, each in asked.items()}

@@ -418,7 +418,9 @@ def goals_met(row, document: dict[str, Any]) -> str:
         return "no goals are set"
     if not row.metrics:
         return f"{len(goals)} goals, and nothing was measured"
-    return f"{len(goals) - len(unmet(goals, row.metrics))} of {len(goals)} goals met"
+    hits = row.metrics["collisions"].value if "collisions" in row.metrics and "collisions" not in goals else 0
+    though = f", though there {'was a collision' if hits == 1 else f'were {hits:g} collisions'}" if hits else ""
+    return f"{len(goals) - len(unmet(goals, row.metrics))} of {len(goals)} goals met{though}"
 
 
 def print_sources(row, texts: dict[str, dict[str, str]], patches: dict[str, str]) -> None:

@@ -150,14 +150,20 @@ class Record:
         return self.derived.trace(name)
 
     def of_followers(self, name: str) -> np.ndarray:
-        """One quantity of the vehicles that follow in a chain, float64[vehicle, n]; of all when there is no chain."""
+        """One quantity of the `followers`, float64[vehicle, n]."""
         return self.channel(name)[[self.vehicles.index(each) for each in self.followers]]
 
     @cached_property
     def followers(self) -> list[str]:
-        """The vehicles that follow in a chain; all when there is no chain."""
-        following = {vehicle for chain in self.chains for vehicle in chain.vehicles[1:]}
+        """The vehicles that follow in a chain; where there is no chain those that ever had somebody ahead, and all when nobody had."""
+        following = {vehicle for chain in self.chains for vehicle in chain.vehicles[1:]} or set(self.behind_somebody)
         return [each for each in self.vehicles if each in following] or list(self.vehicles)
+
+    @property
+    def behind_somebody(self) -> list[str]:
+        """The vehicles that at some time had another one, or an object, ahead."""
+        ever = np.isfinite(self.channel("gap")).any(axis=-1)
+        return [each for each, was in zip(self.vehicles, ever, strict=True) if was]
 
     def trace(self, name: str) -> np.ndarray:
         """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from studio.assess.census import NOT_KEPT
+from studio.assess.intact import intact
 from studio.assess.measure import measure_all
 from studio.assess.metric import Measured
 from studio.errors import Problem, UnknownError
@@ -14,7 +15,7 @@ COUNTED = "is counted while a run goes on, and not kept for a part of it"
 def stretch(runs: Runs, run: int, begin: float, end: float) -> tuple[float, float, dict[str, Measured]]:
     """First and last time of the samples between two times [s], and the measures of these. Raises UnknownError where there are none."""
     whole = runs.record(run)
-    part = whole.between(begin, end)
+    part = intact(whole).between(begin, end)  # a collision before it counts, too
     if part.time.size < 2:
         first, last = (float(whole.time[i]) for i in (0, -1)) if whole.time.size else (0.0, 0.0)
         problem = Problem(

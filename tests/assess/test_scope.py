@@ -14,7 +14,7 @@ from studio.execution.record import Chain
 from studio.kind import registry
 from studio.kind.slot import chosen
 from studio.scenario.schema import Goal
-from studio.world.table.event import ARRIVED, HIT, SCRIPT_BEGUN, SCRIPT_ENDED
+from studio.world.table.event import ARRIVED, HIT, NEAR_MISS, SCRIPT_BEGUN, SCRIPT_ENDED
 from tests.assess.drive import record
 
 TIME = np.arange(0.0, 10.0 + 1e-9, 0.02)
@@ -22,7 +22,7 @@ EVENTS = (
     happening(SCRIPT_BEGUN, 2.0, ("a",), entry="brake", action="brakes"),
     happening(SCRIPT_BEGUN, 3.0, (), entry="fog", action="fog"),
     happening(SCRIPT_ENDED, 4.0, ("a",), entry="brake", action="brakes"),
-    happening(HIT, 8.0, ("b", "c"), impact_speed=3.0),
+    happening(NEAR_MISS, 8.0, ("b", "c"), ttc=1.0),
     happening(ARRIVED, 9.0, ("a",)),
 )
 
@@ -51,8 +51,8 @@ def test_usually_it_is_the_whole_run_and_everybody(drive):
         ({"vehicles": ["b"]}, 40.0, ("b", "a"), 10.0),
         ({"end": {"at": 5}}, 20.0, ("c", "b"), 5.0),
         ({"begin": {"entry": "brake"}, "end": {"entry": "brake", "event": "script_ended"}}, 22.0, ("c", "b"), 4.0),
-        ({"begin": {"event": "script_begun", "at": 0.5}, "end": {"event": "collision", "at": -1}, "vehicles": ["b"]}, 43.0, ("b", "a"), 7),
-        ({"end": {"event": "collision", "unit": "b"}}, 14.0, ("c", "b"), 8.0),
+        ({"begin": {"event": "script_begun", "at": 0.5}, "end": {"event": "near_miss", "at": -1}, "vehicles": ["b"]}, 43.0, ("b", "a"), 7),
+        ({"end": {"event": "near_miss", "unit": "b"}}, 14.0, ("c", "b"), 8.0),
         ({"end": {"event": "rolled_over"}}, 10.0, ("c", "b"), 10.0),
     ],
 )  # fmt: skip
@@ -62,11 +62,12 @@ def test_windows_and_vehicles(drive, given, value, subject, time):
 
 
 def test_what_never_began_is_not_measured(drive):
-    assert asked(drive, begin={"event": "collision", "unit": "a"}).value is None
+    assert asked(drive, begin={"event": "near_miss", "unit": "a"}).value is None
 
 
 def test_events_of_the_window_and_of_the_vehicles_count(drive):
-    assert [asked(drive, "collisions", **each).value for each in ({}, {"end": {"at": 7}}, {"vehicles": ["a"]}, {"vehicles": ["c"]})] == [
+    hit = replace(drive, happenings=(*EVENTS, happening(HIT, 8.0, ("b", "c"), impact_speed=3.0)))
+    assert [asked(hit, "collisions", **each).value for each in ({}, {"end": {"at": 7}}, {"vehicles": ["a"]}, {"vehicles": ["c"]})] == [
         1,
         0,
         0,

@@ -1,6 +1,6 @@
 """Strongest jerk of a follower, to either side: the mean over 1 s, as ISO 15622 bounds that of an adaptive cruise control.
 
-Where nobody follows in a chain, all recorded cars count.
+Where nobody follows in a chain, those count who had somebody ahead, and all where nobody had.
 """
 
 import numpy as np

@@ -1,7 +1,8 @@
 """Root mean square of the jerk of the followers, over the whole run.
 
 Jerk is the change of acceleration over 0.2 s (studio/assess/comfort.py says why). Passengers feel it before they feel the
-acceleration itself. Where nobody follows in a chain, all recorded cars count.
+acceleration itself. Where nobody follows in a chain, those count who had somebody ahead,
+and all where nobody had.
 """
 
 from math import sqrt

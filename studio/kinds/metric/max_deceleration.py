@@ -1,6 +1,6 @@
 """Strongest deceleration of a follower: how hard the cars behind the first of a chain had to brake.
 
-Where nobody follows in a chain, all recorded cars count, those that the script brakes too.
+Where nobody follows in a chain, those count who had somebody ahead, and all where nobody had, those that the script brakes too.
 """
 
 from studio.assess.search import greatest

@@ -1,6 +1,6 @@
 """Mean gap of the followers, while somebody is ahead: how much road a platoon needs.
 
-Where nobody follows in a chain, all recorded cars count.
+Where nobody follows in a chain, those count who had somebody ahead, and all where nobody had.
 """
 
 from studio.assess.total import mean

@@ -1,6 +1,6 @@
 """Least time gap of a follower: the gap over its own speed, while it rolls. Also called time headway, of the gap.
 
-Where nobody follows in a chain, all recorded cars count.
+Where nobody follows in a chain, those count who had somebody ahead, and all where nobody had.
 """
 
 from studio.assess.search import least_behind

@@ -28,6 +28,13 @@ describe("a verdict", () => {
     expect(suggestion(run({ gap: { least: 2, most: 2.5 } }, 3))?.word).toBe("discarded");
     expect(suggestion(run({ gap: { least: 2 } }, null))?.why).toMatch("1 of 1 goals not met: gap");
   });
+
+  it("is not suggested for a run with a collision, which only a goal of its own may allow", () => {
+    const run = (goals: Record<string, object>): RunDetail =>
+      ({ status: "done", document: { goals }, metrics: { gap: { value: 3 }, collisions: { value: 1 } } }) as unknown as RunDetail;
+    expect(suggestion(run({ gap: { least: 2 } }))).toEqual({ word: "discarded", why: "There was a collision, whatever the goals say." });
+    expect(suggestion(run({ gap: { least: 2 }, collisions: { most: 1 } }))?.word).toBe("candidate");
+  });
 });
 
 it("tags are words between commas, each once", () => {

@@ -21,6 +21,8 @@ export function hindrance({ status }: Pick<Run, "status">, word: Word): string {
 export function suggestion(run: Pick<RunDetail, "status" | "document" | "metrics">): { word: Word; why: string } | undefined {
   const goals = goalsOf(run);
   if (run.status !== "done" || goals.length === 0) return undefined;
+  const hits = run.metrics.collisions?.value ?? 0;
+  if (hits > 0 && !goals.some(({ metric }) => metric === "collisions")) return { word: "discarded", why: `${hits === 1 ? "There was a collision" : `There were ${hits} collisions`}, whatever the goals say.` };
   const missed = goals.filter(({ margin }) => margin === null || margin < 0);
   const many = goals.length === 1 ? "The goal is" : `All ${goals.length} goals are`;
   if (missed.length === 0) return { word: "candidate", why: `${many} met.` };
