@@ -7,6 +7,8 @@
     tops     float64[g]      of the cells of the grid, how high [m] the tallest of them rises above an eye
     sky      float64[c]      share of open sky + 1 where it has been asked for, else 0; cells of SKY_CELL within those of the grid
     mass     uint8[c]        of the same cells what stands there at the height of an eye: OPEN, PARTLY or wholly FULL of a building
+    filled   int32[c]        of the same cells, row after row, how many that are not OPEN lie up to its column and its row (F. C. Crow,
+                             Summed-area tables for texture mapping, SIGGRAPH 1984): four of these tell how many lie in any upright box
 
 A line is looked at from its western end, so that both directions give the same bits. Several maps are joined like those of
 an `Index`. Maps without buildings have no cells.
@@ -47,6 +49,7 @@ class Shadow(NamedTuple):
     tops: np.ndarray  # per cell
     sky: np.ndarray
     mass: np.ndarray
+    filled: np.ndarray
 
 
 @once
@@ -101,8 +104,10 @@ def shadow(buildings: Sequence[Building]) -> Shadow:
         tops=tallest(bodies, lists),
         sky=np.zeros(cells),
         mass=np.zeros(cells, dtype=np.uint8),
+        filled=np.zeros(cells, dtype=np.int32),
     )
     fill(made)
+    made.filled[:] = summed(frame, made.mass)
     return made
 
 
@@ -150,6 +155,7 @@ def joined(shadows: Sequence[Shadow]) -> Shadow:
         tops=np.concatenate([each.tops for each in shadows]),
         sky=np.concatenate([each.sky for each in shadows]),
         mass=np.concatenate([each.mass for each in shadows]),
+        filled=np.concatenate([each.filled for each in shadows]),
     )
 
 
@@ -399,6 +405,37 @@ def fill(shadow):
             for i in range(shadow.spans[b, WALL_FIRST], shadow.spans[b, WALL_FIRST] + shadow.spans[b, WALL_COUNT]):
                 x0, y0, x1, y1 = shadow.walls[0, i], shadow.walls[1, i], shadow.walls[2, i], shadow.walls[3, i]
                 walk(frame, shadow.mass, 0, x0, y0, x1, y1, True)
+
+
+def summed(frame: np.ndarray, mass: np.ndarray) -> np.ndarray:
+    """`filled` of one map."""
+    rows, columns = int(frame[ROWS, 0]), int(frame[COLUMNS, 0])
+    cells = mass.reshape(rows, columns, FINER, FINER) != OPEN
+    in_rows = cells.transpose(0, 2, 1, 3).reshape(rows * FINER, columns * FINER)
+    return in_rows.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32).ravel()
+
+
+@inlined
+def is_clear(frame, filled, m, west, south, east, north):
+    """Whether no cell that an upright box on map m [m] reaches into has a building at the height of an eye."""
+    columns, rows = int(frame[COLUMNS, m]) * FINER, int(frame[ROWS, m]) * FINER
+    first, last = int(floor((west - frame[WEST, m]) / SKY_CELL)) - 1, int(floor((east - frame[WEST, m]) / SKY_CELL))
+    below, top = int(floor((south - frame[SOUTH, m]) / SKY_CELL)) - 1, int(floor((north - frame[SOUTH, m]) / SKY_CELL))
+    last, top = min(last, columns - 1), min(top, rows - 1)
+    if last < 0 or top < 0:
+        return True
+    cell = int(frame[CELLS, m]) * FINER * FINER
+    found = filled[cell + top * columns + last]
+    if found == 0:
+        return True
+    first, below = min(first, last), min(below, top)
+    if first >= 0:
+        found -= filled[cell + top * columns + first]
+    if below >= 0:
+        found -= filled[cell + below * columns + last]
+    if first >= 0 and below >= 0:
+        found += filled[cell + below * columns + first]
+    return found == 0
 
 
 @lean

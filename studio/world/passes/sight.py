@@ -24,6 +24,7 @@ from studio.road.network.shadow import (
     WALL_COUNT,
     WALL_FIRST,
     is_at_eye,
+    is_clear,
     level,
     walk,
 )
@@ -62,6 +63,7 @@ TRACK_SEEN = SIGHT.row("track_seen", "1", "1 when it has been seen at this look"
 ROOM = 64  # columns besides one for each body: covered bearings, and tracks
 OTHER_LEVEL = 3.0  # [m] of height between those who do not see each other when they are near: one drives on a bridge
 STEEPNESS = 0.06  # [1] rise over distance that is seen beyond that: half of what a sensor opens upwards, or a steep street
+PIECE, CLOSE = 24.0, 0.01  # [m] of a way, between which no building is looked for at once; beside a line, by rounding
 LEAST = 1e-9  # [rad] bearings below that are rounding
 
 
@@ -287,11 +289,13 @@ def see(i, half, sight, blocks):
 def cover_buildings(view, me, i, sight, blocks):
     """Covers what buildings hide of the body in column i; how many intervals there are now.
 
-    Lines to both edges and to its nearest point are followed through cells first: mostly all are open, or all end in a building. Where
-    they differ, or one only passes by a building, walls are looked at.
+    Mostly there is none around. Else lines to both edges and to its nearest point are followed through cells: mostly all are open, or all
+    end in a building. Where they differ, or one only passes by a building, walls are looked at.
     """
     place = view.place_of[me.world]
     distance = far(sight[MIDDLE_X, i], sight[MIDDLE_Y, i])
+    if is_way_clear(view.shadow, place, me, i, distance, sight):
+        return blocks
     x0, y0 = of_world(me, distance * cos(sight[LOW, i]), distance * sin(sight[LOW, i]))
     x1, y1 = of_world(me, distance * cos(sight[HIGH, i]), distance * sin(sight[HIGH, i]))
     x2, y2 = of_world(me, sight[SEEN_X, i], sight[SEEN_Y, i])
@@ -304,6 +308,26 @@ def cover_buildings(view, me, i, sight, blocks):
     ):
         return cover_walls(view.shadow, place, me, i, x0, y0, x1, y1, sight, blocks)
     return blocks if found == OPEN else cover_outline(sight[LOW, i], sight[HIGH, i], sight, blocks)
+
+
+@inlined
+def is_way_clear(shadow, place, me, i, distance, sight):
+    """Whether there is no building around the lines from the sensor to the edges and the nearest point of the body in column i.
+
+    A corner is no farther from the middle than half the diagonal, and the end of the line to an edge, which is as far as the middle, no
+    farther from it than the corner is from the middle. So these lines are within a strip that is nowhere wider, to each side, than the
+    diagonal times the share of the way; it is looked at piece by piece.
+    """
+    x, y = of_world(me, sight[MIDDLE_X, i], sight[MIDDLE_Y, i])
+    pieces, aside = 1 + int(distance / PIECE), sight[LONG, i] + sight[WIDE, i]
+    step_x, step_y = (x - me.eye_x) / pieces, (y - me.eye_y) / pieces
+    for k in range(pieces):
+        x0, y0, margin = me.eye_x + k * step_x, me.eye_y + k * step_y, aside * (k + 1) / pieces + CLOSE
+        x1, y1 = x0 + step_x, y0 + step_y
+        west, east, south, north = min(x0, x1) - margin, max(x0, x1) + margin, min(y0, y1) - margin, max(y0, y1) + margin
+        if not is_clear(shadow.grid.frame, shadow.filled, place, west, south, east, north):
+            return False
+    return True
 
 
 @inlined
