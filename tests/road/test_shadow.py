@@ -12,12 +12,16 @@ from studio.road.network import Building
 from studio.road.network.curve import resampled
 from studio.road.network.shadow import (
     EYE,
+    OPEN,
+    SKY_CELL,
     SKY_REACH,
+    is_clear,
     joined,
     open_sky,
     shadow,
     shadow_of,
     sky_above,
+    walk,
     walls_between,
 )
 from tests.road.test_places import FILES
@@ -231,3 +235,32 @@ def test_what_is_remembered_of_the_sky_is_what_was_worked_out():
         assert open_sky(found, 0, x, 14.0) == first
         assert first == pytest.approx(sky_above(found, 0, x, 14.0), abs=0.15)
     assert np.count_nonzero(found.sky) == 41
+
+
+def cells_in(found, m, x0, y0, x1, y1):
+    """What stands in every cell that an upright box reaches into, each asked for by itself."""
+    xs, ys = (np.append(np.arange(low, high, 0.5 * SKY_CELL), high) for low, high in ((x0, x1), (y0, y1)))
+    return {walk(found.grid.frame, found.mass, m, x, y, x, y, False) for x in xs for y in ys}
+
+
+@pytest.mark.parametrize("m", [0, 1])
+def test_a_box_is_clear_when_every_cell_in_it_is_open(m):
+    """On either of two maps side by side, also beyond the edges of the map; both answers come."""
+    houses = [HOUSE, box(-90, 30, -70, 75), box(10, -80, 13, -60, base=3.0), box(-40, -45, -20, -25, height=1.0)]
+    found = joined([shadow(houses), shadow([box(-300, -20, -260, 0), box(5, 5, 30, 90)])])
+    rng, answers = np.random.default_rng(7), []
+    for _ in range(400):
+        x, y = rng.uniform(-400.0, 400.0, 2) if rng.random() < 0.3 else rng.uniform(-110.0, 90.0, 2)
+        east, north = rng.uniform(0.0, 60.0, 2)
+        answers.append(is_clear(found.grid.frame, found.filled, m, x, y, x + east, y + north))
+        assert answers[-1] == (cells_in(found, m, x, y, x + east, y + north) == {OPEN})
+    assert 20 < sum(answers) < 380
+
+
+def test_around_a_place_far_away_it_is_clear():
+    """On a map without buildings, and a kilometre beyond the edges of one with a house."""
+    none, one = shadow([]), shadow([HOUSE])
+    assert is_clear(none.grid.frame, none.filled, 0, -10.0, -10.0, 10.0, 10.0)
+    for x, y in ((-2000.0, 0.0), (2000.0, 0.0), (0.0, -2000.0), (0.0, 2000.0)):
+        assert is_clear(one.grid.frame, one.filled, 0, x, y, x + 50.0, y + 50.0)
+    assert not is_clear(one.grid.frame, one.filled, 0, -2000.0, -2000.0, 2000.0, 2000.0)

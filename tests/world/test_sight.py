@@ -1,5 +1,6 @@
 """Who is seen behind whom: bearings of outlines, what covers them, houses between, and what is measured of what is seen."""
 
+from collections import namedtuple
 from dataclasses import replace
 from math import atan2, degrees, hypot, inf, pi, radians
 
@@ -11,11 +12,32 @@ from studio.road.network import Building, shadow
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import PSI, V_X, X, Y
 from studio.workshop.stage import stage
-from studio.world.passes.sight import HIGH, LOW, SEEN_X, SEEN_Y, SHARE, SIGHT, WHO, cover_outline, free, look, open_to
+from studio.world.passes.sight import (
+    HIGH,
+    LONG,
+    LOW,
+    MIDDLE_X,
+    MIDDLE_Y,
+    SEEN_X,
+    SEEN_Y,
+    SHARE,
+    SIGHT,
+    TURNED_COS,
+    TURNED_SIN,
+    WHO,
+    WIDE,
+    cover_outline,
+    frame,
+    free,
+    is_way_clear,
+    look,
+    open_to,
+)
 from studio.world.tick import gather, sense
 from studio.world.view import View, about, looking
 
 HALF, REACH = radians(20.0), 100.0
+Eye = namedtuple("Eye", "eye_x eye_y eye_cosine eye_sine")
 CARS = {"ahead": (20.0, 0.0), "far": (40.0, 0.5), "other": (45.0, 3.5), "behind": (30.0, 9.0), "beside": (12.0, 4.2)}
 
 
@@ -189,3 +211,29 @@ def test_the_front_radar_measures_a_crossing_car_where_it_is_nearest():
     assert each.out[0, 0] == 1.0
     assert each.out[0, 1] == pytest.approx(hypot(x, y), abs=1e-6)
     assert each.out[0, 2] == pytest.approx((-10.0 * x + 5.0 * y) / hypot(x, y), abs=1e-5)
+
+
+def test_no_building_is_on_a_way_that_is_called_clear():
+    """Against the walks through cells: to both edges, as far as the middle, and to the nearest point; of both answers there are many.
+
+    Houses stand at the corners of streets that run askew, and bodies lie anywhere around the sensor, also around it and behind it.
+    """
+    rng, streets = np.random.default_rng(3), [(x, y) for x in (-60.0, -20.0, 20.0, 60.0) for y in (-50.0, 0.0, 50.0)]
+    found, sight = shadow.shadow([house(x + 0.2 * y, y - 0.2 * x, 14.0, 11.0) for x, y in streets]), np.zeros((len(SIGHT), 4))
+    grid, clear = found.grid.frame, []
+    for _ in range(2000):
+        eye_x, eye_y, turn, heading = *rng.uniform(-80.0, 80.0, 2), *rng.uniform(-pi, pi, 2)
+        me = Eye(eye_x, eye_y, np.cos(turn), np.sin(turn))
+        x, y, c, s = *rng.uniform(-60.0, 60.0, 2), np.cos(heading), np.sin(heading)
+        x, y = (0.03 * x, 0.03 * y) if rng.random() < 0.1 else (x, y)
+        length, width = (12.0, 2.5) if rng.random() < 0.5 else (4.5, 1.8)
+        sight[[MIDDLE_X, MIDDLE_Y, TURNED_COS, TURNED_SIN, LONG, WIDE], 0] = x, y, c, s, length, width
+        sight[[SEEN_X, SEEN_Y], 0] = model.nearest(x, y, c, s, length, width)
+        frame(0, sight)
+        clear.append(is_way_clear(found, 0, me, 0, hypot(x, y), sight))
+        ends = [hypot(x, y) * np.array([np.cos(sight[edge, 0]), np.sin(sight[edge, 0])]) for edge in (LOW, HIGH)]
+        for ahead, left in (*ends, sight[[SEEN_X, SEEN_Y], 0]):
+            to = eye_x + ahead * me.eye_cosine - left * me.eye_sine, eye_y + ahead * me.eye_sine + left * me.eye_cosine
+            open_ = shadow.walk(grid, found.mass, 0, eye_x, eye_y, *to, False) == shadow.OPEN
+            assert open_ or not clear[-1]
+    assert 300 < sum(clear) < 1700

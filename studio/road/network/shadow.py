@@ -409,8 +409,9 @@ def fill(shadow):
 
 def summed(frame: np.ndarray, mass: np.ndarray) -> np.ndarray:
     """`filled` of one map."""
-    cells = mass.reshape(int(frame[ROWS, 0]), int(frame[COLUMNS, 0]), FINER, FINER) != OPEN
-    in_rows = cells.transpose(0, 2, 1, 3).reshape(int(frame[ROWS, 0]) * FINER, -1)
+    rows, columns = int(frame[ROWS, 0]), int(frame[COLUMNS, 0])
+    cells = mass.reshape(rows, columns, FINER, FINER) != OPEN
+    in_rows = cells.transpose(0, 2, 1, 3).reshape(rows * FINER, columns * FINER)
     return in_rows.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32).ravel()
 
 
