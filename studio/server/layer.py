@@ -189,12 +189,12 @@ class Layers:
                 reach = max(AHEAD * float(speed[v]), LEAST_AHEAD)
                 yield answer.LayerLine(car=self.number[name], points=rounded(self.way(name, float(station[v]), reach)))
 
-    def way(self, name: str, station: float, reach: float) -> list[tuple[float, float]]:
-        """Points of a vehicle's path from a station on [m]."""
+    def way(self, name: str, station: float, reach: float) -> np.ndarray:
+        """Points of a vehicle's path from a station on, float64[n, 2] [m]."""
         points = self.setting.cars[self.number[name]].path.points
         at = np.arange(station, station + reach, PATH_STEP) / PATH_SPACING
         known, own = np.arange(points.shape[1]), at[at <= points.shape[1] - 1]
-        return list(zip(np.interp(own, known, points[PATH_X]).tolist(), np.interp(own, known, points[PATH_Y]).tolist(), strict=True))
+        return np.column_stack([np.interp(own, known, points[PATH_X]), np.interp(own, known, points[PATH_Y])])
 
 
 def missing(record: Record, kept: Collection[str]) -> dict[str, str]:
@@ -242,6 +242,6 @@ def some(value: float) -> float | None:
     return round(value, 3) if isfinite(value) else None
 
 
-def rounded(points: list[tuple[float, float]]) -> list[list[float]]:
+def rounded(points: list[tuple[float, float]] | np.ndarray) -> list[list[float]]:
     """Points with centimetres."""
-    return [[round(x, 2), round(y, 2)] for x, y in points]
+    return np.round(np.asarray(points, float).reshape(-1, 2), 2).tolist()
