@@ -73,7 +73,7 @@ class Fleet:
     def move(self, poses: np.ndarray) -> None:
         """Show the vehicles at `poses` (float32[POSE_ROWS, vehicle], see pose.py); costs nothing when nobody has moved."""
         poses = np.asarray(poses, np.float32)
-        if np.array_equal(poses, self._shown):
+        if self._shown is not None and np.array_equal(poses, self._shown):
             return
         self._shown = poses.copy()
         places = positions(poses)

@@ -178,11 +178,10 @@ class Layers:
         steps = np.unique(np.searchsorted(record.time[: i + 1], np.arange(t - TRAIL, t, TRAIL_STEP)))
         x, y, station = (record.channel(name) for name in ("x", "y", "station"))
         for v, name in enumerate(record.vehicles):
-            points = [(float(x[v, j]), float(y[v, j])) for j in steps if isfinite(x[v, j])]
-            if name in self.number and isfinite(x[v, i]) and points:
-                there = [j for j in steps if isfinite(x[v, j])]
+            there = [j for j in steps if isfinite(x[v, j])]
+            if name in self.number and isfinite(x[v, i]) and there:
                 heights = height_at(self.setting.cars[self.number[name]].path, station[v, there])
-                yield self.line(name, points, heights)
+                yield self.line(name, np.column_stack([x[v, there], y[v, there]]), heights)
 
     def paths(self, record: Record, i: int) -> Iterator[answer.LayerLine]:
         """Where everybody's way leads within the next seconds."""
@@ -192,21 +191,19 @@ class Layers:
                 reach = max(AHEAD * float(speed[v]), LEAST_AHEAD)
                 yield self.line(name, *self.way(name, float(station[v]), reach))
 
-    def way(self, name: str, station: float, reach: float) -> tuple[list[tuple[float, float]], np.ndarray]:
-        """Points of a vehicle's path from a station on, and the heights of the road there [m]."""
+    def way(self, name: str, station: float, reach: float) -> tuple[np.ndarray, np.ndarray]:
+        """Points of a vehicle's path from a station on, float64[n, 2] [m], and the heights of the road there [m]."""
         points = self.setting.cars[self.number[name]].path.points
         at = np.arange(station, station + reach, PATH_STEP) / PATH_SPACING
         known, own = np.arange(points.shape[1]), at[at <= points.shape[1] - 1]
         x, y, height = (np.interp(own, known, points[row]) for row in (PATH_X, PATH_Y, PATH_HEIGHT))
-        return list(zip(x.tolist(), y.tolist(), strict=True)), height
+        return np.column_stack([x, y]), height
 
-    def line(self, name: str, points: list[tuple[float, float]], heights: np.ndarray) -> answer.LayerLine:
-        """A line of a vehicle on roads of these heights [m]."""
-        relief = relief_of(self.setting.network)
-        lifts = np.zeros(0)
-        if relief is not None and points:
-            x, y = np.array(points).T
-            lifts, _ = relief.at(x, y, heights)
+    def line(self, name: str, points: np.ndarray, heights: np.ndarray) -> answer.LayerLine:
+        """A line of a vehicle through points, float64[n, 2] [m], on roads of these heights [m]."""
+        relief, lifts = relief_of(self.setting.network), np.zeros(0)
+        if relief is not None and len(points):
+            lifts, _ = relief.at(*points.T, heights)
         return answer.LayerLine(car=self.number[name], points=rounded(points), lifts=np.round(lifts, 2).tolist() if lifts.any() else [])
 
 
@@ -255,6 +252,6 @@ def some(value: float) -> float | None:
     return round(value, 3) if isfinite(value) else None
 
 
-def rounded(points: list[tuple[float, float]]) -> list[list[float]]:
+def rounded(points: list[tuple[float, float]] | np.ndarray) -> list[list[float]]:
     """Points with centimetres."""
-    return [[round(x, 2), round(y, 2)] for x, y in points]
+    return np.round(np.asarray(points, float).reshape(-1, 2), 2).tolist()

@@ -502,8 +502,8 @@ def note_closed(found: Survey, element: str, tags: dict[str, str], faces: list) 
 def outlines(data: bytes, form: str, wanted: set[int]) -> dict[int, list[tuple[float, float]]]:
     """The places of some ways [deg], as far as the file has them whole; most of them have no tag, so that nothing was noted of them."""
     file = osmium.FileProcessor(osmium.io.FileBuffer(data, form), osmium.osm.NODE | osmium.osm.WAY).with_locations()
-    whole = (way for way in file if way.is_way() and way.id in wanted and all(node.location.valid() for node in way.nodes))
-    return {way.id: [(node.lon, node.lat) for node in way.nodes] for way in whole}
+    ways = (way for way in file if isinstance(way, osmium.osm.Way) and way.id in wanted)
+    return {way.id: [(node.lon, node.lat) for node in way.nodes] for way in ways if all(node.location.valid() for node in way.nodes)}
 
 
 def dry_places(found: Survey) -> np.ndarray:

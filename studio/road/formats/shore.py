@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
-from shapely.ops import linemerge
+from shapely.geometry.base import BaseGeometry
 
 Line = Sequence[tuple[float, float]]
 
@@ -29,14 +29,13 @@ def wet(lines: Sequence[Line], frame: tuple[float, float, float, float], dry: np
     return [] if on_first == on_second else first if on_first < on_second else second
 
 
-def has_end(shores: shapely.Geometry, box: shapely.Polygon) -> bool:
+def has_end(shores: BaseGeometry, box: shapely.Polygon) -> bool:
     """Whether a line ends within the box."""
-    whole = linemerge(shores) if shores.geom_type == "MultiLineString" else shores
-    ends = shapely.boundary(whole)
+    ends = shapely.boundary(shapely.line_merge(shores))
     return not ends.is_empty and bool(shapely.contains(box, shapely.get_parts(ends)).any())
 
 
-def parted(shores: shapely.Geometry, box: shapely.Polygon) -> list[shapely.Polygon]:
+def parted(shores: BaseGeometry, box: shapely.Polygon) -> list[shapely.Polygon]:
     """The faces into which the lines part the box."""
     net = shapely.union_all([shores.intersection(box), box.exterior])
     return list(shapely.get_parts(shapely.polygonize(shapely.get_parts(net))))
