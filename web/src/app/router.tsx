@@ -55,7 +55,8 @@ export const studioRoute = createRoute({
 const runsRoute = createRoute({
   getParentRoute: () => root,
   path: "/runs",
-  validateSearch: ({ scenario, q, sort, by, varying, only, as, base, draw, axes }: Record<string, unknown>): RunsView => ({
+  validateSearch: ({ scenario, q, sort, by, varying, only, as, base, draw, axes, pins }: Record<string, unknown>): RunsView => ({
+    pins: text(pins),
     scenario: text(scenario),
     q: text(q),
     sort: text(sort),
