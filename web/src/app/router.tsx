@@ -65,7 +65,7 @@ const runsRoute = createRoute({
     only: text(only),
     as: as === "space" || as === "lineage" || as === "board" ? as : undefined,
     base: number(base),
-    draw: draw === "points" ? draw : undefined,
+    draw: draw === "points" || draw === "ranks" ? draw : undefined,
     axes: text(axes),
   }),
   component: function Runs() {
