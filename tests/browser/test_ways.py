@@ -10,7 +10,7 @@ from tests.patience import until
 from tests.server.server import served
 
 HEADWAY = "applications.platoon.parameters.headway"
-CAMERA = "() => document.querySelector('iframe[title=\"3D scene\"]').contentWindow.__studioBridge?.camera?.() ?? null"
+CAMERA = "() => document.querySelector('iframe[title=\"3D scene\"]')?.contentWindow?.__studioBridge?.camera?.() ?? null"
 
 
 @pytest.fixture(scope="module")
