@@ -1,7 +1,7 @@
 """A notebook that reads a run through `studio.connect`: what it was made of, its metrics, its traces, beside its parent.
 
-It is a file of Jupyter's format 4.5 (nbformat.readthedocs.io): JSON with cells of text and of Python. Nothing of a run is copied into it but
-its number; whoever opens it asks the studio at the address that stands in its first cell.
+It is a file of Jupyter's format 4.5 (nbformat.readthedocs.io): JSON with cells of text and of Python. Nothing of a run is copied into it
+but its number; whoever opens it asks the studio at the address that stands in its first cell.
 """
 
 import json
@@ -31,9 +31,7 @@ def first(channels: Sequence[str]) -> list[str]:
 def sources(row: Row, drawn: Sequence[str], url: str) -> list[dict[str, Any]]:
     """The cells."""
     made = [
-        code(
-            f'import studio\n\nthere = studio.connect({url!r})  # with token="…" where it serves a network\nrun = there.find({row.run})\nrun'
-        ),
+        code("\n".join(opening(row.run, url))),
         text("## What was set, and what came out"),
         code('run.row["parameters"]'),
         code("{name: (each.value, each.unit, each.subject, each.time) for name, each in run.metrics.items() if each.value is not None}"),
@@ -43,6 +41,18 @@ def sources(row: Row, drawn: Sequence[str], url: str) -> list[dict[str, Any]]:
     if row.parent is not None:
         made += [text(f"## Beside its parent, run {row.parent}"), code(f'there.beside({row.parent}, {row.run})["parameters"]')]
     return made
+
+
+def opening(run: int, url: str) -> list[str]:
+    """Python that finds the run."""
+    return [
+        "import studio",
+        "",
+        "# with token=... where it serves a network",
+        f"there = studio.connect({url!r})",
+        f"run = there.find({run})",
+        "run",
+    ]
 
 
 def plot(channels: Sequence[str]) -> str:

@@ -1,4 +1,4 @@
-"""What makes iterations easier to read, in a real browser: pins, axes, notes with times, ignored differences, tables of charts, links to a view."""
+"""What makes iterations easier to read, in a real browser: pins, axes, notes with times, ignored differences, tables, links to a view."""
 
 import re
 
@@ -34,6 +34,12 @@ def page(studio):
 
 def rows(page):
     return [int(each.get_attribute("data-run")) for each in page.locator("tr[data-run]").all()]
+
+
+def is_seen_from(page, distance):
+    """Whether the scene is up and is looked at from so far away [m]."""
+    seen = page.evaluate(CAMERA)
+    return seen is not None and round(seen["distance"]) == distance
 
 
 def test_1_runs_are_pinned_on_top_whatever_is_filtered(page):
@@ -123,7 +129,7 @@ def test_5_a_chart_is_a_table_too(page):
 def test_6_a_link_to_a_view_has_the_camera_in_it(page, sample):
     page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     page.goto(f"/studio/{sample.stem}?run=1&time=1&camera=free,,0.5,0.6,90,10,0,-20")
-    page.wait_for_function(f"({CAMERA})()?.distance?.toFixed(0) === '90'")
+    until(lambda: is_seen_from(page, 90), "the camera of the link")
     seen = page.evaluate(CAMERA)
     assert seen["azimuth"] == pytest.approx(0.5, abs=0.01) and seen["polar"] == pytest.approx(0.6, abs=0.01)
     assert seen["at"] == pytest.approx([10, 0, -20], abs=0.1)
@@ -133,7 +139,7 @@ def test_6_a_link_to_a_view_has_the_camera_in_it(page, sample):
     assert "run=1" in link and "time=1" in link and "camera=" in link
     page.goto("/runs")
     page.goto(link)
-    page.wait_for_function(f"({CAMERA})()?.distance?.toFixed(0) === '90'")
+    until(lambda: is_seen_from(page, 90), "the camera of the link")
     assert page.evaluate(CAMERA)["at"] == pytest.approx(seen["at"], abs=0.1)
 
 

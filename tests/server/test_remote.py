@@ -66,7 +66,7 @@ def test_the_cells_of_a_notebook_run_and_read_what_is_there(there, monkeypatch):
             exec("".join(cell["source"]), names)
     assert names["run"].number == run.number and names["there"].url == found.url
     assert np.array_equal(names["trace"]["leader.speed"], read_runs(db).trace(run.number, ["leader.speed"])["leader.speed"], equal_nan=True)
-    assert [axes.get_ylabel() for axes in names["rows"][:, 0]][0] == "speed [m/s]"
+    assert names["rows"][0, 0].get_ylabel() == "speed [m/s]"
 
 
 def test_what_is_refused_is_raised_with_its_problems(there):
