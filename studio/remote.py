@@ -100,6 +100,10 @@ class Run:
         """One page about it, as HTML."""
         return self.studio.ask("GET", f"runs/{self.number}/report").text
 
+    def notebook(self) -> str:
+        """A notebook (Jupyter) that reads it from there."""
+        return self.studio.ask("GET", f"runs/{self.number}/notebook").text
+
 
 class Studio:
     """A studio at an address. Raises ServerError when it does not answer."""

@@ -1,4 +1,4 @@
-"""Commands that say something of runs, and hand them on: verdict, remark, report, pack, repeat."""
+"""Commands that say something of runs, and hand them on: verdict, remark, report, notebook, pack, repeat."""
 
 import sys
 from pathlib import Path
@@ -10,6 +10,7 @@ from studio.cli.option import DEFAULT_DB, AsJson, Db, Kinds, load_kinds
 from studio.cli.output import print_json, print_table
 from studio.cli.progress import compile_first, progress
 from studio.cli.running import existing
+from studio.errors import Problem, ScenarioError
 
 commands = typer.Typer()
 
@@ -78,6 +79,27 @@ def report(
     target = out or Path(f"run_{run}.html")
     paper.check(target)
     paper.write(page(existing(db), run), target)
+    print(target)
+
+
+@commands.command()
+def notebook(
+    run: Annotated[int, typer.Argument(help="Number of the run.")],
+    out: Annotated[Path | None, typer.Option(help="The file; default: run_N.ipynb here.")] = None,
+    url: Annotated[str, typer.Option(help="Where the studio serves that has the run.")] = "http://127.0.0.1:8000",
+    db: Db = DEFAULT_DB,
+) -> None:
+    """Writes a notebook (Jupyter) that reads a run from a studio that serves it: its parameters, metrics and traces."""
+    from studio.parcel.notebook import notebook as made
+
+    runs, target = existing(db), out or Path(f"run_{run}.ipynb")
+    text = made(runs.find(run), [each["name"] for each in runs.channels(run)], url)
+    try:
+        target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ScenarioError(
+            f"{target} cannot be written.", [Problem(str(target), f"cannot be written: {error.strerror or error}")]
+        ) from None
     print(target)
 
 

@@ -55,7 +55,8 @@ def drive(runs: Runs, row: Row) -> Drive | None:
         return None
     gaps = [name for name in own if f"{name}.gap" in recorded]
     columns = runs.trace(row.run, [f"{name}.{each}" for name in known for each in PLACE] + [f"{name}.gap" for name in gaps])
-    places = {name: tuple(columns[f"{name}.{each}"] for each in PLACE) for name in (*own, *(each for each in known if each not in own))}
+    order = (*own, *(each for each in known if each not in own))
+    places = {name: (columns[f"{name}.x"], columns[f"{name}.y"], columns[f"{name}.heading"]) for name in order}
     return Drive(columns["time"], places, own, about["bodies"], {name: columns[f"{name}.gap"] for name in gaps})
 
 

@@ -14,7 +14,7 @@ from studio.assess.compare import ALIKE
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError, short
 from studio.kind import registry
 from studio.kind.registry import Kind
-from studio.parcel import paper
+from studio.parcel import notebook, paper
 from studio.parcel.report import report
 from studio.scenario.schema import Scenario, json_schema
 from studio.scenario.text.document import digest
@@ -44,6 +44,9 @@ from studio.world import channel
 
 PAPER: dict[int | str, dict[str, Any]] = {
     200: {"description": "PDF", "content": {paper.MEDIA: {"schema": {"type": "string", "format": "binary"}}}}
+}
+NOTEBOOK: dict[int | str, dict[str, Any]] = {
+    200: {"description": "a notebook", "content": {notebook.MEDIA: {"schema": {"type": "string"}}}}
 }
 PAGE: dict[int | str, dict[str, Any]] = {200: {"description": "HTML", "content": {"text/html": {"schema": {"type": "string"}}}}}
 TRAJECTORIES: dict[int | str, dict[str, Any]] = {
@@ -360,6 +363,14 @@ def run_report(run: int, kept: KeptRuns) -> Response:
 def run_report_on_paper(run: int, kept: KeptRuns) -> Response:
     """The same page about a run as PDF."""
     return on_paper(report(kept, run), f"run_{run}.pdf")
+
+
+@router.get("/runs/{run}/notebook", response_class=Response, responses=NOTEBOOK)
+def run_notebook(run: int, kept: KeptRuns, request: Request) -> Response:
+    """A notebook (Jupyter) that reads the run from this studio, to be gone on with."""
+    channels = [each["name"] for each in kept.channels(run)]
+    made = notebook.notebook(kept.find(run), channels, str(request.base_url).rstrip("/"))
+    return Response(made, media_type=notebook.MEDIA, headers={"Content-Disposition": f'attachment; filename="run_{run}.ipynb"'})
 
 
 def on_paper(page: str, name: str) -> Response:

@@ -55,9 +55,12 @@ class Run(Settings):
         return self
 
     def beyond(self, length: float) -> tuple[str, float] | None:
-        """What of it lies beyond a log of so many seconds: which time, and its value [s]; nothing that a period of the clock explains."""
+        """What of it lies beyond a log of so many seconds: which time, and its value [s].
+
+        Two samples must be left, and a period of the clock more is nothing.
+        """
         last = length + recording.PERIOD + 1e-9
-        times = {"begin": self.begin + recording.PERIOD, "end": self.end or 0.0}
+        times = {"begin": self.begin + 2 * recording.PERIOD, "end": self.end or 0.0}
         return next(((name, getattr(self, name)) for name, value in times.items() if value > last), None)
 
 

@@ -173,6 +173,33 @@ def test_8_everybody_can_use_it(page, tab, scheme):
 SEEN = {"logs&log=turn_0.csv": "signals", "calibration": "estimates", "verdicts": "verdicts"}
 
 
+@pytest.mark.parametrize("tab", ["logs&log=turn_0.csv", "maneuvers", "calibration", "verdicts"])
+def test_8_nothing_sticks_out_of_a_narrow_window(page, tab):
+    """What is wider scrolls in a part of its own, so that the page itself never does sideways."""
+    page.set_viewport_size({"width": 800, "height": 900})
+    page.goto(f"/validate/known_truth?tab={tab}")
+    expect(page.get_by_test_id("iterations")).to_be_visible()
+    expect(page.get_by_role("status").filter(has_text="Loading")).to_have_count(0)
+    article = page.get_by_role("article")
+    assert article.evaluate("each => each.scrollWidth") <= article.evaluate("each => each.clientWidth")
+    page.set_viewport_size({"width": 1280, "height": 800})
+
+
+def test_8_the_last_change_is_taken_back_by_its_key_but_not_while_one_types(page):
+    page.goto("/validate/known_truth?tab=maneuvers")
+    begin = page.get_by_label("Begin of turn_4.csv for validation")
+    begin.fill("0.25")
+    begin.press("Enter")
+    back = page.get_by_role("button", name="Take back the last change")
+    expect(back).to_be_visible()
+    begin.press("Control+z")  # is the field's own
+    expect(back).to_be_visible()
+    page.get_by_role("tab", name="Maneuvers").focus()
+    page.keyboard.press("Control+z")
+    expect(back).to_have_count(0)
+    expect(begin).to_have_value(re.compile(r"^0\b"))
+
+
 def test_9_the_console_was_quiet(studio):
     """The browser itself notes the one text that was refused."""
     (refused,) = studio[1]

@@ -1,5 +1,7 @@
 """A studio elsewhere from Python: the same runs, bits and refusals as REST and the database have."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,23 @@ def test_it_is_compared_decided_and_found(there):
         child.number
     ).name == "x"
     assert "shorter" in child.report() and SCENARIO in [each["id"] for each in found.scenarios()]
+
+
+def test_the_cells_of_a_notebook_run_and_read_what_is_there(there, monkeypatch):
+    """All that stands in its cells of Python is executed, without a screen, as a notebook would."""
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    found, db = there
+    parent = found.run(SCENARIO, set=SHORT)
+    run = found.run(SCENARIO, set=SHORT | {"applications.platoon.parameters.headway": 0.7}, parent=parent.number)
+    made = json.loads(run.notebook())
+    assert (made["nbformat"], made["nbformat_minor"]) == (4, 5) and len({each["id"] for each in made["cells"]}) == len(made["cells"])
+    names: dict = {}
+    for cell in made["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)
+    assert names["run"].number == run.number and names["there"].url == found.url
+    assert np.array_equal(names["trace"]["leader.speed"], read_runs(db).trace(run.number, ["leader.speed"])["leader.speed"], equal_nan=True)
+    assert names["rows"][0, 0].get_ylabel() == "speed [m/s]"
 
 
 def test_what_is_refused_is_raised_with_its_problems(there):

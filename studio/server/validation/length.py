@@ -13,7 +13,7 @@ from studio.errors import StudioError
 from studio.process import Child, Gone
 from studio.server.errand import ServerGone, confine, tell
 
-PATIENCE = 20.0  # [s] for a log to be read
+PATIENCE = 60.0  # [s] for a log to be read
 MOST = 1000  # logs whose length is kept
 Named = tuple[str, str | None]  # a log, and its mapping
 Files = tuple[tuple[Path, int, int], ...]  # each with its time [ns] and its size [B]
@@ -23,7 +23,7 @@ Files = tuple[tuple[Path, int, int], ...]  # each with its time [ns] and its siz
 class Lengths:
     """Of logs that were asked for before."""
 
-    kept: dict[Files, float | None] = field(default_factory=dict)
+    kept: dict[Files, float] = field(default_factory=dict)
 
     def of(self, folder: Path, logs: set[Named]) -> dict[Named, float]:
         """The lengths [s] of logs in a folder, as far as they are known."""
@@ -31,9 +31,8 @@ class Lengths:
         unknown = [each for each, files in states.items() if files and files not in self.kept]
         if unknown:
             found = measured(folder, unknown)
-            self.kept = dict([*self.kept.items(), *((states[each], found.get(each)) for each in unknown)][-MOST:])
-        known = {each: self.kept.get(files) for each, files in states.items()}
-        return {each: length for each, length in known.items() if length is not None}
+            self.kept = dict([*self.kept.items(), *((states[each], length) for each, length in found.items())][-MOST:])
+        return {each: self.kept[files] for each, files in states.items() if files in self.kept}
 
 
 def state(folder: Path, named: Named) -> Files:
@@ -48,7 +47,7 @@ def measured(folder: Path, logs: list[Named]) -> dict[Named, float]:
     """The lengths [s] of logs, as far as a process finds them in time."""
     found: dict[Named, float] = {}
     try:
-        child = Child.begin(measure, folder, logs)
+        child = Child.begin(measure, folder, logs, prepared=True)
     except OSError:
         return found
     with suppress(Gone):

@@ -55,7 +55,8 @@ export const studioRoute = createRoute({
 const runsRoute = createRoute({
   getParentRoute: () => root,
   path: "/runs",
-  validateSearch: ({ scenario, q, sort, by, varying, only, as, base, draw, axes }: Record<string, unknown>): RunsView => ({
+  validateSearch: ({ scenario, q, sort, by, varying, only, as, base, draw, axes, pins }: Record<string, unknown>): RunsView => ({
+    pins: text(pins),
     scenario: text(scenario),
     q: text(q),
     sort: text(sort),
@@ -64,7 +65,7 @@ const runsRoute = createRoute({
     only: text(only),
     as: as === "space" || as === "lineage" || as === "board" ? as : undefined,
     base: number(base),
-    draw: draw === "points" ? draw : undefined,
+    draw: draw === "points" || draw === "ranks" ? draw : undefined,
     axes: text(axes),
   }),
   component: function Runs() {

@@ -7,6 +7,7 @@ import "uplot/dist/uPlot.min.css";
 import type { Beyond } from "../model/beyond";
 import { formatFixed, formatNumber, formatTime, unitText, withUnit, words } from "../model/units";
 import { type Limits, limitsOf } from "./limits";
+import { DataTable } from "./DataTable";
 import { Stroke } from "./Stroke";
 import classes from "./TimeChart.module.css";
 import type { Span, Zoom } from "./zoom";
@@ -314,6 +315,7 @@ export function TimeChart(props: Props) {
   const host = useRef<HTMLDivElement>(null);
   const chart = useRef<uPlot>(undefined);
   const [cursor, setCursor] = useState<number | null>(null);
+  const [table, setTable] = useState(false);
   const left = useMemo(() => leftOf(data, lines), [data, lines, version]);
   const [limits, outside, toggle] = useLimits(title, left, version, zoom.span);
   const memory = useRef<Memory>({
@@ -389,12 +391,18 @@ export function TimeChart(props: Props) {
         ))}
         {beyond ? <Legend beyond={beyond} /> : null}
         <Outside limits={outside} whole={limits !== outside} onToggle={toggle} />
+        <button type="button" className={classes.action} onClick={() => setTable(true)}>
+          As table
+        </button>
         {zoom.span ? (
           <button type="button" className={classes.action} onClick={() => zoom.choose(undefined)}>
             Show all of it
           </button>
         ) : null}
       </figcaption>
+      {table ? (
+        <DataTable title={title} unit={unit} rightUnit={props.rightUnit} lines={lines} data={data} span={zoom.span} onClose={() => setTable(false)} />
+      ) : null}
       <div ref={host} className={classes.plot} style={{ minHeight: height }} />
     </figure>
   );

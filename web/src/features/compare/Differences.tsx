@@ -1,7 +1,10 @@
 /** What differs between runs: parameters, the environment, and how each ended. */
 
-import { Table, Text } from "@mantine/core";
+import { Group, Table, Text, TextInput } from "@mantine/core";
+import { useLocalStorage } from "@mantine/hooks";
 import { Link } from "@tanstack/react-router";
+import { useState } from "react";
+import { isIgnored, listOf } from "../../model/ignored";
 import type { SideBySide } from "../../model/beside";
 import { plain } from "../../model/note";
 import { unitAt } from "../../model/form";
@@ -14,12 +17,19 @@ import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Compare.module.css";
 
 export function Differences({ found }: { found: SideBySide }) {
-  const { runs, parameters, environment } = found;
+  const { runs } = found;
+  const [list, setList] = useLocalStorage<readonly string[]>({ key: "ignored differences", defaultValue: NOTHING, getInitialValueInEffect: false });
+  const parameters = found.parameters.filter(({ path }) => !isIgnored(path, list));
+  const environment = found.environment.filter(({ name }) => !isIgnored(name, list));
+  const left = found.parameters.length + found.environment.length - parameters.length - environment.length;
   const units = useUnits(runs);
   const scenarios = [...new Set(runs.map(({ scenario }) => scenario))];
   return (
     <section className={classes.card} data-testid="compare-parameters" aria-label="What differs">
-      <h2>What differs</h2>
+      <Group justify="space-between" align="flex-start">
+        <h2>What differs</h2>
+        <Ignored list={list} left={left} onList={setList} />
+      </Group>
       {scenarios.length > 1 ? (
         <Text size="xs" c="dimmed" mb={6}>
           The runs are of {scenarios.length} scenarios: {scenarios.join(", ")}.
@@ -59,6 +69,27 @@ export function Differences({ found }: { found: SideBySide }) {
         </Table.Tbody>
       </Table>
     </section>
+  );
+}
+
+const NOTHING: readonly string[] = [];
+
+/** What is left out of the differences; the browser keeps it. */
+function Ignored({ list, left, onList }: { list: readonly string[]; left: number; onList: (list: readonly string[]) => void }) {
+  const [text, setText] = useState(list.join(", "));
+  return (
+    <TextInput
+      size="xs"
+      w={280}
+      label="Ignore"
+      placeholder="host, radio.*"
+      description={left === 0 ? "names or paths, with commas" : left === 1 ? "1 difference is left out" : `${left} differences are left out`}
+      value={text}
+      onChange={(event) => {
+        setText(event.currentTarget.value);
+        onList(listOf(event.currentTarget.value));
+      }}
+    />
   );
 }
 

@@ -7,6 +7,7 @@ import { useMemo, useState } from "react";
 import { olderRuns, PAGE, runs } from "../../api/queries";
 import { arranged } from "../../model/arrangement";
 import { MOST } from "../../model/beside";
+import { pinsOf } from "../../model/pin";
 import { countBy, countByStatus, type ListedRun } from "../../model/run";
 import { filterOf } from "../../model/filter";
 import { groupable } from "../../model/grouping";
@@ -42,6 +43,8 @@ export interface RunsView extends SpaceView {
   as?: "space" | "lineage" | "board" | undefined;
   /** The run that the others are tinted against. */
   base?: number | undefined;
+  /** Runs that stay on top, beside the baseline, with commas. */
+  pins?: string | undefined;
 }
 
 interface Props {
@@ -126,8 +129,11 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
     const passes = filter.test ?? (() => true); // what cannot be read hides nothing
     return new Set(all.filter((run) => passes(run) && (!only || run.status === only || run.verdict === only)).map(({ run }) => run));
   }, [all, filter, only]);
-  // A run chosen for comparison stays in the table whatever the filter says.
-  const shown = useMemo(() => all.filter(({ run }) => hits.has(run) || selected.has(run)), [all, hits, selected]);
+  // A run chosen for comparison, or pinned, stays in the table whatever the filter says.
+  const pinned = useMemo(() => new Set(pinsOf(view.pins)), [view.pins]);
+  const shown = useMemo(() => all.filter(({ run }) => hits.has(run) || selected.has(run) || pinned.has(run)), [all, hits, selected, pinned]);
+  const onPins = (next: readonly number[]) => onView({ ...view, pins: next.length ? next.join(",") : undefined });
+  const pin = (run: number) => onPins(pinned.has(run) ? [...pinned].filter((each) => each !== run) : [...pinned, run]);
   const [judged, setJudged] = useState<Judged>();
   const [hovered, setHovered] = useState<number>();
   const onJudge = (run: ListedRun, word: Word) => setJudged({ run, word });
@@ -185,6 +191,7 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
           {as === "table" || as === "space" ? <ColumnMenu columns={every} arrangement={arrangement} onArrange={arrange} /> : null}
           <FilterField text={q} wrong={filter.wrong} columns={columns} onText={(next) => onView({ ...view, q: next || undefined })} />
           <Exports shown={shown} isAll={shown.length === all.length} scenario={scenario} />
+          {as === "table" ? <PinButton selected={selected} pinned={pinned} onPins={onPins} /> : null}
           <CompareButton selected={selected} />
         </Group>
       </Group>
@@ -227,6 +234,7 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
           columns={columns}
           hidden={arrangement.hidden}
           base={all.find(({ run }) => run === view.base)}
+          pinned={pinned}
           hovered={hovered}
           view={view}
           selected={selected}
@@ -234,11 +242,30 @@ function Listed({ runs: all, isPart, view, onView }: ListedProps) {
           onToggle={toggle}
           onPick={pick}
           onJudge={onJudge}
+          onPin={pin}
           onBase={(run) => onView({ ...view, base: run === view.base ? undefined : run })}
         />
       )}
       <VerdictDialog judged={judged} onChange={setJudged} />
     </div>
+  );
+}
+
+/** Pins the chosen runs on top; when all of them are, or none is chosen, lets go. */
+function PinButton({ selected, pinned, onPins }: { selected: ReadonlySet<number>; pinned: ReadonlySet<number>; onPins: (runs: readonly number[]) => void }) {
+  const chosen = [...selected];
+  const isBack = chosen.every((run) => pinned.has(run));
+  if (chosen.length === 0 && pinned.size === 0) return null;
+  const rest = chosen.length === 0 ? [] : [...pinned].filter((run) => !selected.has(run));
+  return (
+    <Button
+      size="xs"
+      variant="default"
+      title="Pinned runs stay on top, whatever is sorted or filtered (p on a row)"
+      onClick={() => onPins(isBack ? rest : [...new Set([...pinned, ...chosen])])}
+    >
+      {isBack ? `Unpin ${chosen.length || pinned.size}` : `Pin ${chosen.length} on top`}
+    </Button>
   );
 }
 

@@ -28,6 +28,8 @@ function Table() {
       columns={RUN_COLUMNS}
       hidden={[]}
       base={undefined}
+      pinned={new Set()}
+      onPin={() => {}}
       hovered={undefined}
       view={{ by }}
       selected={new Set()}

@@ -14,6 +14,7 @@ import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useMemo, useRef, useState } from "react";
 import { useGlossary } from "../../api/glossary";
 import { type Entry, entriesOf, groupsOf, type RunGroup, said } from "../../model/grouping";
+import { onTop } from "../../model/pin";
 import type { Json, ListedRun } from "../../model/run";
 import { standing } from "../../model/standing";
 import { type Column, isUnranked, sorted, varies } from "../../model/table";
@@ -45,6 +46,9 @@ interface Props {
   hidden: readonly string[];
   /** The run that the others are tinted against; it stands first. */
   base: ListedRun | undefined;
+  /** Those that stay on top beside it. */
+  pinned: ReadonlySet<number>;
+  onPin: (run: number) => void;
   /** The run that is pointed at elsewhere. */
   hovered: number | undefined;
   onBase: (run: number) => void;
@@ -58,9 +62,9 @@ interface Props {
   onJudge: (run: ListedRun, word: Word) => void;
 }
 
-export function RunsTable({ runs, all, columns, hidden, base, hovered, view, selected, onView, onToggle, onPick, onJudge, onBase }: Props) {
+export function RunsTable({ runs, all, columns, hidden, base, pinned, onPin, hovered, view, selected, onView, onToggle, onPick, onJudge, onBase }: Props) {
   const sorting = readSort(view.sort);
-  const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0], base), [runs, columns, view.sort, base]);
+  const data = useMemo(() => ordered(runs, columns, readSort(view.sort)[0], base, pinned), [runs, columns, view.sort, base, pinned]);
   const { entries, fold, folded } = useEntries(data, columns, view);
   const table = useTable({
     features,
@@ -100,6 +104,7 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
     d: judge("discarded"),
     D: judge("discarded"),
     b: withFocused(({ run }) => onBase(run)),
+    p: withFocused(({ run }) => onPin(run)),
   });
 
   return (
@@ -159,6 +164,7 @@ export function RunsTable({ runs, all, columns, hidden, base, hovered, view, sel
                 index={index}
                 columns={row.getVisibleCells().map((cell) => byId(columns, cell.column.id))}
                 base={base}
+                isPinned={pinned.has(row.original.run)}
                 hovered={row.original.run === hovered}
                 selected={selected.has(row.original.run)}
                 onToggle={() => onToggle(row.original.run)}
@@ -256,10 +262,11 @@ function ordered(
   columns: readonly Column[],
   sort: SortingState[number] | undefined,
   base: ListedRun | undefined,
+  pinned: ReadonlySet<number>,
 ): ListedRun[] {
   const column = columns.find(({ id }) => id === sort?.id);
   const found = column && sort ? sorted(runs, column, sort.desc) : [...runs];
-  return base && found.includes(base) ? [base, ...found.filter((run) => run !== base)] : found;
+  return onTop(found, base?.run, pinned);
 }
 
 interface HeaderProps {
@@ -366,12 +373,13 @@ interface RowProps {
   index: number;
   columns: readonly Column[];
   base: ListedRun | undefined;
+  isPinned: boolean;
   hovered: boolean;
   selected: boolean;
   onToggle: () => void;
 }
 
-function RunRow({ run, index, columns, base, hovered, selected, onToggle }: RowProps) {
+function RunRow({ run, index, columns, base, isPinned, hovered, selected, onToggle }: RowProps) {
   const { alike } = useGlossary();
   const navigate = useNavigate();
   const open = (event?: { target: EventTarget }) => {
@@ -410,14 +418,14 @@ function RunRow({ run, index, columns, base, hovered, selected, onToggle }: RowP
           data-sticky={column.id === "run" || undefined}
           data-stand={column.group === "metrics" ? standing(run, base, column.id.slice("metric:".length), alike) : undefined}
         >
-          <Cell column={column} run={run} isBase={run.run === base?.run} />
+          <Cell column={column} run={run} isBase={run.run === base?.run} isPinned={isPinned} />
         </td>
       ))}
     </tr>
   );
 }
 
-function Cell({ column, run, isBase }: { column: Column; run: ListedRun; isBase: boolean }) {
+function Cell({ column, run, isBase, isPinned }: { column: Column; run: ListedRun; isBase: boolean; isPinned: boolean }) {
   const value: Json | undefined = column.value(run);
   switch (column.id) {
     case "run":
@@ -425,6 +433,7 @@ function Cell({ column, run, isBase }: { column: Column; run: ListedRun; isBase:
         <>
           <b>#{run.run}</b>
           {isBase ? <small title="The others are tinted against it"> baseline</small> : null}
+          {isPinned ? <small title="Stays on top (p)"> pinned</small> : null}
         </>
       );
     case "status":

@@ -9,12 +9,13 @@ import { type Column, textOf } from "../../model/table";
 import { withUnit } from "../../model/units";
 import { Empty } from "../../ui/State";
 import { Parallel } from "./Parallel";
+import { Ranking } from "./Ranking";
 import { Scatter } from "./Scatter";
 import classes from "./Space.module.css";
 
 export interface SpaceView {
   /** How it is drawn. */
-  draw?: "lines" | "points" | undefined;
+  draw?: "lines" | "points" | "ranks" | undefined;
   /** Ids of the axes, with commas; the first that tell something without it. */
   axes?: string | undefined;
 }
@@ -71,13 +72,14 @@ export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes
           size="xs"
           aria-label="Drawn as"
           value={draw}
-          onChange={(next) => onView({ draw: next as "lines" | "points", axes: chosen })}
+          onChange={(next) => onView({ draw: next as SpaceView["draw"], axes: chosen })}
           data={[
             { value: "lines", label: "Parallel axes" },
             { value: "points", label: "Each pair" },
+            { value: "ranks", label: "Sensitivity" },
           ]}
         />
-        <MultiSelect
+        {draw === "ranks" ? null : <MultiSelect
           size="xs"
           flex={1}
           searchable
@@ -88,14 +90,16 @@ export function Space({ runs, shown, columns, text, bounds, draw = "lines", axes
           onChange={(next) => onAxes(next.flatMap((id) => axes.find(({ column }) => column.id === id) ?? axisOf(id, all) ?? []))}
           data={all.map(({ column }) => ({ value: column.id, label: withUnit(column.title, column.unit) }))}
           maxDropdownHeight={320}
-        />
-        <Text size="xs" c="dimmed">
+        />}
+        <Text size="xs" c="dimmed" hidden={draw === "ranks"}>
           {draw === "points" && axes.length > MOST_POINTS ? `The first ${MOST_POINTS} of ${axes.length}. ` : ""}
           Drag along an axis to filter; it stands in the filter above.
           {draw === "points" ? "" : " Drag a title, or use the arrow keys on it, to move its axis; F flips it, L makes it logarithmic."}
         </Text>
       </Group>
-      {draw === "points" ? <Scatter {...drawn} /> : <Parallel {...drawn} onAxes={onAxes} />}
+      {draw === "ranks" ? (
+        <Ranking all={all} columns={columns} runs={runs} shown={shown} />
+      ) : draw === "points" ? <Scatter {...drawn} /> : <Parallel {...drawn} onAxes={onAxes} />}
     </section>
   );
 }

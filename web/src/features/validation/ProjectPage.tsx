@@ -62,7 +62,7 @@ function Desk({ project, view, onView }: { project: Project; view: ProjectView; 
     if (made !== undefined) onView({ tab: job.task === "validate" ? "verdicts" : "calibration", at: made });
   });
   return (
-    <article className={classes.page}>
+    <article className={classes.page} data-narrow="">
       <header className={classes.head}>
         <Link to="/validate" className={classes.back}>
           <Icon name="left" size={14} /> Validation
