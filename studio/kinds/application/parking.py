@@ -213,7 +213,7 @@ def driven(p: Parameters, m: Memory, sees: Sees) -> tuple[Memory, Command, Way, 
     wanted = tracker.allowed(min(max(profile[k], 0.15), p.speed), min(left, free)) if knows else 0.0
     is_turned = abs(own.speed) > STANDS or abs(own.steering - angle) < TURNED
     u = min(max(2.0 * (wanted - v), -2.0), 0.8) if is_turned and wanted > 0.02 else -1.5
-    u = -HARD if clear < v * v / SOFT else u
+    u = -HARD if v > 0.3 and clear < v * v / SOFT else u
     return m._replace(point=float(k)), also(pushed(p, u, g, own.speed), steer(angle)), way, tracker.error(way, k, *at)[0]
 
 
