@@ -242,6 +242,9 @@ def main(write: Callable[[str], None] = print) -> None:
     grid = FINE if wanted.fine else COARSE
     if not wanted.tell:
         mapped(grid._replace(runs=sample(wanted.width)) if wanted.width else grid, wanted.keep)
+    if not kept(wanted.keep):
+        write(f"{wanted.keep}: nothing has been run yet")
+        return
     maps = found(wanted.keep)
     (PAGES / "celc_feasible.svg").write_text(drawn(maps), encoding="utf-8")
     for line in told(maps) if wanted.tell else ():

@@ -147,19 +147,18 @@ def test_a_stranger_who_takes_the_space_that_was_given_away(trouble):
 
 
 def walked(begin):
-    """Somebody walks across the aisle from a time on."""
-    return deck(1, duration=70.0, garage=NEAREST, script={"walker": {"when": {"kind": "time", "at": begin}, "do": WALKER}})
+    """Somebody walks across the aisle from a time on; 3.3 s later he is in the middle of it."""
+    return deck(1, duration=60.0, garage=NEAREST, script={"walker": {"when": {"kind": "time", "at": begin}, "do": WALKER}})
 
 
 def test_somebody_who_walks_into_its_way():
-    """At moments half a second apart, while the car comes: it stops for him, or one of them is through; nobody is touched, it parks."""
-    records = run([walked(begin) for begin in np.arange(7.0, 13.0, 0.5)])
+    """At moments while the car comes: it stops for him, softly or hard, or he is through before; nobody is touched, and it parks."""
     slowest = []
-    for record in records:
+    for record in run([walked(begin) for begin in (7.0, 12.0, 14.0, 15.0, 16.0, 17.0)]):
         assert touched(record) == 0 and len(list(parking_times(record))) == 1
-        passing = np.abs(middle(record, "car_1")[0] + 18.0) < 4.0
-        slowest.append(np.abs(record.trace("car_1.speed")[passing & (record.time < 30.0)]).min())
-    assert min(slowest) < 0.1 and max(slowest) > 1.0, "some of them are stopped for, some are not in the way"
+        (x, y), v = middle(record, "car_1"), record.trace("car_1.speed")
+        slowest.append(v[(abs(y + 8.0) < 0.5) & (x > -24.0) & (x < -16.0) & (v > -0.05)].min())
+    assert min(slowest) < 0.3 and max(slowest) > 1.5, "some of them are stopped for, some are not in the way"
 
 
 OTHER = plan.Plan(3, 4, 5.2, 2.6, 6.5)  # 48 spaces in shorter rows, wider

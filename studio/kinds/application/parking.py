@@ -41,6 +41,8 @@ STANDS = 0.03  # [m/s]
 STOP = 5.0  # [m] before the gate, where the front waits for the garage
 SLOW_DOWN = 1.0  # [m/s²] to that stop
 ROLLING = 0.015  # [1] resistance of the tyres
+SLOW, AGAIN = 0.1, 0.6  # [m/s] with which it stands; [m] that must be free before somebody, that it moves off again
+BACKWARD = 5.0  # [1/s] gain on the speed there
 HARD, SOFT = 6.0, 3.0  # [m/s²] for who steps in its way nearer than from where it would stop softly; and twice how softly that is
 TURNED = 0.04  # [rad] from what the wheels are to be at before the car moves off
 EARLY = 1e-6  # [s]
@@ -211,9 +213,11 @@ def driven(p: Parameters, m: Memory, sees: Sees) -> tuple[Memory, Command, Way, 
     g, v = float(way.direction[k]), float(way.direction[k]) * own.speed
     angle = tracker.wheels(way, k, at, own.speed, p.wheelbase)
     wanted = tracker.allowed(min(max(profile[k], 0.15), p.speed), min(left, free)) if knows else 0.0
+    wanted = 0.0 if abs(own.speed) < SLOW and clear < AGAIN else wanted
     is_turned = abs(own.speed) > STANDS or abs(own.steering - angle) < TURNED
-    u = min(max(2.0 * (wanted - v), -2.0), 0.8) if is_turned and wanted > 0.02 else -1.5
-    u = -HARD if clear < v * v / SOFT else u
+    gain = 2.0 if g > 0.0 else BACKWARD  # torques know nothing of a converter that creeps
+    u = min(max(gain * (wanted - v), -2.0), 0.8) if is_turned and wanted > 0.02 else -1.5
+    u = -HARD if v > 0.3 and clear < v * v / SOFT else u
     return m._replace(point=float(k)), also(pushed(p, u, g, own.speed), steer(angle)), way, tracker.error(way, k, *at)[0]
 
 
