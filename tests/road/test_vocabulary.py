@@ -39,6 +39,7 @@ NODES = """
 highway=traffic_signals highway=mini_roundabout highway=turning_circle highway=turning_loop highway=passing_place highway=speed_camera
 highway=toll_gantry highway=crossing;crossing=zebra traffic_signals=blinker;highway=traffic_signals traffic_calming=bump barrier=bollard
 barrier=gate barrier=lift_gate barrier=block barrier=toll_booth motor_vehicle=no access=private railway=level_crossing hazard=curve
+highway=stop highway=give_way highway=stop;direction=backward
 ford=yes maxheight=3 maxwidth=2 maxweight=3 traffic_sign=DE:205 toll=yes priority=backward maxspeed=30 bridge:movable=swing
 """.split()
 RELATIONS = """

@@ -5,6 +5,7 @@ said for a direction, a side, a lane or a condition (`overtaking:forward:conditi
 stands where it is used, in netconvert or in this package. Values that change nothing are told of nobody.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from studio.road.formats.access import KEYS
@@ -22,6 +23,7 @@ GROUND = "roads are even, dry and paved unless the scenario says otherwise"
 BESIDE = "lanes of others are not built"
 CLASSES = "who may drive there is asked for cars alone"
 PARKED = "who may park where, and for how long, is not asked"
+NO_ROAD = "at the junction itself it does not say for which road; stop=all, stop=minor or a place before the junction would"
 SIGNED = "junctions are what the ways that meet make of them"
 WAYS = {
     "maxspeed:lanes": LIMITS, "maxspeed:hgv": LIMITS, "maxspeed:bus": LIMITS, "maxspeed:trailer": LIMITS, "maxspeed:variable": LIMITS,
@@ -101,13 +103,23 @@ MODES = {*FAMILIES, *KEYS, "oneway", "maxspeed", "lanes", "turn", "overtaking", 
 def tell(ways: Iterable[Way], nodes: Mapping[int, Mapping[str, str]], notes: Notes) -> None:
     """Tells what the ways that are kept, and their nodes, say of driving and is not used; one entry for each of them."""
     seen: set[int] = set()
+    ways = list(ways)
+    arms = Counter(node for way in ways for node in (*way.nodes, *way.nodes[1:-1]))
     for way in ways:
         entry(unused(way.tags), spot_of(way), notes)
         for node, (longitude, latitude) in zip(way.nodes, way.points, strict=True):
             if node in nodes and node not in seen:
                 seen.add(node)
                 name = named("node", node)
-                entry(unused_of_node(nodes[node]), Spot(name, latitude, longitude, name), notes)
+                spot = Spot(name, latitude, longitude, name)
+                entry(unused_of_node(nodes[node]), spot, notes)
+                if arms[node] > 2 and is_of_no_road(nodes[node]):
+                    notes.skip("sign", f"highway={nodes[node]['highway']}", spot, NO_ROAD)
+
+
+def is_of_no_road(tags: Mapping[str, str]) -> bool:
+    """Whether a sign at a junction does not say for which of its roads it counts."""
+    return tags.get("highway") in ("stop", "give_way") and not {tags.get("stop"), tags.get("give_way")} & {"all", "minor"}
 
 
 def entry(found: Iterator[tuple[str, str]], spot: Spot, notes: Notes) -> None:
