@@ -29,12 +29,17 @@ priority_road=designated priority=forward traffic_sign=DE:265 traffic_calming=ta
 smoothness=bad tracktype=grade3 ford=yes winter_road=yes ice_road=yes seasonal=summer flood_prone=yes embedded_rails=tram shoulder=right
 cycleway=lane cycleway:right=lane busway=lane bicycle_road=yes cyclestreet=yes narrow=yes passing_places=yes tunnel=yes bridge=yes layer=1
 covered=yes cutting=yes embankment=yes bridge:movable=bascule temporary=yes opening_hours=24/7 lanes=1 driving_side=left
+maxheight:lanes=3|4 maxweight:hgv=7.5 maxspeed:towing=80 maxspeed:hgv:conditional=60@(weight>7.5) hgv:conditional=no@night hazmat=no lhv=no
+trailer=no caravan=no motorhome=no coach=no tourist_bus=no maxaxleload:conditional=1@x incline:up=12% surface:lanes=gravel|asphalt
+parking:right:restriction=no_stopping parking:left:maxstay=1h junction=jughandle change:lanes:forward=no|yes
+access:lanes:forward=no|yes;lanes=4
 overtaking:conditional=no@night lanes:conditional=3@day turn:lanes:conditional=left@day junction=roundabout name=Weg
 """.split()
 NODES = """
 highway=traffic_signals highway=mini_roundabout highway=turning_circle highway=turning_loop highway=passing_place highway=speed_camera
 highway=toll_gantry highway=crossing;crossing=zebra traffic_signals=blinker;highway=traffic_signals traffic_calming=bump barrier=bollard
 barrier=gate barrier=lift_gate barrier=block barrier=toll_booth motor_vehicle=no access=private railway=level_crossing hazard=curve
+highway=stop highway=give_way highway=stop;direction=backward
 ford=yes maxheight=3 maxwidth=2 maxweight=3 traffic_sign=DE:205 toll=yes priority=backward maxspeed=30 bridge:movable=swing
 """.split()
 RELATIONS = """

@@ -5,6 +5,7 @@ said for a direction, a side, a lane or a condition (`overtaking:forward:conditi
 stands where it is used, in netconvert or in this package. Values that change nothing are told of nobody.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from studio.road.formats.access import KEYS
@@ -20,6 +21,10 @@ SHAPE = "lanes have one width, about the line of their way"
 NARROW = "nobody waits but on streets with one lane for both directions"
 GROUND = "roads are even, dry and paved unless the scenario says otherwise"
 BESIDE = "lanes of others are not built"
+CLASSES = "who may drive there is asked for cars alone"
+PARKED = "who may park where, and for how long, is not asked"
+NO_ROAD = "at the junction itself it does not say for which road; stop=all, stop=minor or a place before the junction would"
+SIGNED = "junctions are what the ways that meet make of them"
 WAYS = {
     "maxspeed:lanes": LIMITS, "maxspeed:hgv": LIMITS, "maxspeed:bus": LIMITS, "maxspeed:trailer": LIMITS, "maxspeed:variable": LIMITS,
     "maxspeed:advisory": LIMITS, "maxspeed:practical": LIMITS, "maxspeed:hazard": LIMITS, "maxspeed:wet": LIMITS, "minspeed": LIMITS,
@@ -36,12 +41,33 @@ WAYS = {
     "hazard": "drivers see hazards, not signs", "shoulder": BESIDE, "cycleway": BESIDE, "busway": BESIDE, "passing_places": SHAPE,
     "priority": NARROW, "traffic_sign": "signs count by the tags of what they mean",
     "bicycle_road": "drivers do not mind cyclists more than elsewhere", "cyclestreet": "drivers do not mind cyclists more than elsewhere",
-    "tunnel": "who crosses above is not met; drawn on the ground", "covered": "roofs over roads are not built",
-    "bridge": "who crosses below is not met; no bridges are drawn",
-    "layer": "who crosses on another layer is not met; all are drawn on the ground",
-    "cutting": "ground is level", "embankment": "ground is level",
+    "tunnel": "who crosses above is not met; drawn below the ground where roads cross", "covered": "roofs over roads are not built",
+    "bridge": "who crosses below is not met; drawn above the ground where roads cross",
+    "layer": "who crosses on another layer is not met; drawn off the ground where roads cross",
+    "cutting": "ground is level but for ramps", "embankment": "ground is level but for ramps",
+    "lhv": CLASSES, "hazmat": CLASSES, "trailer": CLASSES, "caravan": CLASSES, "motorhome": CLASSES, "coach": CLASSES,
+    "tourist_bus": CLASSES, "junction": SIGNED,
     "bridge:movable": "bridges do not open", "temporary": TIMES, "opening_hours": TIMES, "lanes:hov": BESIDE, "reversible": TIMES,
 }  # fmt: skip
+FAMILIES = {  # of keys with more behind them than is known, such as maxheight:lanes
+    *(
+        "maxheight",
+        "maxwidth",
+        "maxlength",
+        "maxweight",
+        "maxaxleload",
+        "surface",
+        "smoothness",
+        "incline",
+        "hgv",
+        "goods",
+        "hazmat",
+        "change",
+    ),
+    *("overtaking", "width", "placement", "hov"),
+}
+USED_LIMITS = {"maxspeed", "maxspeed:conditional", "maxspeed:type", "maxspeed:source", "source:maxspeed"}
+RULES = {"restriction", "maxstay", "condition", "access", "authentication", "fee"}  # of parking
 SILENT = {
     "surface": {"asphalt", "paved", "concrete", "chipseal", "concrete:plates"},
     "smoothness": {"excellent", "good", "intermediate"},
@@ -51,8 +77,10 @@ SILENT = {
     "hgv": {"yes", "designated", "permissive"},
     "goods": {"yes", "designated", "permissive"},
     "incline": {"0", "0%"},
+    "junction": {"roundabout", "circular", "yes", "intersection", "uncontrolled"},
 }
 NOTHING = {"no", "none", "separate", "unspecified"}
+FORBID = {"overtaking", "lane_markings", "change", "hgv", "goods"}
 NODES = {
     "traffic_calming": GROUND, "hazard": "drivers see hazards, not signs", "ford": GROUND, "maxheight": SIZES, "maxwidth": SIZES,
     "maxweight": SIZES, "toll": "nobody pays", "traffic_sign": "signs count by the tags of what they mean",
@@ -69,19 +97,29 @@ PLACES = {  # highway=… of a node
     "traffic_mirror": "drivers see what they can see themselves",
     "ford": GROUND,
 }
-MODES = {*KEYS, "oneway", "maxspeed", "lanes", "turn", "overtaking", "hov", "change", "parking", "bus", "psv", "restriction"}
+MODES = {*FAMILIES, *KEYS, "oneway", "maxspeed", "lanes", "turn", "overtaking", "hov", "change", "parking", "bus", "psv", "restriction"}
 
 
 def tell(ways: Iterable[Way], nodes: Mapping[int, Mapping[str, str]], notes: Notes) -> None:
     """Tells what the ways that are kept, and their nodes, say of driving and is not used; one entry for each of them."""
     seen: set[int] = set()
+    ways = list(ways)
+    arms = Counter(node for way in ways for node in (*way.nodes, *way.nodes[1:-1]))
     for way in ways:
         entry(unused(way.tags), spot_of(way), notes)
         for node, (longitude, latitude) in zip(way.nodes, way.points, strict=True):
             if node in nodes and node not in seen:
                 seen.add(node)
                 name = named("node", node)
-                entry(unused_of_node(nodes[node]), Spot(name, latitude, longitude, name), notes)
+                spot = Spot(name, latitude, longitude, name)
+                entry(unused_of_node(nodes[node]), spot, notes)
+                if arms[node] > 2 and is_of_no_road(nodes[node]):
+                    notes.skip("sign", f"highway={nodes[node]['highway']}", spot, NO_ROAD)
+
+
+def is_of_no_road(tags: Mapping[str, str]) -> bool:
+    """Whether a sign at a junction does not say for which of its roads it counts."""
+    return tags.get("highway") in ("stop", "give_way") and not {tags.get("stop"), tags.get("give_way")} & {"all", "minor"}
 
 
 def entry(found: Iterator[tuple[str, str]], spot: Spot, notes: Notes) -> None:
@@ -109,7 +147,16 @@ def reason_of(key: str) -> str:
     if "conditional" in parts:
         return TIMES if parts[0] in MODES and key != "maxspeed:conditional" else ""
     plain = ":".join(part for part in parts if part not in ("forward", "backward", "left", "right", "both"))
-    return WAYS.get(plain, "")
+    return WAYS.get(plain, "") or reason_of_family(parts[0], plain)
+
+
+def reason_of_family(first: str, plain: str) -> str:
+    """Why a key is not used that says more than its first word, or nothing."""
+    if first == "parking":
+        return PARKED if RULES & set(plain.split(":")) else ""
+    if first == "maxspeed":
+        return LIMITS if plain not in USED_LIMITS else ""
+    return WAYS.get(first, SHAPE if first == "width" else "") if first in FAMILIES and plain != first else ""
 
 
 def is_sign(tags: Mapping[str, str], key: str) -> bool:
@@ -120,7 +167,8 @@ def is_sign(tags: Mapping[str, str], key: str) -> bool:
 def says_nothing(key: str, value: str) -> bool:
     """Whether a value is what is built anyway."""
     name = key.partition(":")[0]
-    return (value in NOTHING and name not in ("overtaking", "lane_markings", "change", "hgv", "goods")) or value in SILENT.get(name, ())
+    is_rule = name in FORBID or WAYS.get(name) == CLASSES  # of which a no says something
+    return (value in NOTHING and not is_rule) or value in SILENT.get(name, ())
 
 
 def unused_of_node(tags: Mapping[str, str]) -> Iterator[tuple[str, str]]:

@@ -139,15 +139,16 @@ const rounded = (width: number): number => Math.round(width * 4) / 4;
 // -- levels --------------------------------------------------------------------------------------
 
 /** A part of a lane that lies above the land, or below it [m]. */
-interface Stretch extends PlanLane {
+export interface Stretch extends PlanLane {
   lift: number;
 }
 
 /** The parts of a lane on the land, as lanes. */
-const onLand = (lane: PlanLane): PlanLane[] =>
+export const onLand = (lane: PlanLane): PlanLane[] =>
   lane.land ? lane.land.filter((centre) => centre.length > 1).map((centre) => ({ ...lane, centre })) : [lane];
 
-const offLand = (lane: PlanLane): Stretch[] =>
+/** The parts of a lane that lie off the land, as lanes. */
+export const offLand = (lane: PlanLane): Stretch[] =>
   (lane.aloft ?? []).filter(({ centre }) => centre.length > 1).map(({ lift, centre }) => ({ ...lane, centre, lift }));
 
 /** Below everything else: pale, between broken lines. */
@@ -175,7 +176,8 @@ function bridges(lanes: readonly Stretch[], side: DriveSide): Layer[] {
 }
 
 const STOREY = 4; // [m]
-const storeyOf = ({ lift }: Stretch): number => Math.round(lift / STOREY);
+/** On which storey a part of a lane is drawn. */
+export const storeyOf = ({ lift }: Stretch): number => Math.round(lift / STOREY);
 
 // -- batches -------------------------------------------------------------------------------------
 
@@ -233,6 +235,12 @@ const DASH = { line: 3, gap: 4.5 }; // [m]
 
 /** Dashes as lines of their own: a dash pattern would be computed anew for every picture. */
 function addDashes(path: Path2D, line: Line): void {
+  for (const dash of dashes(line)) addLine(path, dash);
+}
+
+/** The dashes along a line. */
+export function dashes(line: Line): Line[] {
+  const found: Line[] = [];
   let along = 0;
   for (let at = 0; at + 1 < line.length; at += 1) {
     const [[ax, ay], [bx, by]] = [line[at] as [number, number], line[at + 1] as [number, number]];
@@ -242,11 +250,14 @@ function addDashes(path: Path2D, line: Line): void {
       const [from, to] = [Math.max(0, start - along), Math.min(length, start + DASH.line - along)];
       if (to <= from) continue;
       const [u, v] = [from / length, to / length];
-      path.moveTo(ax + (bx - ax) * u, ay + (by - ay) * u);
-      path.lineTo(ax + (bx - ax) * v, ay + (by - ay) * v);
+      found.push([
+        [ax + (bx - ax) * u, ay + (by - ay) * u],
+        [ax + (bx - ax) * v, ay + (by - ay) * v],
+      ]);
     }
     along += length;
   }
+  return found;
 }
 
 // -- what is on a lane ---------------------------------------------------------------------------
@@ -265,7 +276,7 @@ export function markings(lanes: readonly PlanLane[], side: DriveSide): { between
 }
 
 /** The line shifted to its left [m]. */
-function beside(line: Line, left: number): Line {
+export function beside(line: Line, left: number): Line {
   return line.map(([x, y], at) => {
     const [ax, ay] = line[Math.max(0, at - 1)] as [number, number];
     const [bx, by] = line[Math.min(line.length - 1, at + 1)] as [number, number];

@@ -6,10 +6,10 @@
 
 import { Deck, type Layer, OrthographicView } from "@deck.gl/core";
 import { PathLayer, ScatterplotLayer, SolidPolygonLayer } from "@deck.gl/layers";
-import { coloursOf, directions, markings } from "../../charts/ground";
+import { beside, coloursOf, dashes, directions, markings, offLand, onLand, type Stretch, storeyOf } from "../../charts/ground";
 import type { Figure, Item } from "../../model/editing/item";
 import { corners, type Line } from "../../model/editing/line";
-import type { Plan, PlanArea, PlanLane } from "../../model/map";
+import type { DriveSide, Plan, PlanArea, PlanLane } from "../../model/map";
 import type { Point, View } from "../../model/view";
 
 /** A body that is not there yet, or no more where it was. */
@@ -115,7 +115,8 @@ export class Board {
 function groundLayers(plan: Plan, dark: boolean): Layer[] {
   const colours = coloursOf(dark);
   const [x0, y0, x1, y1] = plan.bounds_m;
-  const lanes = plan.lanes.filter(({ centre }) => centre.length > 1);
+  const lanes = plan.lanes.filter(({ centre }) => centre.length > 1).flatMap(onLand);
+  const aloft = plan.lanes.flatMap(offLand);
   const outside = lanes.filter(({ internal }) => !internal);
   const { between, middle } = markings(outside, plan.drive_side);
   const colourOf = (kind: string) => colours[kind === "green" || kind === "water" || kind === "parking" ? kind : "other"];
@@ -124,16 +125,47 @@ function groundLayers(plan: Plan, dark: boolean): Layer[] {
     polygons("ground", [{ outline: ring, holes: [] }], () => colours.ground),
     polygons<PlanArea>("areas", plan.areas, ({ kind }) => colourOf(kind)),
     polygons("buildings", plan.buildings, () => colours.building),
+    ...tunnels(aloft.filter(({ lift }) => lift < 0), colours),
     stripes("edges", outside, colours.edge, 0.8),
     stripes("lanes", lanes.filter(({ open }) => open), colours.asphalt, 0),
     polygons("junctions", plan.junctions.map((outline) => ({ outline, holes: [] })), () => colours.asphalt),
     stripes("closed", outside.filter(({ open }) => !open), colours.closed, 0),
     thin("between", between, colours.marking, 0.12),
     thin("middle", middle, colours.marking, 0.18),
-    polygons("arrows", outside.flatMap(directions).map((outline) => ({ outline: outline as [number, number][], holes: [] })), () => colours.arrow),
+    arrows("arrows", outside, colours.arrow),
+    ...bridges(aloft.filter(({ lift }) => lift > 0), plan.drive_side, colours),
     new ScatterplotLayer({ id: "signals", data: plan.signals, getPosition: ({ x, y }) => [x, y], getRadius: 0.9, radiusUnits: "common", getFillColor: rgba(colours.signal) }),
   ];
 }
+
+type Colours = ReturnType<typeof coloursOf>;
+
+/** Below all other roads: pale, between broken lines. */
+const tunnels = (lanes: Stretch[], colours: Colours): Layer[] => [
+  stripes("tunnels", lanes, colours.tunnel, 0),
+  thin("bores", lanes.flatMap(({ centre, width }) => [...dashes(beside(centre, width / 2)), ...dashes(beside(centre, -width / 2))]), colours.bore, 0.4),
+];
+
+/** Storey after storey, each over those below it: between dark lines. */
+function bridges(lanes: Stretch[], side: DriveSide, colours: Colours): Layer[] {
+  const storeys = [...new Set(lanes.map(storeyOf))].sort((one, other) => one - other);
+  return storeys.flatMap((storey) => {
+    const own = lanes.filter((lane) => storeyOf(lane) === storey);
+    const outside = own.filter(({ internal }) => !internal);
+    const { between, middle } = markings(outside, side);
+    return [
+      stripes(`casing ${storey}`, own, colours.casing, 1.4),
+      stripes(`decks ${storey}`, own.filter(({ open }) => open), colours.asphalt, 0.2),
+      stripes(`closed ${storey}`, own.filter(({ open }) => !open), colours.closed, 0),
+      thin(`between ${storey}`, between, colours.marking, 0.12),
+      thin(`middle ${storey}`, middle, colours.marking, 0.18),
+      arrows(`arrows ${storey}`, outside, colours.arrow),
+    ];
+  });
+}
+
+const arrows = (id: string, lanes: PlanLane[], colour: string) =>
+  polygons(id, lanes.flatMap(directions).map((outline) => ({ outline: outline as [number, number][], holes: [] })), () => colour);
 
 const polygons = <Kind extends { outline: [number, number][]; holes: [number, number][][] }>(id: string, data: Kind[], colour: (one: Kind) => string) =>
   new SolidPolygonLayer<Kind>({
