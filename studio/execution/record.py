@@ -162,8 +162,7 @@ class Record:
     @property
     def behind_somebody(self) -> list[str]:
         """The vehicles that at some time had another one, or an object, ahead."""
-        ever = np.isfinite(self.channel("gap")).any(axis=-1)
-        return [each for each, was in zip(self.vehicles, ever, strict=True) if was]
+        return [each for each, gap in zip(self.vehicles, self.channel("gap"), strict=True) if np.isfinite(gap).any()]
 
     def trace(self, name: str) -> np.ndarray:
         """`vehicle.quantity` over time, float64[n]; raises UnknownError with the nearest name."""

@@ -203,7 +203,7 @@ class Layers:
         """A line of a vehicle through points, float64[n, 2] [m], on roads of these heights [m]."""
         relief, lifts = relief_of(self.setting.network), np.zeros(0)
         if relief is not None and len(points):
-            lifts, _ = relief.at(*points.T, heights)
+            lifts, _ = relief.at(points[:, 0], points[:, 1], heights)
         return answer.LayerLine(car=self.number[name], points=rounded(points), lifts=np.round(lifts, 2).tolist() if lifts.any() else [])
 
 
