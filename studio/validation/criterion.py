@@ -25,6 +25,10 @@ PASS, FAIL, OVERRIDDEN, UNJUDGED = "pass", "fail", "overridden", "unjudged"
 WIDE = "says little, for the interval is wider than the limit: record more runs, and see whether one of these differs"
 LENIENT = f"met by nothing but the width of its interval, and {WIDE}"
 LATE = "beyond half of its value from the first sample on, so that nobody knows since when; cut the log so that it begins before the step"
+COARSE, SHARE = (
+    "within its limit, and yet {0:.0f} % of the lag itself: the limit is coarse for so short a lag; ask for less with limits: lag",
+    0.25,
+)
 ALONE = "one run only: there is no interval; record the maneuver again"
 
 
@@ -70,6 +74,11 @@ class Verdict:
     reason: str = ""
     unit: str = "1"
     error_unit: str = "1"
+
+    @property
+    def is_coarse(self) -> bool:
+        """Whether it is a lag that is met by a limit which is large beside it."""
+        return self.verdict == PASS and self.reason.startswith(COARSE.partition("{")[0])
 
     @property
     def is_doubtful(self) -> bool:
@@ -122,8 +131,8 @@ def judged(
         yield within(maneuver, f"{name}, mean", mean, theirs, limits.time, unit)
         yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.averaged_time, unit)
     elif rule == "lag":
-        yield within(maneuver, f"{name}, mean", mean, theirs, limits.lag, unit)
-        yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.lag, unit)
+        yield coarse(within(maneuver, f"{name}, mean", mean, theirs, limits.lag, unit))
+        yield coarse(within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.lag, unit))
     elif rule == "final":
         yield interval
         yield within(maneuver, f"{name}, averaged simulation", averaged, theirs, limits.final, unit)
@@ -153,6 +162,12 @@ def within(maneuver: str, name: str, ours: float, theirs: float, limit: float, u
     fits = isfinite(error) and round(abs(error) - limit, DIGITS) <= 0.0
     error_unit = unit if over is None else "1"
     return Verdict(maneuver, name, ours, theirs, None, None, error, limit, PASS if fits else FAIL, "", unit, error_unit)
+
+
+def coarse(found: Verdict) -> Verdict:
+    """A verdict about a lag that keeps to its limit because that is large beside the lag says so."""
+    share = abs(found.error / found.theirs) if found.theirs else 0.0
+    return replace(found, reason=COARSE.format(100.0 * share)) if found.verdict == PASS and share > SHARE else found
 
 
 def unjudged(found: Verdict, runs: Sequence[str]) -> Verdict:

@@ -111,6 +111,7 @@ def validate(loaded: Loaded, progress: Callable[[float], None] = lambda share: N
     hints = [hint for each in compared if each.module.REPEATS for hint in outlier.hints(each.name, each.theirs, asked[each.name], limits)]
     met = [each for each in compared if all(verdict.verdict != FAIL for verdict in found if verdict.maneuver == each.name)]
     spans = {each.name: found_span for each in met if (found_span := span.span(each.theirs))}
+    hints += [f"{each.maneuver}, {each.criterion}: {each.reason}" for each in found if each.is_coarse]
     return Result(found, span.span(run for each in met for run in each.theirs), spans, compared, loaded.project.confidence, hints)
 
 

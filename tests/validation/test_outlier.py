@@ -48,3 +48,13 @@ def test_what_differs_by_less_than_the_limit_and_two_runs_are_not_named():
 def test_a_wide_interval_with_ours_near_its_mean_is_told_but_not_counted_as_doubtful():
     interval, _ = verdicts("turn", measure([0.16, 0.18]), Limits(), "two-sided")
     assert (interval.verdict, interval.reason, interval.is_doubtful) == ("pass", WIDE, False)
+
+
+def test_a_lag_that_a_limit_as_large_as_itself_lets_pass_says_so():
+    """0.107 s recorded against 0.073 s: within 0.05 s, as validation.md wants it, and a third of the lag; 0.080 s is told nothing about."""
+    mean, averaged = verdicts("turn", measure([0.106, 0.108], 0.073, "lag"), Limits(), "two-sided")
+    assert mean.verdict == averaged.verdict == "pass" and mean.is_coarse and averaged.is_coarse and "32 % of the lag" in mean.reason
+    near, _ = verdicts("turn", measure([0.079, 0.081], 0.073, "lag"), Limits(), "two-sided")
+    assert (near.verdict, near.reason) == ("pass", "")
+    late, _ = verdicts("turn", measure([0.139, 0.141], 0.073, "lag"), Limits(), "two-sided")
+    assert (late.verdict, late.reason, late.is_coarse) == ("fail", "", False)

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addParameter, addRun, chosen, guesses, interval, type Kinds, mappingText, measured, placedAt, removeParameter, removeRun, type Run, type Said, shareOf, sourcesOf } from "./validation";
+import { addParameter, addRun, chosen, guesses, interval, type Kinds, mappingText, measured, overrideOf, placedAt, removeParameter, removeRun, type Run, type Said, shareOf, sourcesOf, takeBackOverride } from "./validation";
 
 const run = (log: string): Run => ({ log, begin: 0, end: null, mapping: null });
 const said = (more: Partial<Said> = {}): Said => ({
@@ -44,6 +44,14 @@ test("a parameter makes its step where there is none", () => {
   expect(addParameter(said(), "lateral", "body.mass", 1000, 2000)[0]?.path).toBe("/calibration");
   const having = said({ calibration: { lateral: { parameters: {}, maneuvers: [] } } });
   expect(addParameter(having, "lateral", "body.mass", 1, 2)[0]?.path).toBe("/calibration/lateral/parameters/body.mass");
+});
+
+test("what a person judged otherwise is found by its criterion and taken back", () => {
+  const judged = (criterion: string) => ({ maneuver: "turn", criterion, reason: "the sensor was askew" });
+  const having = said({ overrides: [judged("gain"), judged("lag")] });
+  expect([overrideOf(having, "turn", "lag"), overrideOf(having, "turn", "zone"), overrideOf(having, "lane", "lag")]).toEqual([1, -1, -1]);
+  expect(takeBackOverride(having, 1)).toEqual([{ op: "remove", path: "/overrides/1" }]);
+  expect(takeBackOverride(said({ overrides: [judged("gain")] }), 0)).toEqual([{ op: "remove", path: "/overrides" }]);
 });
 
 test("the last parameter of a step takes the step with it, and the last step all of calibration", () => {

@@ -92,6 +92,15 @@ export const override = (said: Said, maneuver: string, criterion: string, reason
     : { op: "add", path: "/overrides", value: [{ maneuver, criterion, reason }] },
 ];
 
+/** Which of the judgements of persons is about a criterion; -1 where nobody has judged it. */
+export const overrideOf = (said: Said, maneuver: string, criterion: string): number =>
+  said.overrides.findIndex((each) => each.maneuver === maneuver && each.criterion === criterion);
+
+/** The patch that takes a judgement back; the list goes with the last of them. */
+export const takeBackOverride = (said: Said, place: number): Operation[] => [
+  { op: "remove", path: said.overrides.length > 1 ? `/overrides/${place}` : "/overrides" },
+];
+
 /** The patch that adds a parameter to a step of calibration, which is made when there is none. */
 export function addParameter(said: Said, step: string, path: string, low: number, high: number): Operation[] {
   const value = { low, high };

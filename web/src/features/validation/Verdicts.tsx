@@ -5,7 +5,7 @@ import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { courses, iteration, paperOf, reportOf, usePatch, vehicleOf } from "../../api/validations";
 import { formatNumber, words } from "../../model/units";
-import { interval, measured, override, type Project, type Said } from "../../model/validation";
+import { interval, measured, override, overrideOf, type Project, type Said, takeBackOverride } from "../../model/validation";
 import { notify, notifyError } from "../../ui/notify";
 import { Empty, Failure, Loading } from "../../ui/State";
 import classes from "./Validation.module.css";
@@ -162,11 +162,7 @@ function VerdictTable({ project, said, verdicts }: { project: Project; said: Sai
                     {each.reason}
                   </Text>
                 ) : null}
-                {each.verdict === "fail" ? (
-                  <Button size="compact-xs" variant="subtle" onClick={() => setJudging(each)}>
-                    Judge otherwise …
-                  </Button>
-                ) : null}
+                <Otherwise project={project} said={said} verdict={each} onJudge={() => setJudging(each)} />
               </td>
             </tr>
           ))}
@@ -174,6 +170,31 @@ function VerdictTable({ project, said, verdicts }: { project: Project; said: Sai
       </table>
       {judging ? <Judge project={project} said={said} verdict={judging} onClose={() => setJudging(undefined)} /> : null}
     </div>
+  );
+}
+
+/** What a person has judged otherwise, which counts from the next validation on and can be taken back; or the way to do so. */
+function Otherwise({ project, said, verdict, onJudge }: Omit<JudgeProps, "onClose"> & { onJudge: () => void }) {
+  const patch = usePatch(project.name, project.digest);
+  const given = overrideOf(said, verdict.maneuver, verdict.criterion);
+  if (given < 0)
+    return verdict.verdict === "fail" ? (
+      <Button size="compact-xs" variant="subtle" onClick={onJudge}>
+        Judge otherwise …
+      </Button>
+    ) : null;
+  return (
+    <Text size="xs" component="div" data-testid="judged">
+      {verdict.verdict === "fail" ? `Judged otherwise, for the next validation: ${said.overrides[given]?.reason}` : null}
+      <Button
+        size="compact-xs"
+        variant="subtle"
+        loading={patch.isPending}
+        onClick={() => patch.mutate(takeBackOverride(said, given), { onError: notifyError, onSuccess: () => notify("Taken back", "The next validation judges by the criterion.") })}
+      >
+        Take it back
+      </Button>
+    </Text>
   );
 }
 
