@@ -17,7 +17,8 @@ from studio.world.setting import USUAL_RADIUS
 Document = dict[str, Any]
 COLOURS = ("#d55e00", "#0072b2", "#3a3a3a", "#009e73", "#cc79a7")
 FOLLOWERS = 4
-LENGTH, STANDSTILL, HEADWAY = 4.7, 2.5, 0.6  # [m], [m], [s] a car, and how it stands behind another at the start
+LENGTH, STANDSTILL = 4.7, 2.5  # [m] a car, and how it stands behind another
+COOPERATIVE, ALONE = 0.6, 1.2  # [s] headways of CACC and ACC: they start as they want to drive, and no measure is one of settling down
 CITY = {"reasons": ["red_light", "right_of_way"]}  # what applications do not see, and drivers do
 AHEAD = 60.0  # [m] that the first car has before it at least
 
@@ -46,8 +47,8 @@ def following(document: Document, found: Trip) -> Document:
 def platoon(document: Document, found: Trip) -> Document:
     """Four cars follow a fifth with cooperative adaptive cruise control. After 20 s the first one brakes hard, then drives on."""
     followers = [f"follower_{i + 1}" for i in range(FOLLOWERS)]
-    named = cars(document, found, ["leader", *followers])
-    group = {"application": "cacc", "units": followers, "listens_to": ["leader", *followers[:-1]], "parameters": {"headway": HEADWAY}}
+    named = cars(document, found, ["leader", *followers], COOPERATIVE)
+    group = {"application": "cacc", "units": followers, "listens_to": ["leader", *followers[:-1]], "parameters": {"headway": COOPERATIVE}}
     brake = {"when": {"kind": "time", "at": 20.0}, "do": braking("leader")}
     return named | {"applications": {"platoon": group}, "script": {"hard_brake": brake}} | GOALS
 
@@ -114,9 +115,9 @@ def text(template: str, maps: Maps, place: str, title: str) -> str:
 # -- parts -------------------------------------------------------------------------------------------
 
 
-def cars(document: Document, found: Trip, names: list[str]) -> Document:
-    """The scenario with these cars one behind the other, the first ahead."""
-    gap = LENGTH + STANDSTILL + HEADWAY * found.speed
+def cars(document: Document, found: Trip, names: list[str], headway: float = ALONE) -> Document:
+    """The scenario with these cars one behind the other with a headway [s], the first ahead."""
+    gap = LENGTH + STANDSTILL + headway * found.speed
     check_room(found, gap * (len(names) - 1))
     placed = {
         name: {
