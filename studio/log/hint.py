@@ -26,8 +26,16 @@ STEERING = ("road_wheel_angle", "steering_wheel_angle")
 
 def hints(recording: Recording) -> list[str]:
     """What to look at, in words."""
-    found = [sideways(recording), *(turned(recording, name) for name in STEERING)]
+    found = [torn(recording), sideways(recording), *(turned(recording, name) for name in STEERING)]
     return [each for each in found if each]
+
+
+def torn(recording: Recording) -> str:
+    """Of the first gap of every signal that has any: no maneuver is found, or taken, across one."""
+    found = [(name, gaps) for name in recording.signals if (gaps := recording.gaps(name))]
+    more = [f" and {len(gaps) - 1} more" if gaps[1:] else "" for _, gaps in found]
+    said = ", ".join(f"{name} from {gaps[0][0]:.2f} to {gaps[0][1]:.2f} s{rest}" for (name, gaps), rest in zip(found, more, strict=True))
+    return f"nothing was recorded of {said}: a maneuver must lie before or after a gap" if found else ""
 
 
 def contradictions(used: Mapping, log: Log) -> list[str]:

@@ -62,3 +62,15 @@ def test_a_mapping_that_takes_another_unit_than_the_log_says_is_told():
     (only,) = told_of(", unit: rad", ", unit: deg/s")
     assert only.startswith("Steer is recorded in deg, and the mapping takes it in rad")
     assert told_of("", "") == told_of(", unit: deg", ", unit: deg/s") == []
+
+
+def test_gaps_are_told_with_their_times():
+    """A wheel angle that is missing for 60 ms, so that no maneuver is found across it; a second gap is counted."""
+    speed = signal("speed", "m/s", TIME, np.full(TIME.size, 20.0))
+    one = np.where((TIME > 1.494) & (TIME < 1.556), np.nan, 0.05 * RATE)
+    both = np.where((TIME > 6.0) & (TIME < 6.5), np.nan, one)
+    for angle, words in ((one, "1.50 to 1.55 s: a maneuver"), (both, "1.50 to 1.55 s and 1 more")):
+        (only,) = hints(
+            recording.of_log(Log("drive", {"speed": speed, "road_wheel_angle": signal("road_wheel_angle", "rad", TIME, angle)}))
+        )
+        assert only.startswith(f"nothing was recorded of road_wheel_angle from {words}")
