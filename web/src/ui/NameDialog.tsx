@@ -70,10 +70,12 @@ interface EntriesProps {
   onTitle: (title: string) => void;
   /** Whether the name is where typing begins. */
   autoFocus?: boolean;
+  /** Whether it names a folder, and not a file. */
+  folder?: boolean;
 }
 
-/** Title and file name of a scenario. */
-export function NameEntries({ name, onName, wrong, title, onTitle, autoFocus = false }: EntriesProps) {
+/** Title and file name of a scenario, or the folder of a project. */
+export function NameEntries({ name, onName, wrong, title, onTitle, autoFocus = false, folder = false }: EntriesProps) {
   return (
     <>
       {title === undefined ? null : (
@@ -81,11 +83,11 @@ export function NameEntries({ name, onName, wrong, title, onTitle, autoFocus = f
       )}
       <TextInput
         size="sm"
-        label="File name"
+        label={folder ? "Folder" : "File name"}
         data-autofocus={autoFocus || undefined}
         rightSection={
           <Text size="sm" c="dimmed" span>
-            .yaml
+            {folder ? "/" : ".yaml"}
           </Text>
         }
         rightSectionWidth={52}

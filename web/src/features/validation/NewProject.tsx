@@ -40,7 +40,7 @@ export function NewProject({ vehicles, taken, error, pending, onClose, onMake }:
             inputWrapperOrder={["label", "input", "description"]}
             onChange={(event) => setVehicle(event.currentTarget.value)}
           />
-          <NameEntries name={name} onName={setName} wrong={wrong} title={title} onTitle={setTitle} />
+          <NameEntries name={name} onName={setName} wrong={wrong} title={title} onTitle={setTitle} folder />
           {error ? <Failure error={error} /> : null}
           <Group justify="flex-end" gap="xs">
             <Button size="xs" variant="default" onClick={onClose}>
