@@ -3,26 +3,32 @@
     explain(record)   →  [Explanation]     of every collision, near miss and hard brake
 
 What was known about the other, from which sensor or message and how old; which message was lost and why; which sensor the script had
-harmed; who commanded; which tyre was at its limit. Everything was recorded: nothing is simulated anew, and what was not recorded is said.
+harmed; who commanded, and what he asked for; which tyre was at its limit. Everything was recorded: nothing is simulated anew, and what was
+not recorded is said.
+
+What was known is what was known when it began: of a collision before the bodies touched, for what sensors read of bodies within each other
+is nothing that anybody could act upon; of a near miss when the time to collision became short; of a hard brake when it became hard.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from studio.assess.adhesion import CHANNELS, WHEELS, light_among, nothing_known, sliding, used
-from studio.assess.danger import HARD, stretches
-from studio.assess.known import PLACES, Known, known
+from studio.assess.danger import HARD, NEAR_MISSES, stretches
+from studio.assess.known import MEMORY, PLACES, Known, known
 from studio.execution.happening import Happening
-from studio.execution.record import Record
+from studio.execution.record import SAME_TIME, Record
 from studio.world.commander import PARTS
 from studio.world.table.event import EVENTS, HARD_BRAKE, HIT, NEAR_MISS
 
 EXPLAINED = tuple(EVENTS[each].name for each in (HIT, NEAR_MISS, HARD_BRAKE))
-LIMIT = 0.95  # [1] of the adhesion, from which on a tyre is at its limit
+LIMIT = 0.95  # [1] of the adhesion, or of the greatest deceleration, from which on a tyre, or who commands, is at its limit
+NOTHING: Mapping[str, float] = MappingProxyType({})
 BEFORE = 1.0  # [s] before the event in which a tyre may have been
 
 
@@ -40,6 +46,28 @@ class Wheel:
         """All of it in a sentence."""
         how = "slid past its peak of slip, with up to" if self.slides else "was at its limit,"
         return f"{self.unit}: the {self.wheel.replace('_', ' ')} tyre {how} {self.use:.0%} of its adhesion"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What who had the brake of a vehicle asked for [m/s²], and the greatest deceleration [m/s²] that he may ask for, if it is known."""
+
+    unit: str
+    by: str
+    acceleration: float
+    greatest: float | None = None
+
+    @property
+    def text(self) -> str:
+        """All of it in a sentence."""
+        return f"{self.unit}: {self.by} asked for {self.acceleration:.2f} m/s²{self.limit}"
+
+    @property
+    def limit(self) -> str:
+        """How far that is from the greatest deceleration; nothing of who does not brake."""
+        if self.greatest is None or self.acceleration >= 0.0:
+            return ""
+        return f", {'at its limit of' if -self.acceleration >= LIMIT * self.greatest else 'of at most'} {-self.greatest:.4g} m/s²"
 
 
 @dataclass(frozen=True)
@@ -64,14 +92,17 @@ class Harmed:
 class Explanation:
     """Why an event happened: what was known by whom, who commanded each vehicle, and which tyres were at their limits.
 
-    `not_recorded` are the channels that this would need and the run has not kept, "sensors" among them when it lacks their readings;
-    `unknown` are units of the event of which nothing was recorded, `without_tyres` those that are light vehicles.
+    `began` [s] is when it began, before which something must have been known. `not_recorded` are the channels that this would need and
+    the run has not kept, "sensors" among them when it lacks their readings; `unknown` are units of the event of which nothing was recorded,
+    `without_tyres` those that are light vehicles.
     """
 
     event: Happening
+    began: float
     known: tuple[Known, ...]
     commanded_by: dict[str, dict[str, str]]
     tyre_at_limit: tuple[Wheel, ...]
+    asked: tuple[Asked, ...] = ()
     faults: tuple[Harmed, ...] = ()
     not_recorded: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
@@ -82,10 +113,12 @@ class Explanation:
         return {
             "event": self.event.kind,
             "time": self.event.time,
+            "began": self.began,
             "text": self.event.text,
             "units": list(self.event.units),
             "known": [each.as_json() for each in self.known],
             "commanded_by": self.commanded_by,
+            "asked": [vars(each) for each in self.asked],
             "tyre_at_limit": [vars(each) for each in self.tyre_at_limit],
             "faults": [vars(each) for each in self.faults],
             "not_recorded": list(self.not_recorded),
@@ -96,7 +129,12 @@ class Explanation:
     @property
     def lines(self) -> list[str]:
         """All of it in sentences, in order."""
-        return [*self.of_knowledge(), *(each.text for each in self.faults), *self.of_command(), *self.of_tyres()]
+        return [*self.of_time(), *self.of_knowledge(), *(each.text for each in self.faults), *self.of_command(), *self.of_tyres()]
+
+    def of_time(self) -> Iterator[str]:
+        """When it began, where that is not when it is told."""
+        if self.began < self.event.time:
+            yield f"it began at {self.began:.2f} s"
 
     def of_knowledge(self) -> Iterator[str]:
         """What was known, and who knew nothing of whom."""
@@ -113,7 +151,7 @@ class Explanation:
         elif {"sensors", *PLACES} & set(self.not_recorded):
             yield f"what {one} knew of {other} by sensors was not recorded"
         elif not found:
-            yield f"{one} knew nothing of {other}"
+            yield f"{one} knew nothing of {other} in the {MEMORY:g} s before"
 
     def of_command(self) -> Iterator[str]:
         """Who commanded."""
@@ -121,6 +159,7 @@ class Explanation:
             by = {who: [part for part, each in parts.items() if each == who] for who in parts.values()}
             told = "; ".join(f"{who} had {' and '.join(part)}" for who, part in by.items())
             yield f"{unit}: {told}" if told else f"{unit}: who commanded was not recorded"
+            yield from (each.text for each in self.asked if each.unit == unit)
 
     def of_tyres(self) -> Iterator[str]:
         """Which tyres were at their limits."""
@@ -134,26 +173,44 @@ class Explanation:
             yield "no tyre was at its limit"
 
 
-def explain(record: Record, events: Sequence[str] = EXPLAINED) -> list[Explanation]:
-    """Everything of these kinds that happened, in the order of time."""
-    return [explained(record, event) for event in record.happenings if event.kind in events]
+def explain(record: Record, events: Sequence[str] = EXPLAINED, greatest: Mapping[str, float] = NOTHING) -> list[Explanation]:
+    """Everything of these kinds that happened, in the order of time; `greatest` are decelerations [m/s²] by who may ask for no more."""
+    return [explained(record, event, greatest) for event in record.happenings if event.kind in events]
 
 
-def explained(record: Record, event: Happening) -> Explanation:
-    """One event: what was so at the last sample before it."""
-    sample = max(int(np.searchsorted(record.time, event.time + 1e-6)) - 1, 0)
+def explained(record: Record, event: Happening, greatest: Mapping[str, float]) -> Explanation:
+    """One event: what was so when it began, and what was done at the last sample before it."""
+    sample, first = sample_before(record, event), first_of(record, event)
+    began = event.time if first is None else float(record.time[first])
     vehicles = [each for each in event.units if each in record.vehicles]
     pairs = [(one, other) for one, other in permutations(event.units, 2) if one in vehicles]
     return Explanation(
         event=event,
-        known=tuple(each for one, other in pairs for each in known(record, one, other, sample)),
+        began=round(began, 6),
+        known=tuple(each for one, other in pairs for each in known(record, one, other, sample if first is None else first, began)),
         commanded_by={each: commanded(record, each, sample) for each in vehicles},
         tyre_at_limit=tuple(each for vehicle in vehicles for each in at_limit(record, vehicle, sample, last_of(record, event, sample))),
+        asked=tuple(each for vehicle in vehicles for each in asked(record, vehicle, sample, greatest)),
         faults=tuple(each for vehicle in vehicles for each in harmed(record, vehicle, event.time)),
         not_recorded=lacking(record),
         unknown=tuple(each for each in event.units if each not in (*record.vehicles, *record.brought)),
         without_tyres=tuple(each for each in light_among(record) if each in event.units),
     )
+
+
+def sample_before(record: Record, event: Happening) -> int:
+    """The last sample that an event has not changed: that at its time, but of a collision, in which bodies overlap by then, one before."""
+    until = -SAME_TIME if event.kind == EVENTS[HIT].name else SAME_TIME
+    return max(int(np.searchsorted(record.time, event.time + until)) - 1, 0)
+
+
+def first_of(record: Record, event: Happening) -> int | None:
+    """The sample at which a near miss began, which is told when it is nearest; None of all else, which is told when it begins."""
+    if event.kind != EVENTS[NEAR_MISS].name or event.vehicle not in record.vehicles:
+        return None
+    sample = sample_before(record, event)
+    holds = NEAR_MISSES.holds(NEAR_MISSES.values(record))[record.vehicles.index(event.vehicle)]
+    return next((part.start for part in stretches(holds, record.time) if part.start <= sample < part.stop), None)
 
 
 def lacking(record: Record) -> tuple[str, ...]:
@@ -180,6 +237,14 @@ def commanded(record: Record, vehicle: str, sample: int) -> dict[str, str]:
         if np.isfinite(number) and 0 <= number < len(record.commanders):
             found[part] = record.commanders[int(number)]
     return found
+
+
+def asked(record: Record, vehicle: str, sample: int, greatest: Mapping[str, float]) -> Iterator[Asked]:
+    """What who had the brake of a vehicle asked for; nothing where that was not recorded."""
+    by = commanded(record, vehicle, sample).get("brake")
+    u = record.channel("requested_acceleration")[record.vehicles.index(vehicle), sample]
+    if by and np.isfinite(u):
+        yield Asked(vehicle, by, round(float(u), 4), greatest.get(by))
 
 
 def last_of(record: Record, event: Happening, sample: int) -> int:

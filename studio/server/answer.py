@@ -424,7 +424,8 @@ class Known(BaseModel):
     unit: str
     about: str
     source: str = Field(description="name of the sensor, or kind of the message")
-    age: float | None = Field(description="[s]; null when nothing had come")
+    age: float | None = Field(description="[s] when it began; null when nothing had come")
+    time: float | None = Field(description="[s] when it was measured, or sent; null when nothing had come")
     what: dict[str, Number]
     lost: list[Lost] = Field(description="messages since the newest that had come")
 
@@ -436,6 +437,15 @@ class Wheel(BaseModel):
     wheel: str
     use: float = Field(description="[1] greatest share of its adhesion in the second before")
     slides: bool = Field(description="whether it was past its peak of slip")
+
+
+class Asked(BaseModel):
+    """What who had the brake of a vehicle asked for."""
+
+    unit: str
+    by: str
+    acceleration: float = Field(description="[m/s²]")
+    greatest: float | None = Field(description="[m/s²] the greatest deceleration that he may ask for; null where that is not known")
 
 
 class Harmed(BaseModel):
@@ -454,10 +464,12 @@ class Explanation(BaseModel):
 
     event: str = Field(description="kind of the event")
     time: float = Field(description="[s]")
+    began: float = Field(description="[s] when it began, before which what was known counts: of a near miss earlier than its time")
     text: str
     units: list[str]
     known: list[Known]
     commanded_by: dict[str, dict[str, str]] = Field(description="who had wheel, brake, drive and gear, by vehicle")
+    asked: list[Asked]
     tyre_at_limit: list[Wheel]
     faults: list[Harmed]
     not_recorded: list[str] = Field(description='channels that the run has not kept, and "sensors" when it lacks their readings')

@@ -18,7 +18,7 @@ from studio.execution.message import none
 from studio.execution.record import Mount, Traced
 from studio.execution.simulation import simulation
 from studio.road.drawn.motorway import motorway
-from studio.store.explanation import explanation
+from studio.store.explanation import decelerations, explanation
 from studio.store.runs import open_runs
 from studio.world.table.cause import FADING, RECEIVED
 from studio.world.table.event import HIT
@@ -66,11 +66,11 @@ def seen(made, values, measured=TIME):
 def test_a_target_is_the_vehicle_at_its_place(drive):
     """The range of the true gap is that of the car ahead; 30 m too far nobody is there."""
     gap = drive.channel("gap")[1]
-    (found,) = known(seen(drive, gap), "b", "a", 250)
+    (found,) = known(seen(drive, gap), "b", "a", 250, 5.0)
     assert (found.source, found.age, found.what["range"].value) == ("front", 0.0, gap[250])
     assert (
-        list(known(seen(drive, gap + 30.0), "b", "a", 250)) == []
-        and list(known(seen(drive, np.full(TIME.size, np.nan)), "b", "a", 250)) == []
+        list(known(seen(drive, gap + 30.0), "b", "a", 250, 5.0)) == []
+        and list(known(seen(drive, np.full(TIME.size, np.nan)), "b", "a", 250, 5.0)) == []
     )
 
 
@@ -85,13 +85,89 @@ def test_a_reading_ages(drive):
     """A radar that gives every tenth of a second what it saw then: at 5.06 s it is 0.06 s old, and of where a was then."""
     gap = drive.channel("gap")[1]
     looks = np.arange(TIME.size) // 5 * 5
-    (found,) = known(seen(drive, gap[looks], TIME[looks]), "b", "a", 253)
-    assert found.age == pytest.approx(0.06) and found.what["range"].value == gap[250]
+    (found,) = known(seen(drive, gap[looks], TIME[looks]), "b", "a", 253, 5.06)
+    assert (found.age, found.time) == pytest.approx((0.06, 5.0)) and found.what["range"].value == gap[250]
 
 
 def test_of_two_the_nearer_outline_counts():
     made = record(np.array([0.0, 1.0]), x=np.array([[0.0], [20.0]]), y=np.array([[0.0], [3.5]]))
     assert [belongs_to(made, np.array(place), 0) for place in ((2.0, 0.8), (16.0, 3.0), (10.0, 1.75))] == ["a", "b", ""]
+
+
+def crash(acceleration=-3.48):
+    """b drives with 20 m/s into a, which stands 20 m ahead: they touch at 1.01 s, and b drives on through a. An application brakes b."""
+    going = braking(TIME, 20.0, 20.0, 4.0, 0.0)
+    made = behind(TIME, 20.2, (0.0 * TIME, 0.0 * TIME, 0.0 * TIME), going)
+    values = with_channel(replace(made, values=with_channel(made, "commands_brake", 4.0)), "requested_acceleration", acceleration)
+    hit = happening(HIT, 1.02, ("a", "b"), impact_speed=20.0)
+    commanders = ("driver", "script", "driver's intervention", "gearbox", "acc")
+    return replace(made, values=values, commanders=commanders, happenings=(hit,))
+
+
+def with_radar(made, sees):
+    """The record with the radar of b, exact while it sees something: when is told by `sees`, bool[n]. It says 0 while bodies overlap."""
+    gap = np.clip(20.2 - 20.0 * TIME, 0.0, None)
+    rate = np.where(gap > 0.0, -20.0, 0.0)
+    fields = {"measured": (TIME, "s"), "range": (gap, "m"), "rate": (rate, "m/s"), "azimuth": (np.zeros(TIME.size), "rad")}
+    traced = {f"b.front.{name}": Traced(np.where(sees, each, np.nan), unit, name) for name, (each, unit) in fields.items()}
+    return replace(made, probes=traced)
+
+
+def test_of_a_collision_is_told_what_was_known_before_it():
+    """Not what the radar says when the bodies overlap: range 0 and rate 0, which moreover is as near to b itself as to a."""
+    (told,) = explain(with_radar(crash(), TIME >= 0.0))
+    (seen,) = [each for each in told.known if each.unit == "b"]
+    assert (seen.about, seen.age, seen.time, seen.what["rate"].value) == ("a", pytest.approx(0.02), pytest.approx(1.0), -20.0)
+    assert seen.what["range"].value == pytest.approx(0.2)
+    assert "b knew a by front, 0.02 s old (of 1.00 s), range 0.2 m, rate -20 m/s, azimuth 0 rad" in told.lines
+
+
+@pytest.mark.parametrize(("hit", "until", "is_told"), [(1.02, 0.5, True), (2.6, 0.5, False), (2.6, 0.7, True)])
+def test_the_last_that_a_sensor_has_said_counts_for_two_seconds(hit, until, is_told):
+    """A radar that loses a at some time: what it said last is known, as old as it is, and nothing is when that is more than 2 s ago."""
+    made = crash()
+    made = replace(made, happenings=(replace(made.happenings[0], time=hit),))
+    (told,) = explain(with_radar(made, until + 1e-6 >= TIME))
+    ages = [(each.time, each.age) for each in told.known if each.unit == "b"]
+    assert ages == ([(pytest.approx(until), pytest.approx(hit - until))] if is_told else [])
+    assert ("b knew nothing of a in the 2 s before" in told.lines) is not is_told
+
+
+def test_no_sensor_sees_its_own_vehicle():
+    """A target right before b's front, 0.05 m inside of it by noise and 0.1 m from a: it is a, for b does not see itself."""
+    made = record(np.array([0.0, 1.0]), x=np.array([[4.65], [0.0]]))
+    place = np.array([2.2, 0.0])
+    assert (belongs_to(made, place, 0), belongs_to(made, place, 0, "b")) == ("b", "a")
+
+
+@pytest.mark.parametrize(("asked", "text"), [
+    (-3.48, "b: acc asked for -3.48 m/s², at its limit of -3.5 m/s²"), (-2.0, "b: acc asked for -2.00 m/s², of at most -3.5 m/s²"),
+    (1.0, "b: acc asked for 1.00 m/s²"),
+])  # fmt: skip
+def test_what_was_asked_for_and_whether_more_could_be(asked, text):
+    (told,) = explain(crash(asked), greatest={"acc": 3.5})
+    assert text in told.lines and {"unit": "b", "by": "acc", "acceleration": asked, "greatest": 3.5} in told.as_json()["asked"]
+    (told,) = explain(crash(asked))
+    assert f"b: acc asked for {asked:.2f} m/s²" in told.lines
+
+
+def test_of_a_near_miss_is_told_what_was_known_when_it_began(drive):
+    """It is told when it is nearest, at 5.0 s; what is heard after it began, of 4.9 s, does not count."""
+    gap, closing = drive.channel("gap")[1], drive.channel("speed")[1] - drive.channel("speed")[0]
+    with np.errstate(divide="ignore"):
+        began = TIME[np.flatnonzero((closing > 0.0) & (gap / closing < 1.5))[0]]
+    made = with_dangers(told(seen(drive, gap), (began - 0.1, RECEIVED, 0.01), (4.9, RECEIVED, 0.01)))
+    (miss,) = explain(made, ("near_miss",))
+    assert began < 4.9 < miss.event.time == 5.0 and miss.began == pytest.approx(began) and miss.lines[0] == f"it began at {began:.2f} s"
+    found = {each.source: (each.time, each.age) for each in miss.known}
+    assert found == {"front": (pytest.approx(began), 0.0), "awareness": (pytest.approx(began - 0.1), pytest.approx(0.1))}
+
+
+def test_who_is_tuned_by_the_script_has_no_known_limit():
+    tune = {"do": {"kind": "tune_application", "application": "acc", "parameters": {"deceleration_max": 5.0}}}
+    groups = {"acc": {"parameters": {"deceleration_max": 3.5}}, "jam": {"parameters": {}}}
+    assert decelerations({"applications": groups, "script": {}}) == {"acc": 3.5}
+    assert decelerations({"applications": groups, "script": {"later": tune}}) == {}
 
 
 def told(made, *rows):
@@ -108,16 +184,18 @@ def told(made, *rows):
 def test_what_was_heard_and_what_was_lost(drive):
     """Of four messages the first came, two were lost, the last is still under way: known is the first, 0.28 s old."""
     made = told(drive, (4.8, RECEIVED, 0.01), (4.9, FADING, np.nan), (5.0, FADING, np.nan), (5.07, RECEIVED, 0.05), (6.0, RECEIVED, 0.01))
-    (found,) = known(made, "b", "a", 254)
-    assert (found.source, found.age) == ("awareness", pytest.approx(0.28))
+    (found,) = known(made, "b", "a", 254, 5.08)
+    assert (found.source, found.age, found.time) == ("awareness", pytest.approx(0.28), 4.8)
     assert [(each.time, each.why) for each in found.lost] == [(4.9, "fading"), (5.0, "fading")]
-    assert found.text == "b knew a by awareness, 0.28 s old; lost since: 2 messages, the last of 5.00 s (fading)"
-    assert list(known(made, "a", "b", 254)) == []
+    assert found.text == "b knew a by awareness, 0.28 s old (of 4.80 s); lost since: 2 messages, the last of 5.00 s (fading)"
+    assert list(known(made, "a", "b", 254, 5.08)) == []
 
 
 def test_who_never_heard_says_so(drive):
-    (found,) = known(told(drive, (4.8, FADING, np.nan)), "b", "a", 254)
-    assert found.age is None and found.text == "b never heard a by awareness; lost since: 1 message, the last of 4.80 s (fading)"
+    (found,) = known(told(drive, (4.8, FADING, np.nan)), "b", "a", 254, 5.08)
+    assert (
+        found.age is found.time is None and found.text == "b never heard a by awareness; lost since: 1 message, the last of 4.80 s (fading)"
+    )
 
 
 def test_an_explanation_in_order(drive):
@@ -134,7 +212,7 @@ def test_an_explanation_in_order(drive):
     assert (
         brake.lines[0].startswith("b knew a by front") and brake.lines[-1] == "b: the front left tyre was at its limit, 97% of its adhesion"
     )
-    assert "a knew nothing of b" in brake.lines
+    assert "a knew nothing of b in the 2 s before" in brake.lines
 
 
 def with_channel(made, name, values):
@@ -155,7 +233,7 @@ def test_a_run_is_explained_from_the_database(sample, tmp_path):
     runs = open_runs(tmp_path / "runs.db")
     made = job.run(job.load(sample, HARD), runs=runs)
     found = explanation(runs, 1)
-    assert [each.as_json() for each in found] == [each.as_json() for each in explain(made.record)]
+    assert [each.as_json() for each in found] == [each.as_json() for each in explain(made.record, greatest={"platoon": 8.0})]
     brakes = {each.event.vehicle: each for each in found if each.event.kind == "hard_brake"}
     assert {"leader", "follower_1"} <= brakes.keys()
     first = brakes["follower_1"]
@@ -213,7 +291,7 @@ def test_of_somebody_on_foot_is_told_who_knew_it(tmp_path, is_blind):
     event = next(each for each in explanation(runs, 1) if each.event.units == ("car", "child"))
     fault = "front of car gave nothing, by blind since 1.00 s"
     if is_blind:
-        assert "car knew nothing of child" in event.lines and fault in event.lines and event.faults[0].sensor == "front"
+        assert "car knew nothing of child in the 2 s before" in event.lines and fault in event.lines and event.faults[0].sensor == "front"
     else:
         (seen,) = [each for each in event.known if each.about == "child"]
         assert seen.source == "front" and "car knew child by front" in event.lines[0] and fault not in event.lines

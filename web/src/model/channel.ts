@@ -1,6 +1,7 @@
 /** Channel names: `<vehicle>.<quantity>`; unit, label and meaning of a quantity are the server's. */
 
-import type { Channel, Server } from "./run";
+import type { Channel, Json, Server } from "./run";
+import { isTree } from "./schema";
 import { words } from "./units";
 
 export type Quantity = Server["Quantity"];
@@ -26,16 +27,40 @@ export function channelsOf(quantityName: string, channels: readonly string[]): s
   });
 }
 
+const RELATIVE = ["gap", "time_gap"];
+
 /**
- * What a chart of this quantity draws: one line per car of the platoon.
+ * What a chart of this quantity draws: one line per car that has a name.
  *
- * Whoever drives ahead of the first car is no part of the platoon, and its gap would squeeze all others.
+ * Whoever drives ahead of a platoon's leader is no part of it, and that gap would squeeze all others: it is left out, wherever the
+ * file names the leader.
  */
-export function drawn(quantityName: string, all: readonly string[]): string[] {
+export function drawn(quantityName: string, all: readonly string[], leaders: readonly string[]): string[] {
   const found = channelsOf(quantityName, all);
-  const first = vehiclesOf(all)[0];
-  const relative = quantityName === "gap" || quantityName === "time_gap";
-  return relative && found.length > 1 ? found.filter((name) => parts(name).vehicle !== first) : found;
+  const following = found.filter((name) => !leaders.includes(parts(name).vehicle));
+  return RELATIVE.includes(quantityName) && following.length > 0 ? following : found;
+}
+
+/**
+ * Who leads a platoon of a scenario, and follows in none.
+ *
+ * A platoon is a group of an application in which everybody listens to the unit before it in the list, as the studio's metrics of
+ * followers have it; its leader is the first whom they listen to.
+ */
+export function leadersOf(document: Json | undefined): string[] {
+  const groups = isTree(document) && isTree(document.applications) ? Object.values(document.applications) : [];
+  const chains = groups.map(chainOf).filter((chain) => chain.length > 1);
+  const following = chains.flatMap((chain) => chain.slice(1));
+  return chains.flatMap(([first]) => (first === undefined || following.includes(first) ? [] : [first]));
+}
+
+/** The vehicles of a group from its leader on; none where they do not listen one to the other. */
+function chainOf(group: Json | undefined): string[] {
+  if (!isTree(group) || !Array.isArray(group.units) || !Array.isArray(group.listens_to)) return [];
+  const units = group.units.map(String);
+  const ahead = group.listens_to.map((each) => (Array.isArray(each) ? each[0] : each)).flatMap((each) => (typeof each === "string" ? [each] : []));
+  const order = [...ahead.slice(0, 1), ...units];
+  return ahead.length === order.length - 1 && ahead.every((each, place) => each === order[place]) ? order : [];
 }
 
 /** The vehicles that the channels speak of, each once, in their order. */

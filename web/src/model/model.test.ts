@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { finished } from "../test/scenario";
-import { channelsOf, drawn, parts, quantitiesOf, quantity, recorded, vehiclesOf } from "./channel";
+import { channelsOf, drawn, leadersOf, parts, quantitiesOf, quantity, recorded, vehiclesOf } from "./channel";
 import { lineColor } from "./palette";
 import { countByStatus, isLive, shortNames, untraced } from "./run";
 import { append, noSamples } from "./samples";
@@ -98,9 +98,25 @@ describe("channels", () => {
 
   it("of the platoon are drawn, those of the traffic are not", () => {
     expect(channelsOf("speed", all)).toEqual(["leader.speed", "follower_1.speed"]);
-    expect(drawn("gap", [...all, "leader.gap"])).toEqual(["follower_1.gap"]);
-    expect(drawn("gap", ["leader.gap"])).toEqual(["leader.gap"]);
     expect(vehiclesOf(all)).toEqual(["leader", "follower_1"]);
+  });
+
+  it("of gaps leave out a platoon's leader, wherever the file names it, and nobody else", () => {
+    const two = ["leader.gap", "follower_1.gap"];
+    for (const gaps of [two, [...two].reverse()]) {
+      expect(drawn("gap", gaps, ["leader"])).toEqual(["follower_1.gap"]);
+      expect(drawn("gap", gaps, [])).toEqual(gaps);
+    }
+    expect(drawn("gap", ["leader.gap"], ["leader"])).toEqual(["leader.gap"]);
+    expect(drawn("speed", all, ["leader"])).toEqual(["leader.speed", "follower_1.speed"]);
+  });
+
+  it("know a platoon's leader by whom the others listen to", () => {
+    const platoon = { units: ["b", "c"], listens_to: ["a", ["b", "a"]] };
+    expect(leadersOf({ applications: { platoon } })).toEqual(["a"]);
+    expect(leadersOf({ applications: { platoon, next: { units: ["a"], listens_to: ["z"] } } })).toEqual(["z"]);
+    expect(leadersOf({ applications: { acc: { units: ["ego"], listens_to: [] }, star: { units: ["b", "c"], listens_to: ["a", "a"] } } })).toEqual([]);
+    expect(leadersOf(undefined)).toEqual([]);
   });
 
   it("hold quantities in the server's words, and its order; others are called by their name", () => {

@@ -1594,6 +1594,26 @@ export interface components {
             stage: number;
         };
         /**
+         * Asked
+         * @description What who had the brake of a vehicle asked for.
+         */
+        Asked: {
+            /** Unit */
+            unit: string;
+            /** By */
+            by: string;
+            /**
+             * Acceleration
+             * @description [m/s²]
+             */
+            acceleration: number;
+            /**
+             * Greatest
+             * @description [m/s²] the greatest deceleration that he may ask for; null where that is not known
+             */
+            greatest: number | null;
+        };
+        /**
          * Beside
          * @description What differs between several runs: a value of each, in their order, null where a run has none.
          */
@@ -2089,6 +2109,11 @@ export interface components {
              * @description [s]
              */
             time: number;
+            /**
+             * Began
+             * @description [s] when it began, before which what was known counts: of a near miss earlier than its time
+             */
+            began: number;
             /** Text */
             text: string;
             /** Units */
@@ -2104,6 +2129,8 @@ export interface components {
                     [key: string]: string;
                 };
             };
+            /** Asked */
+            asked: components["schemas"]["Asked"][];
             /** Tyre At Limit */
             tyre_at_limit: components["schemas"]["Wheel"][];
             /** Faults */
@@ -2532,9 +2559,14 @@ export interface components {
             source: string;
             /**
              * Age
-             * @description [s]; null when nothing had come
+             * @description [s] when it began; null when nothing had come
              */
             age: number | null;
+            /**
+             * Time
+             * @description [s] when it was measured, or sent; null when nothing had come
+             */
+            time: number | null;
             /** What */
             what: {
                 [key: string]: components["schemas"]["Number"];

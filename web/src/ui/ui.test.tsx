@@ -41,17 +41,19 @@ function type(input: HTMLInputElement | HTMLSelectElement, value: string) {
 
 describe("why it happened", () => {
   it("tells each event, and behind it one sentence after another", () => {
-    const known = { unit: "car_2", about: "car_1", source: "front", age: 0.1, what: {}, lost: [] };
+    const known = { unit: "car_2", about: "car_1", source: "front", age: 0.1, time: 4.9, what: {}, lost: [] };
     render(
       <ExplanationList
         explanations={[
           {
             event: "near_miss",
             time: 5,
+            began: 4.5,
             text: "comes near car_1: 0.92 s to a collision",
             units: ["car_2", "car_1"],
             known: [known],
             commanded_by: { car_2: { brake: "platoon" } },
+            asked: [],
             tyre_at_limit: [],
             without_tyres: [],
             faults: [],

@@ -11,7 +11,7 @@ import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
 import { commonKinds, merged, namesOf, offsetsOf, type SideBySide } from "../../model/beside";
 import { beyondOf, beyondOfRuns } from "../../model/beyond";
-import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
+import { drawn, leadersOf, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { carColors, paintsOf } from "../../model/palette";
 import type { Run, RunDetail } from "../../model/run";
 import { formatDifference, words } from "../../model/units";
@@ -71,7 +71,6 @@ function Charts({ found, details }: { found: SideBySide; details: readonly RunDe
               names={names}
               offsets={offsets}
               shown={quantity(name, quantities)}
-              all={all}
               colors={colors}
               had={had}
               hidden={hidden}
@@ -187,7 +186,6 @@ interface ChartProps {
   names: readonly string[];
   offsets: readonly number[];
   shown: Quantity;
-  all: readonly string[];
   colors: Colors;
   /** The channels of each run. */
   had: readonly (readonly string[])[];
@@ -196,14 +194,13 @@ interface ChartProps {
   lead: ReactNode;
 }
 
-function Chart({ runs, names, offsets, shown: { name, label, unit }, all, colors, had, hidden, zoom, lead }: ChartProps) {
+function Chart({ runs, names, offsets, shown: { name, label, unit }, colors, had, hidden, zoom, lead }: ChartProps) {
   const dark = useDark();
-  const channels = useMemo(
-    () => drawn(name, all).filter((channel) => !hidden.includes(parts(channel).vehicle)),
-    [name, all, hidden],
-  );
   // A run is asked only for what it has recorded, and for the stretch of its own clock that is seen.
-  const own = useMemo(() => had.map((known) => channels.filter((channel) => known.includes(channel))), [had, channels]);
+  const own = useMemo(() => {
+    const isShown = (channel: string) => !hidden.includes(parts(channel).vehicle);
+    return had.map((known, place) => drawn(name, known, leadersOf(runs[place]?.document)).filter(isShown));
+  }, [runs, had, name, hidden]);
   const asked = useQueries({
     queries: runs.map(({ run }, place) => trace(run, own[place] ?? [], { points: POINTS, span: moved(zoom.span, offsets[place] ?? 0) })),
   });
@@ -215,7 +212,7 @@ function Chart({ runs, names, offsets, shown: { name, label, unit }, all, colors
   const beyond = useBeyond(runs, names, offsets, own);
   const error = asked.find((each) => each.error)?.error;
   if (error) return <Failure error={error} />;
-  if (channels.length === 0)
+  if (own.every((channels) => channels.length === 0))
     return (
       <Empty icon="chart" title="Nothing to draw">
         No shown vehicle has this quantity.

@@ -10,7 +10,7 @@ import { useUnits } from "../../api/units";
 import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { useZoom, type Zoom } from "../../charts/zoom";
 import { beyondOf } from "../../model/beyond";
-import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
+import { drawn, leadersOf, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import { fromSet, unitAt } from "../../model/form";
 import { goalsOf, type Wanted } from "../../model/goal";
 import { explained, titleOf } from "../../model/measure";
@@ -339,7 +339,7 @@ interface ChartProps {
 
 function QuantityChart({ run, shown: { name, label, unit }, all, zoom, lead }: ChartProps) {
   const dark = useDark();
-  const channels = useMemo(() => drawn(name, all), [name, all]);
+  const channels = useMemo(() => drawn(name, all, leadersOf(run.document)), [name, all, run.document]);
   const { data: spanned } = useQuery(beyondQuery(run));
   const beyond = useMemo(() => beyondOf(spanned, channels.map((channel) => parts(channel).vehicle)), [spanned, channels]);
   const { data, error } = useQuery(trace(run.run, channels, { span: zoom.span, grows: isLive(run.status) }));

@@ -7,7 +7,7 @@ import { type Columns, type Line, TimeChart } from "../../charts/TimeChart";
 import { type Curve, XYChart } from "../../charts/XYChart";
 import type { Zoom } from "../../charts/zoom";
 import { beyondOf, type Spanned } from "../../model/beyond";
-import { drawn, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
+import { drawn, leadersOf, parts, type Quantity, quantity, recorded, vehiclesOf } from "../../model/channel";
 import {
   type Layout,
   otherUnit,
@@ -41,7 +41,7 @@ interface Shared {
   /** Of a run that is played back. */
   head: Playhead | undefined;
   zoom: Zoom;
-  /** The scenario of the run, for its goals. */
+  /** The scenario of the run, for its goals and platoons. */
   document: Json | undefined;
   /** Where vehicles were outside their validated span. */
   spanned: readonly Spanned[] | undefined;
@@ -68,7 +68,7 @@ export function LiveCharts({ coming, samples, channels, layout, onLayout, ...sha
           <Loading what="what was recorded" />
         ) : (
           <Empty icon="chart" title="No samples yet">
-            Press Run, or space: the platoon's speeds and gaps are drawn here while the run goes.
+            Press Run, or space: speeds and gaps of the cars are drawn here while the run goes.
           </Empty>
         )}
       </div>
@@ -131,9 +131,9 @@ function OverTime({ setup, onChange, tools, names, quantities, unitOf, samples, 
   const dark = useDark();
   const more = useMemo(() => setup.more.filter((name) => names.includes(name)), [setup, names]);
   const shown = useMemo(() => {
-    const own = drawn(setup.quantity, names);
+    const own = drawn(setup.quantity, names, leadersOf(document));
     return [...own, ...more.filter((name) => !own.includes(name))];
-  }, [setup, names, more]);
+  }, [setup, names, more, document]);
   const { label, unit } = quantity(setup.quantity, quantities);
   const right = otherUnit({ ...setup, more }, unitOf);
   const lines = useMemo(
@@ -180,10 +180,10 @@ function extra(line: Line, setup: TimeSetup, right: string | undefined, unitOf: 
   return { ...line, label, dash: [5, 3], right: right !== undefined && unitOf(line.key) === right };
 }
 
-function XY({ setup, onChange, tools, names, quantities, samples, version, paints, head }: ChartProps<XYSetup>) {
+function XY({ setup, onChange, tools, names, quantities, samples, version, paints, document, head }: ChartProps<XYSetup>) {
   const dark = useDark();
   const curves = useMemo<Curve[]>(() => {
-    const pairs = drawn(setup.y, names).map((name) => [`${parts(name).vehicle}.${setup.x}`, name] as const);
+    const pairs = drawn(setup.y, names, leadersOf(document)).map((name) => [`${parts(name).vehicle}.${setup.x}`, name] as const);
     const both = pairs.filter(([x]) => names.includes(x));
     const lines = linesOf(both.map(([, y]) => y), names, paints, dark);
     return both.map(([x, y], place) => ({
@@ -192,7 +192,7 @@ function XY({ setup, onChange, tools, names, quantities, samples, version, paint
       x: samples.channels[x] ?? [],
       y: samples.channels[y] ?? [],
     }));
-  }, [setup, names, paints, dark, samples, version]);
+  }, [setup, names, paints, document, dark, samples, version]);
   const named = (name: string) => withUnit(quantity(name, quantities).label, quantity(name, quantities).unit);
   return (
     <div className={classes.chart}>

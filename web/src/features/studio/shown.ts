@@ -5,7 +5,7 @@ import { useEffect, useMemo, useState } from "react";
 import { type LiveState, useLive } from "../../api/live";
 import * as queries from "../../api/queries";
 import type { Span } from "../../charts/zoom";
-import { drawn } from "../../model/channel";
+import { drawn, leadersOf } from "../../model/channel";
 import { type Layout, needed } from "../../model/layout";
 import { type Channel, isLive, type RunDetail } from "../../model/run";
 import type { Samples } from "../../model/samples";
@@ -74,7 +74,10 @@ function useStoredSamples(
   const finished = run !== undefined && !isLive(run.status);
   const known = finished ? run.channels : NONE;
   const names = useMemo(() => known.map(({ name }: Channel) => name), [known]);
-  const channels = useMemo(() => needed(layout, (quantity) => drawn(quantity, names), new Set(names)), [layout, names]);
+  const channels = useMemo(() => {
+    const leaders = leadersOf(run?.document);
+    return needed(layout, (quantity) => drawn(quantity, names, leaders), new Set(names));
+  }, [layout, names, run?.document]);
   const { data } = useQuery(queries.trace(run?.run ?? 0, channels, { span }));
   return useMemo(() => {
     if (!finished || !data) return undefined;
