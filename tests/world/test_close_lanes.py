@@ -5,6 +5,7 @@ import pytest
 
 from studio.scenario.setup import complete
 from studio.vehicle.parameter import FRONT
+from studio.vehicle.state import V_X
 from studio.world.build import build
 from studio.world.passes.queue import station_on
 from studio.world.setting import setting
@@ -15,6 +16,7 @@ from studio.world.tick import tick
 WIDE, CLOSE = 3.5, 2.2  # [m] widths of both lanes, and how far their middles are apart: two nearer than 2.4 m are in each other's way
 FROM, OVER, TO = 100.0, 20.0, 130.0  # [m] they come closer from here over so much, and part again from there
 NEAR, BEYOND = 1.5, -15.0  # [m] so near to the place both stand; so far one has driven when he is through
+AWAY, ROOM, AT_PLACE = 8.0, 6.3, 3.0  # [m] before the place one begins; bumper to bumper with a car; so near one may stand
 MORE = (CLOSE - WIDE) / OVER
 
 
@@ -100,3 +102,24 @@ def test_of_two_who_have_come_onto_it_at_once_one_goes_after_a_while(tmp_path):
     assert (leads(world) < 0.0).all()
     first, last = sorted(through(world, 100.0))
     assert 60.0 < first < last < 90.0 and world.events.hits_found == 0
+
+
+@pytest.mark.parametrize("speed", [2.0, 3.0, 4.0])
+def test_who_comes_beside_a_moving_queue_drives_up_to_the_place(tmp_path, speed):
+    """Those who pass beside him do not make him stand anew: he stands no more until he is at the place, where one of them lets him in."""
+    first = made(tmp_path, 0.0, [(0, 90.0, 0.0), (1, 90.0, 0.0)])
+    tick(first)
+    at, gap = 90.0 + to_strip(first, 1) - AWAY, ROOM + speed
+    queue = [(0, at + 12.0 - gap * i, speed) for i in range(10)]
+    script = {"slow": {"do": {"kind": "hold", "vehicle": "car_1", "speed": speed, "acceleration": 2, "duration": 600}}}
+    world = made(tmp_path, 0.0, [(1, at, 0.0), *queue], script)
+    has_driven, stands_again, let_in = False, 0, np.inf
+    while world.clock.time < 60.0 and let_in == np.inf:
+        tick(world)
+        v, left = world.vehicles.state[V_X, 0], to_strip(world, 0)
+        has_driven |= v > 0.3
+        stands_again += has_driven and v < 0.05 and left > AT_PLACE
+        let_in = world.clock.time if left < BEYOND else np.inf
+    others = world.vehicles.mind[STATION, 1:]
+    assert stands_again == 0 and world.events.hits_found == 0
+    assert let_in < 30.0 and (others < world.vehicles.mind[STATION, 0]).sum() > 6
