@@ -15,7 +15,7 @@ Before the line of a way, where its strand begins, he decides whether he may go;
                          another stands in his way, that one goes
 """
 
-from math import inf, sqrt
+from math import inf, nan, sqrt
 
 from studio.compiled import inlined
 from studio.model import driver
@@ -50,7 +50,7 @@ from studio.world.table.mind import (
     WAITED_FOR,
     WAY_STATION,
 )  # fmt: skip
-from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, OWN_ENTER, OWN_LEAVE, SIGNAL, START, STOP
+from studio.world.table.web import ALL_WAY_STOP, END, ENTER, ITS_ENTER, ITS_LEAVE, LANE, LEAVE, OWN_ENTER, OWN_LEAVE, SIGNAL, START, STOP
 
 NOBODY = -1
 PATIENCE = 2.0  # [s] that one stands before who has stood longer goes first
@@ -441,10 +441,32 @@ def comes_first(v, other, m, to_enter, its_way, its_time, to_line, state, parame
 
 
 @inlined
-def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first, place, at, drivers, mind):
+def lane_under(d, drive_first, web):
+    """The drive on which one still is where another one begins beside it; below the first where there is none."""
+    e = d - 1
+    while e >= drive_first and web.drive[LEAVE, e] <= web.drive[ENTER, d]:
+        e -= 1
+    return e
+
+
+@inlined
+def lead_on(key, v, other, own, first, place, at):
+    """How far [m] v, at a station, is ahead of another in a queue; not a number where he is not in it."""
+    i, end = from_station(key, own - BEHIND, first, place, at)
+    while i < end and place[KEY, i] == key and at[i] < own + BEHIND:
+        if place[WHO, i] == other:
+            return own - at[i]
+        i += 1
+    return nan
+
+
+@inlined
+def has_to_let_pass(v, own, enter, decided, key, here, own_here, state, parameter, number, entity, first, place, at, drivers, mind):
     """Whether v has to wait where it would change to a lane, since somebody there is beside it, or comes from behind too fast.
 
-    Whoever is ahead there is followed as one who goes first; so is who is beside it, when it is too fast to stop.
+    Whoever is ahead there is followed as one who goes first; so is who is beside it, when it is too fast to stop. Of two who stand and
+    would each come onto the lane of the other, in whose queue `here` he is, that one goes who is ahead on both lanes together: the
+    stations of two lanes do not quite agree, and each may be ahead, or behind, on that of the other.
     """
     nose, tail, who = own + parameter[FRONT, v], own + parameter[FRONT, v] - parameter[LENGTH, v], NOBODY
     beside, lead = NOBODY, 0.0
@@ -454,12 +476,19 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
         if other == v or is_there == 0:
             continue
         its_nose = there + parameter[FRONT, other]
+        stand = min(mind[STOOD, v], mind[STOOD, other]) > PATIENCE and state[V_X, other] < STANDING
+        lead_here = lead_on(here, v, other, own_here, first, place, at) if stand else nan
+        if abs(lead_here) < parameter[LENGTH, v]:
+            both = own - there + lead_here
+            if both < 0.0 or (both == 0.0 and entity[v] > entity[other]):
+                who = number[other]
+            continue
         if there > own:
             gap = its_nose - parameter[LENGTH, other] - nose
             let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
             who = number[other] if gap < BESIDE else who
             break
-        if min(mind[STOOD, v], mind[STOOD, other]) > PATIENCE and state[V_X, other] < STANDING:
+        if stand:
             continue  # who stands there and is behind lets one in who has stood as well
         if tail - its_nose < BESIDE:
             who, beside, lead = number[other], other, its_nose - parameter[LENGTH, other] - nose
@@ -470,3 +499,18 @@ def has_to_let_pass(v, own, enter, decided, key, state, parameter, number, first
     if beside != NOBODY:
         let_in(v, number[beside], lead, state[V_X, beside], state, drivers, mind)
     return False
+
+
+@inlined
+def is_none_to_follow(v, other, gap, is_over, state, parameter, places, points, path_first, path_count, number, entity, mind):
+    """Whether v need not follow somebody beside it, whose rear is not ahead: the front of v is not yet on his lane, or he waits for v.
+
+    Of two who have come onto the lanes of each other at once, and have stood for long, one goes where the other leaves room.
+    """
+    if gap >= 0.0:
+        return False
+    if (is_over and mind[STOOD, v] > PATIENCE) or is_held_by(v, other, number, mind):
+        return True
+    stand = min(mind[STOOD, v], mind[STOOD, other]) > WEARY and state[V_X, other] < STANDING
+    front = mind[STATION, v] + parameter[FRONT, v] + gap + parameter[LENGTH, other]
+    return stand and entity[v] < entity[other] and is_clear(v, other, front, parameter, places, points, path_first, path_count)

@@ -19,7 +19,7 @@ from studio.road.ways.path import (
 )
 from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, STEER_RATE, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
-from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, waits
+from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, is_none_to_follow, lane_under, waits
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
 from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_passed, is_unseen, let_in
@@ -74,7 +74,7 @@ from studio.world.table.street import (
     SWEPT_AT,
     SWEPT_OBJECT,
 )  # fmt: skip
-from studio.world.table.web import ENTER, LANE, LEAVE
+from studio.world.table.web import ENTER, LANE, LEAVE, START
 
 PREVIEW = 0.25  # [s] a driver steers for where the car will be once the steering has followed
 SPEED_PREVIEW = 1.0  # [s] and slows down for what comes, but speeds up only where it is allowed
@@ -234,13 +234,15 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
         own = station_on(d, station, web)
         if left > 0 or enter <= bumper:
             left -= led_by(
-                v, own, max(left, 1), world * web.right.size + strand, state, parameter, places, points, path_first, path_count, number,
-                first, place, at, drivers, mind,
+                v, own, max(left, 1), world * web.right.size + strand, enter > bumper and web.drive[START, d] > 0.0, state, parameter,
+                places, points, path_first, path_count, number, entity, first, place, at, drivers, mind,
             )  # fmt: skip
         if may_go and bumper < enter and is_changed_to(d, bumper, speed, web):
+            under = max(lane_under(d, drive_first, web), drive_first)
             may_go = not has_to_let_pass(
-                v, own, enter, decided, world * web.right.size + strand, state, parameter, number, first, place, at, drivers, mind
-            )
+                v, own, enter, decided, world * web.right.size + strand, world * web.right.size + web.strand[under],
+                station_on(under, station, web), state, parameter, number, entity, first, place, at, drivers, mind,
+            )  # fmt: skip
         if is_way:
             line = line if goes_on else enter
             behind = web.drive[LEAVE, d] if enter > bumper else -inf
@@ -253,8 +255,12 @@ def look_along(v, state, parameter, places, points, path_first, path_count, worl
 
 
 @inlined
-def led_by(v, own, most, key, state, parameter, places, points, path_first, path_count, number, first, place, at, drivers, mind):
-    """How many are ahead on one strand, of so many at most; they are followed, and the first who is in the way is who is ahead."""
+def led_by(v, own, most, key, is_over, state, parameter, places, points, path_first, path_count, number, entity, first, place, at,
+           drivers, mind):  # fmt: skip
+    """How many are ahead on one strand, of so many at most; they are followed, and the first who is in the way is who is ahead.
+
+    `is_over` says that it is a lane onto which v has still to come, from the side.
+    """
     nose, found = own + parameter[FRONT, v], 0
     i, end = from_station(key, own, first, place, at)
     while i < end and place[KEY, i] == key and found < most:
@@ -267,6 +273,8 @@ def led_by(v, own, most, key, state, parameter, places, points, path_first, path
                 let_in(v, number[other], gap, state[V_X, other], state, drivers, mind)
             continue
         if is_passed(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, state, parameter, mind):
+            continue
+        if is_none_to_follow(v, other, gap, is_over, state, parameter, places, points, path_first, path_count, number, entity, mind):
             continue
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
         found += 1
