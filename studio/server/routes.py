@@ -46,7 +46,7 @@ PAPER: dict[int | str, dict[str, Any]] = {
     200: {"description": "PDF", "content": {paper.MEDIA: {"schema": {"type": "string", "format": "binary"}}}}
 }
 NOTEBOOK: dict[int | str, dict[str, Any]] = {
-    200: {"description": "a notebook", "content": {notebook.MEDIA: {"schema": {"type": "string"}}}}
+    200: {"description": "a notebook", "content": {notebook.MEDIA: {"schema": {"type": "object"}}}}
 }
 PAGE: dict[int | str, dict[str, Any]] = {200: {"description": "HTML", "content": {"text/html": {"schema": {"type": "string"}}}}}
 TRAJECTORIES: dict[int | str, dict[str, Any]] = {

@@ -62,7 +62,7 @@ def send(settings, table, nothing, distance, speed, period, size, load, seed, ca
             here, _ = wlan.place(settings, Spot(x, y, seed, COMMON), nothing)
             there, _ = wlan.place(settings, Spot(x - distance, y, seed, COMMON), nothing)
             way = Way(
-                distance, 0.0, 0.0, size, speed, 0.0, time, x, y, HEIGHT, x - distance, y, HEIGHT, load, load, wait, here, there, table
+                distance, 0.0, 0.0, size, speed, 0.0, time, x, y, HEIGHT, x - distance, y, HEIGHT, load, load, wait, here, there, table, 0.0
             )
             found = wlan.transmit(settings, way, draw)
             causes[pair, k], delays[pair, k] = found.lost, found.delay

@@ -110,7 +110,7 @@ def refusal(path, change):
         (lambda d: d["calibration"]["lateral"].update(maneuvers=["turns"]), "did you mean 'turn'?"),
         (lambda d: d.update(overrides=[{"maneuver": "turn", "criterion": "a", "reason": "so"}]), "at least 10 characters"),
         (lambda d: d["maneuvers"]["turn"]["validation"].append({"log": "nowhere.csv"}), "does not exist"),
-        (lambda d: d["maneuvers"]["turn"]["validation"].append({"log": "turn_3.csv", "begin": 90}), "does not go so far"),
+        (lambda d: d["maneuvers"]["turn"]["validation"].append({"log": "turn_3.csv", "begin": 90}), "is beyond turn_3.csv"),
         (
             lambda d: d["maneuvers"].update(stop={"kind": "braking", "validation": [{"log": "turn_3.csv"}]}),
             "has no brake_torque and no brake",
