@@ -8572,7 +8572,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/x-ipynb+json": string;
+                    "application/x-ipynb+json": Record<string, never>;
                 };
             };
             /** @description The body is no JSON. */
