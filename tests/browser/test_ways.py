@@ -71,10 +71,9 @@ def test_2_axes_are_moved_flipped_and_made_logarithmic_by_keys(page):
     expect(titles.first).to_have_accessible_name(before[1])
     page.reload()
     expect(titles.nth(1)).to_have_accessible_name("Axis Headway [s], flipped, logarithmic")
-    second = titles.nth(1).bounding_box()
-    page.mouse.move(second["x"] + 10, second["y"] + 6)
+    titles.nth(1).hover()  # as soon as it stands still
     page.mouse.down()
-    page.mouse.move(5, second["y"] + 6, steps=5)
+    page.mouse.move(5, titles.nth(1).bounding_box()["y"] + 6, steps=5)
     page.mouse.up()
     expect(titles.first).to_have_accessible_name("Axis Headway [s], flipped, logarithmic")
 
