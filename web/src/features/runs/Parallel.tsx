@@ -187,18 +187,11 @@ function AxisTitle({ axis, x, room, onMove, onDrop, onChange }: TitleProps) {
         from.current = undefined;
       }}
     >
-      {isFlipped ? "↓ " : ""}
-      {isLog ? "log " : ""}
-      {short(name, room)}
+      <span aria-hidden>{`${isFlipped ? "↓ " : ""}${isLog ? "log " : ""}`}</span>
+      {name}
     </button>
   );
 }
-
-/** [px] Of a title's mean letter. */
-const LETTER = 6.6;
-
-/** As much of a title as there is room for. */
-const short = (text: string, room: number) => (LETTER * text.length > room ? `${text.slice(0, Math.max(6, room / LETTER - 1))}…` : text);
 
 const points = (run: ListedRun, axes: readonly Axis[], x: (index: number) => number) =>
   axes.map((axis, index) => `${x(index)},${y(placeOn(axis, run))}`).join(" ");
