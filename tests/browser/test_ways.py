@@ -78,6 +78,17 @@ def test_2_axes_are_moved_flipped_and_made_logarithmic_by_keys(page):
     expect(titles.first).to_have_accessible_name("Axis Headway [s], flipped, logarithmic")
 
 
+def test_2_no_title_is_drawn_before_there_is_room(page):
+    """Until the browser says how wide the axes' room is, their titles would lie on one another, each a target of a few pixels."""
+    other = page.context.new_page()
+    other.add_init_script("window.ResizeObserver = class { observe() {} unobserve() {} disconnect() {} }")
+    other.goto("/runs?as=space")
+    expect(other.get_by_test_id("space")).to_be_attached()
+    expect(other.get_by_role("img", name=re.compile("^Parallel axes: ."))).to_be_attached()
+    expect(other.get_by_role("button", name=re.compile("^Axis "))).to_have_count(0)
+    other.close()
+
+
 def test_3_a_note_leads_to_its_times_and_holds_no_html(page):
     page.goto("/runs/2")
     page.get_by_label("Note", exact=True).fill(

@@ -36,6 +36,7 @@ export function Parallel({ axes, runs, shown, bounds, onRange, onHover, onAxes }
   const [hovered, setHovered] = useState<ListedRun>();
   const [stroke, setStroke] = useState<Stroke>();
   const x = (index: number) => SIDE + (axes.length < 2 ? 0 : (index * (width - 2 * SIDE)) / (axes.length - 1));
+  const titled = width > 0 ? axes : []; // before it is known how wide this is, all titles would lie on one another
   useEffect(() => {
     if (canvas.current && width > 0) drawLines(canvas.current, width, axes, runs, shown, x, dark);
   }, [width, axes, runs, shown, dark]);
@@ -91,7 +92,7 @@ export function Parallel({ axes, runs, shown, bounds, onRange, onHover, onAxes }
         ))}
         {hovered ? <polyline points={points(hovered, axes, x)} className={classes.hovered} /> : null}
       </svg>
-      {axes.map((axis, index) => (
+      {titled.map((axis, index) => (
         <AxisTitle
           key={axis.column.id}
           axis={axis}
