@@ -80,7 +80,8 @@ def test_2_axes_are_moved_flipped_and_made_logarithmic_by_keys(page):
 
 def test_2_no_title_is_drawn_before_there_is_room(page):
     """Until the browser says how wide the axes' room is, their titles would lie on one another, each a target of a few pixels."""
-    other = page.context.new_page()
+    page.goto("/runs")
+    other, _ = watched(page.context.browser, viewport={"width": 1280, "height": 800}, base_url=page.url[: page.url.index("/", 8)])
     other.add_init_script("window.ResizeObserver = class { observe() {} unobserve() {} disconnect() {} }")
     other.goto("/runs?as=space")
     expect(other.get_by_test_id("space")).to_be_attached()
