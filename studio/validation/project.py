@@ -190,15 +190,20 @@ def load(path: Path) -> Loaded:
 
 def check_parameters(steps: Mapping[str, Calibration], model: VehicleModel, where: str) -> None:
     """What is calibrated must be single numbers of the vehicle; raises ScenarioError."""
-    full = model.values.model_dump()
+    full, allowed = model.values.model_dump(), numbers(model)
     found = [
         Problem(f"calibration.{step}.parameters.{name}", "is no single number of the vehicle", remedy=edit.nearest_path(full, name))
         for step, each in steps.items()
         for name in each.parameters
-        if not (edit.has(full, name) and isinstance(edit.get(full, name), float))
+        if name not in allowed
     ]
     if found:
         raise refused(where, found)
+
+
+def numbers(model: VehicleModel) -> dict[str, float]:
+    """The single numbers of a vehicle by path, in the schema's units: what may be calibrated."""
+    return {path: value for path, value in edit.flatten(model.values.model_dump()).items() if isinstance(value, float)}
 
 
 @dataclass

@@ -185,7 +185,7 @@ def test_8_nothing_sticks_out_of_a_narrow_window(page, tab):
     page.set_viewport_size({"width": 1280, "height": 800})
 
 
-def test_8_the_last_change_is_taken_back_by_its_key(page):
+def test_8_the_last_change_is_taken_back_and_made_again_by_keys(page):
     page.goto("/validate/known_truth?tab=maneuvers")
     begin = page.get_by_label("Begin of turn_4.csv for validation")
     begin.fill("0.25")
@@ -194,8 +194,27 @@ def test_8_the_last_change_is_taken_back_by_its_key(page):
     expect(back).to_be_visible()
     page.get_by_role("tab", name="Maneuvers").focus()
     page.keyboard.press("Control+z")
-    expect(back).to_have_count(0)
-    expect(begin).to_have_value(re.compile(r"^0\b"))
+    expect(back).to_be_disabled()
+    expect(begin).to_have_value(re.compile(r"^0\b(?!\.25)"))
+    page.keyboard.press("Control+y")
+    expect(begin).to_have_value(re.compile(r"^0\.25\b"))
+    expect(page.get_by_role("button", name="Make it again")).to_be_disabled()
+    page.keyboard.press("Control+z")
+    expect(begin).to_have_value(re.compile(r"^0\b(?!\.25)"))
+
+
+def test_8_a_parameter_is_chosen_by_its_title_with_its_unit_and_range(page):
+    page.goto("/validate/known_truth?tab=calibration")
+    page.get_by_role("textbox", name="Parameter of the vehicle").fill("rolling res")
+    page.get_by_role("option", name=re.compile("Rolling resistance over load")).click()
+    new = page.get_by_role("region", name="Another parameter")
+    expect(new.get_by_label("Lowest")).to_have_value("0.01")
+    expect(new.get_by_label("Highest")).to_have_value("0.015")
+    expect(new).to_contain_text("Now 0.012")
+    new.get_by_role("button", name="Look for it").click()
+    drop = page.get_by_role("button", name="Look for wheels.rolling_resistance no longer")
+    drop.click()
+    expect(drop).to_have_count(0)
 
 
 def test_9_the_console_was_quiet(studio):

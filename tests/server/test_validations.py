@@ -129,6 +129,17 @@ def test_a_cut_beyond_its_log_is_refused_when_it_is_saved(client, project):
 def test_what_is_no_number_of_the_vehicle_is_not_looked_for(client, project):
     """Told when it is saved, with the nearest that there is; what stands there already hinders nobody who saves something else."""
     before = detail(client, project)
+    offered = {each["path"]: each for each in before["parameters"]}
+    assert offered["wheels.rolling_resistance"] == {
+        "path": "wheels.rolling_resistance",
+        "title": "Rolling resistance over load",
+        "unit": "1",
+        "value": 0.012,
+        "low": 0.01,
+        "high": 0.015,
+    }
+    assert offered["body.mass"]["unit"] == "kg" and offered["body.mass"]["low"] is None
+    assert "gearbox.ratios" not in offered and "title" not in offered
 
     def looked_for(path):
         patch = [{"op": "add", "path": f"/calibration/lateral/parameters/{path}", "value": {"low": 0.5, "high": 2.0}}]

@@ -20,6 +20,7 @@ from studio.errors import ConflictError, Problem, ScenarioError, StaleError, Stu
 from studio.log import reading, unit
 from studio.log.quantity import QUANTITIES
 from studio.scenario import catalogue, file
+from studio.scenario.datasheet import quantities
 from studio.scenario.text import document as texts
 from studio.scenario.text import source
 from studio.scenario.text.document import digest
@@ -110,7 +111,7 @@ class Projects:
             found, problems, history = None, error.as_json()["problems"], []
         return answer.ProjectDetail(
             name=name, text=text, digest=digest(text), document=found.model_dump(mode="json") if found else None, problems=problems,
-            files=files(folder), iterations=[row_of(each, folder) for each in reversed(history)],
+            files=files(folder), iterations=[row_of(each, folder) for each in reversed(history)], parameters=self.parameters(name, found),
         )  # fmt: skip
 
     def text(self, name: str) -> str:
@@ -213,6 +214,11 @@ class Projects:
             return catalogue.find_vehicle(made.vehicle, made.changes, folder=self.folder / name)
         return None
 
+    def parameters(self, name: str, made: project.Project | None) -> list[answer.ProjectParameter]:
+        """What may be calibrated of the vehicle of a project."""
+        model = self.model(name, made) if made else None
+        return [parameter_of(model, path, value) for path, value in project.numbers(model).items()] if model else []
+
     def check_cuts(self, name: str, before: str, after: Source) -> None:
         """Raises ScenarioError for runs cut beyond their logs that were not so before. Logs are read here, so nobody waits at the lock."""
         made = project.of_text(after)
@@ -267,6 +273,12 @@ def parameters_of(text: str) -> set[str]:
     with suppress(ScenarioError):
         return {path for each in project.of_text(source.read(text, PROJECT)).calibration.values() for path in each.parameters}
     return set()
+
+
+def parameter_of(model: catalogue.VehicleModel, path: str, value: float) -> answer.ProjectParameter:
+    """A number of a vehicle, with the range that its file gives."""
+    quantity, (low, high) = quantities()[path], model.origins[path].range or (None, None)
+    return answer.ProjectParameter(path=path, title=quantity.title, unit=quantity.unit, value=value, low=low, high=high)
 
 
 def applied(text: str, patch: list[Operation]) -> tuple[Source, list[Operation]]:

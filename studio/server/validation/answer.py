@@ -32,6 +32,17 @@ class ProjectFile(BaseModel):
     kind: FileKind
 
 
+class ProjectParameter(BaseModel):
+    """A single number of the project's vehicle, which may be calibrated."""
+
+    path: str
+    title: str
+    unit: str
+    value: float = Field(description="as the project has it, before any calibration")
+    low: float | None = Field(description="the least that the vehicle's file holds possible; null where it says nothing of it")
+    high: float | None = Field(description="the greatest")
+
+
 class ProjectIteration(BaseModel):
     """A step of a project in the run database, without its details."""
 
@@ -54,6 +65,7 @@ class ProjectDetail(BaseModel):
     problems: list[Problem]
     files: list[ProjectFile]
     iterations: list[ProjectIteration]
+    parameters: list[ProjectParameter] = Field(description="of the vehicle; none while it cannot be read")
 
 
 class PatchedProject(BaseModel):

@@ -4241,6 +4241,11 @@ export interface components {
             files: components["schemas"]["ProjectFile"][];
             /** Iterations */
             iterations: components["schemas"]["ProjectIteration"][];
+            /**
+             * Parameters
+             * @description of the vehicle; none while it cannot be read
+             */
+            parameters: components["schemas"]["ProjectParameter"][];
         };
         /**
          * ProjectFile
@@ -4323,6 +4328,33 @@ export interface components {
             problem: components["schemas"]["Refusal"] | null;
             looked: components["schemas"]["Looked"] | null;
             kept: components["schemas"]["Kept"] | null;
+        };
+        /**
+         * ProjectParameter
+         * @description A single number of the project's vehicle, which may be calibrated.
+         */
+        ProjectParameter: {
+            /** Path */
+            path: string;
+            /** Title */
+            title: string;
+            /** Unit */
+            unit: string;
+            /**
+             * Value
+             * @description as the project has it, before any calibration
+             */
+            value: number;
+            /**
+             * Low
+             * @description the least that the vehicle's file holds possible; null where it says nothing of it
+             */
+            low: number | null;
+            /**
+             * High
+             * @description the greatest
+             */
+            high: number | null;
         };
         /**
          * ProjectRow

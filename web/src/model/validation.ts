@@ -5,6 +5,7 @@ import { formatNumber } from "./units";
 
 export type ProjectRow = Server["ProjectRow"];
 export type Project = Server["ProjectDetail"];
+export type Parameter = Server["ProjectParameter"];
 export type ProjectJob = Server["ProjectJob"];
 export type Looked = Server["Looked"];
 export type Cut = Server["Cut"];
@@ -111,6 +112,16 @@ export function addParameter(said: Said, step: string, path: string, low: number
       : [{ op: "add", path: `/calibration/${part(step)}`, value: made[step] }];
   }
   return [{ op: "add", path: `/calibration/${part(step)}/parameters/${part(path)}`, value }];
+}
+
+/** Parameters as they are chosen from, under the parts of the vehicle: named by title, found by path too. */
+export function choices(parameters: readonly Parameter[]) {
+  const groups = new Map<string, { value: string; label: string }[]>();
+  for (const { path, title } of parameters) {
+    const group = path.split(".")[0] ?? "";
+    groups.set(group, [...(groups.get(group) ?? []), { value: path, label: `${title} (${path})` }]);
+  }
+  return [...groups].map(([group, items]) => ({ group, items }));
 }
 
 /** The patch that looks for a parameter no longer; a step without parameters goes with the last of them. */

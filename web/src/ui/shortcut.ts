@@ -78,16 +78,18 @@ export function useShortcuts(handlers: Record<string, () => void>, enabled = tru
   }, [enabled]);
 }
 
-/** Ctrl+Z takes the last change back, but not while one types: a field has its own. */
-export function useUndoKey(undo: () => void): void {
-  const latest = useRef(undo);
-  latest.current = undo;
+/** Ctrl+Z takes the last change back, Ctrl+Y or Ctrl+Shift+Z makes it again, but not while one types: a field has its own. */
+export function useUndoKeys(undo: () => void, redo: () => void): void {
+  const latest = useRef({ z: undo, y: redo, Z: redo });
+  latest.current = { z: undo, y: redo, Z: redo };
   useEffect(() => {
     const listen = (event: KeyboardEvent) => {
-      if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey || event.key.toLowerCase() !== "z") return;
+      const key = event.key.toLowerCase() === "z" && event.shiftKey ? "Z" : event.key.toLowerCase();
+      const act = latest.current[key as keyof typeof latest.current];
+      if (!act || !(event.ctrlKey || event.metaKey) || event.altKey || (event.shiftKey && key !== "Z")) return;
       if (event.defaultPrevented || isTaken(event.target, "z")) return;
       event.preventDefault();
-      latest.current();
+      act();
     };
     window.addEventListener("keydown", listen);
     return () => window.removeEventListener("keydown", listen);

@@ -1,11 +1,11 @@
 /** What is looked for, and what was found: values with their uncertainty, how well the car follows, and what these runs cannot tell. */
 
-import { ActionIcon, Alert, Button, Group, Text, TextInput } from "@mantine/core";
+import { ActionIcon, Alert, Button, Group, Select, Text, TextInput } from "@mantine/core";
 import { useQuery } from "@tanstack/react-query";
 import { useState } from "react";
 import { iteration, usePatch } from "../../api/validations";
 import { formatNumber, unitText, words } from "../../model/units";
-import { addParameter, removeParameter, type Project, type Said } from "../../model/validation";
+import { addParameter, choices, removeParameter, type Project, type Said } from "../../model/validation";
 import { Icon } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { notifyError } from "../../ui/notify";
@@ -42,16 +42,20 @@ export function Calibrations({ project, said, at, busy, onStart }: Props) {
                 <th scope="col">Lowest</th>
                 <th scope="col">Highest</th>
                 <th scope="col">Known before</th>
+                <th scope="col">Unit</th>
                 <td />
               </tr>
             </thead>
             <tbody>
               {Object.entries(parameters).map(([path, { low, high, prior, spread }]) => (
                 <tr key={path}>
-                  <th scope="row">{path}</th>
+                  <th scope="row" title={parameterOf(project, path)?.title}>
+                    {path}
+                  </th>
                   <td>{formatNumber(low)}</td>
                   <td>{formatNumber(high)}</td>
                   <td>{prior === null ? "–" : `${formatNumber(prior)} ± ${formatNumber(spread ?? 0)}`}</td>
+                  <td>{unitText(parameterOf(project, path)?.unit ?? "") || "–"}</td>
                   <td>
                     <ActionIcon
                       size="sm"
@@ -79,18 +83,26 @@ export function Calibrations({ project, said, at, busy, onStart }: Props) {
   );
 }
 
+const parameterOf = ({ parameters }: Project, path: string) => parameters.find((each) => each.path === path);
+
 function NewParameter({ project, said }: { project: Project; said: Said }) {
   const patch = usePatch(project.name, project.digest);
   const [step, setStep] = useState(Object.keys(said.calibration)[0] ?? "lateral");
-  const [path, setPath] = useState("");
+  const [path, setPath] = useState<string | null>(null);
   const [range, setRange] = useState<{ low: number | ""; high: number | "" }>({ low: "", high: "" });
   const { low, high } = range;
-  const fits = path.trim() !== "" && step.trim() !== "" && low !== "" && high !== "" && low < high;
+  const chosen = path === null ? undefined : parameterOf(project, path);
+  const fits = path !== null && step.trim() !== "" && low !== "" && high !== "" && low < high;
+  const choose = (next: string | null) => {
+    const known = next === null ? undefined : parameterOf(project, next);
+    setPath(next);
+    setRange({ low: known?.low ?? "", high: known?.high ?? "" });
+  };
   const add = () => {
-    if (low === "" || high === "") return;
-    patch.mutate(addParameter(said, step.trim(), path.trim(), low, high), {
+    if (path === null || low === "" || high === "") return;
+    patch.mutate(addParameter(said, step.trim(), path, low, high), {
       onError: notifyError,
-      onSuccess: () => setPath(""),
+      onSuccess: () => choose(null),
     });
   };
   return (
@@ -98,19 +110,31 @@ function NewParameter({ project, said }: { project: Project; said: Said }) {
       <h2>Another parameter</h2>
       <Group gap="xs" align="end">
         <TextInput size="xs" label="Step" value={step} onChange={(event) => setStep(event.currentTarget.value)} />
-        <TextInput
+        <Select
           size="xs"
-          label="Parameter by path"
-          placeholder="tyres.front_cornering"
+          w={380}
+          label="Parameter of the vehicle"
+          placeholder="by title or path"
+          searchable
+          clearable
+          clearButtonProps={{ "aria-label": "Choose no parameter" }}
+          nothingFoundMessage="The vehicle has no such number."
+          data={choices(project.parameters)}
           value={path}
-          onChange={(event) => setPath(event.currentTarget.value)}
+          onChange={choose}
         />
-        <NumberEntry size="xs" label="Lowest" w={110} value={low} onNumber={(next) => setRange({ low: next, high })} onEmpty={() => setRange({ low: "", high })} />
-        <NumberEntry size="xs" label="Highest" w={110} value={high} onNumber={(next) => setRange({ low, high: next })} onEmpty={() => setRange({ low, high: "" })} />
+        <NumberEntry size="xs" label="Lowest" w={130} unit={chosen && chosen.unit !== "1" ? chosen.unit : undefined} value={low} onNumber={(next) => setRange({ low: next, high })} onEmpty={() => setRange({ low: "", high })} />
+        <NumberEntry size="xs" label="Highest" w={130} unit={chosen && chosen.unit !== "1" ? chosen.unit : undefined} value={high} onNumber={(next) => setRange({ low, high: next })} onEmpty={() => setRange({ low, high: "" })} />
         <Button size="xs" variant="default" disabled={!fits} loading={patch.isPending} onClick={add}>
           Look for it
         </Button>
       </Group>
+      {chosen ? (
+        <Text size="xs" c="dimmed">
+          Now {formatNumber(chosen.value)} {unitText(chosen.unit)}
+          {chosen.low !== null ? "; the range is what the vehicle's file gives." : "; the vehicle's file gives no range."}
+        </Text>
+      ) : null}
       {low !== "" && high !== "" && low >= high ? (
         <Text size="xs" c="red" role="alert">
           The lowest value must be less than the highest.

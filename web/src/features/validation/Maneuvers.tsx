@@ -11,7 +11,7 @@ import { Icon } from "../../ui/Icon";
 import { NumberEntry } from "../../ui/NumberEntry";
 import { notifyError } from "../../ui/notify";
 import { ProblemList } from "../../ui/Problems";
-import { useUndoKey } from "../../ui/shortcut";
+import { useUndoKeys } from "../../ui/shortcut";
 import { Empty } from "../../ui/State";
 import classes from "./Validation.module.css";
 
@@ -20,6 +20,19 @@ type Done = Awaited<ReturnType<ReturnType<typeof usePatch>["mutateAsync"]>>;
 
 /** Changes that can be taken back. */
 const MOST_KEPT = 100;
+
+/** Changes of this page, the latest last: what undoes each, and what makes each that was undone again. */
+interface Steps {
+  done: readonly Done[];
+  undone: readonly Done[];
+}
+
+/** The latest of one list went to the other: the answer to its inverse is what turns it round once more. */
+const moved = (steps: Steps, from: keyof Steps, to: keyof Steps, made: Done): Steps => ({
+  ...steps,
+  [from]: steps[from].slice(0, -1),
+  [to]: [...steps[to], made],
+});
 
 interface Props {
   project: Project;
@@ -30,23 +43,35 @@ interface Props {
 export function Maneuvers({ project, said, onLog }: Props) {
   const kinds = useQuery(validationKinds).data?.maneuvers ?? [];
   const patch = usePatch(project.name, project.digest);
-  const [done, setDone] = useState<readonly Done[]>([]);
+  const [{ done, undone }, setSteps] = useState<Steps>({ done: [], undone: [] });
   const change = (operations: Parameters<typeof patch.mutate>[0]) =>
-    patch.mutateAsync(operations).then((made) => setDone((before) => [...before, made].slice(-MOST_KEPT)));
-  // What was changed elsewhere since then is not undone by what was meant for the text before.
-  const last = done.at(-1)?.digest === project.digest ? done.at(-1) : undefined;
+    patch.mutateAsync(operations).then((made) => setSteps((before) => ({ done: [...before.done, made].slice(-MOST_KEPT), undone: [] })));
+  // What was changed elsewhere since then is neither undone nor made again by what was meant for the text before.
+  const [last, next] = [done, undone].map((each) => (each.at(-1)?.digest === project.digest ? each.at(-1) : undefined));
   const takeBack = () => {
     if (!last || patch.isPending) return;
-    patch.mutateAsync(last.inverse).then(() => setDone((before) => before.slice(0, -1)), notifyError);
+    patch.mutateAsync(last.inverse).then((made) => setSteps((before) => moved(before, "done", "undone", made)), notifyError);
   };
-  useUndoKey(takeBack);
-  const back = last ? (
-    <Tooltip label="Ctrl+Z">
-      <Button size="xs" variant="default" loading={patch.isPending} onClick={takeBack}>
-        Take back the last change
-      </Button>
-    </Tooltip>
-  ) : null;
+  const makeAgain = () => {
+    if (!next || patch.isPending) return;
+    patch.mutateAsync(next.inverse).then((made) => setSteps((before) => moved(before, "undone", "done", made)), notifyError);
+  };
+  useUndoKeys(takeBack, makeAgain);
+  const back =
+    last || next ? (
+      <div className={classes.row}>
+        <Tooltip label="Ctrl+Z">
+          <Button size="xs" variant="default" loading={patch.isPending} disabled={!last} onClick={takeBack}>
+            Take back the last change
+          </Button>
+        </Tooltip>
+        <Tooltip label="Ctrl+Y">
+          <Button size="xs" variant="default" loading={patch.isPending} disabled={!next} onClick={makeAgain}>
+            Make it again
+          </Button>
+        </Tooltip>
+      </div>
+    ) : null;
   const names = Object.keys(said.maneuvers);
   if (names.length === 0) {
     return (
@@ -57,7 +82,7 @@ export function Maneuvers({ project, said, onLog }: Props) {
   }
   return (
     <div className={classes.stack}>
-      {back ? <div className={classes.row}>{back}</div> : null}
+      {back}
       {names.map((name) => {
         const trial = said.maneuvers[name];
         const kind = kinds.find((each) => each.name === trial?.kind);
