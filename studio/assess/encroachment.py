@@ -8,6 +8,9 @@ Where two ways cross at an angle φ, the strips of the widths w and w' that the 
 either side of the crossing point:
 
     e = (w'/2 + |cos φ| w/2)/|sin φ|
+
+Who backs goes first with his rear, which is his front then. Where he turns round another way begins, so that whoever does so on a conflict
+area has neither passed it nor entered it.
 """
 
 from collections.abc import Iterator
@@ -23,15 +26,19 @@ STEP = 2.0  # [m] length of the pieces that ways are cut into when crossings are
 CELL = 4.0  # [m] of the grid in which they are looked for, where pieces are not longer
 WIDE = 1 << 24  # cells that a row of the grid has room for
 FASTEST = 100.0  # [m/s] nobody drives faster: who seems to was put elsewhere
+STANDING = 0.05  # [m/s] who is slower stands
 CROSSING = 0.3  # [1] sine of the angle below which ways do not cross: they follow or merge
 
 
 class Way(NamedTuple):
-    """What a vehicle has driven: its places [m] float64[2, n], its driven way [m] and the times [s] there."""
+    """What a vehicle has driven in one direction: its places [m] float64[2, n], its driven way [m] and the times [s] there."""
 
     places: np.ndarray
     driven: np.ndarray
     time: np.ndarray
+    vehicle: str
+    body: Body
+    front: float  # [m] of what goes first, ahead of its centre of gravity
 
 
 class Crossing(NamedTuple):
@@ -75,45 +82,61 @@ def reach(own: float, other: float, crossing: Crossing) -> float:
 
 def encroachments(record: Record) -> Iterator[Found]:
     """PET of every two recorded vehicles whose ways cross: the second one after the first one, when it enters."""
-    ways = {name: way for i, name in enumerate(record.vehicles) if (way := way_of(record, i)).driven.size > 1}
-    for a, b, crossing in crossings(ways):
-        found = encroachment(a, ways[a], record.bodies[a], b, ways[b], record.bodies[b], crossing)
+    for a, b, crossing in crossings([way for row in range(len(record.vehicles)) for way in ways_of(record, row)]):
+        found = encroachment(a, b, crossing)
         if np.isfinite(found.value):
             yield found
 
 
-def way_of(record: Record, row: int) -> Way:
+def ways_of(record: Record, row: int) -> list[Way]:
     """What a vehicle of a record has driven, while it took part; until it was put elsewhere, as traffic is that comes in again."""
     places = np.array([record.channel("x")[row], record.channel("y")[row]])
     there = np.isfinite(places).all(axis=0)
-    places, time = places[:, there], record.time[there]
+    places, time, speed = places[:, there], record.time[there], record.channel("speed")[row][there]
     steps = np.hypot(*np.diff(places))
     jumps = np.flatnonzero(steps > FASTEST * np.diff(time))
     last = int(jumps[0]) + 1 if jumps.size else time.size
-    return Way(places[:, :last], np.concatenate([[0.0], np.cumsum(steps)])[:last], time[:last])
+    driven, name = np.concatenate([[0.0], np.cumsum(steps)])[:last], record.vehicles[row]
+    body = record.bodies[name]
+    return [
+        Way(places[:, part], driven[part], time[part], name, body, body.length - body.front if backs else body.front)
+        for part, backs in parts(speed[:last])
+        if part.stop - part.start > 1
+    ]
 
 
-def encroachment(a: str, way_a: Way, body_a: Body, b: str, way_b: Way, body_b: Body, crossing: Crossing) -> Found:
+def parts(speed: np.ndarray) -> Iterator[tuple[slice, bool]]:
+    """Samples in which somebody drives in one direction, and whether that is backwards; who stands goes on as he did before."""
+    moves = np.flatnonzero(np.abs(speed) > STANDING)
+    if not moves.size:
+        return
+    turns = moves[1:][np.diff(speed[moves] < 0.0)]
+    for start, stop in pairwise([0, *turns.tolist(), speed.size]):
+        yield slice(start, stop), bool(speed[max(start, moves[0])] < 0.0)
+
+
+def encroachment(a: Way, b: Way, crossing: Crossing) -> Found:
     """PET at one crossing; not a number when one of them has not passed it."""
     spans = [
-        (name, passes(way.driven, way.time, front=body.front, length=body.length, begin=at - e, end=at + e))
-        for name, way, body, at, e in (
-            (a, way_a, body_a, crossing.first, reach(body_a.width, body_b.width, crossing)),
-            (b, way_b, body_b, crossing.second, reach(body_b.width, body_a.width, crossing)),
+        (way.vehicle, passes(way.driven, way.time, front=way.front, length=way.body.length, begin=at - e, end=at + e))
+        for way, at, e in (
+            (a, crossing.first, reach(a.body.width, b.body.width, crossing)),
+            (b, crossing.second, reach(b.body.width, a.body.width, crossing)),
         )
     ]
-    (first, (_, leaves)), (second, (enters, _)) = sorted(spans, key=lambda each: each[1][0])
+    (first, (came, leaves)), (second, (enters, _)) = sorted(spans, key=lambda each: each[1][0])
+    if not came <= enters:  # one of them began on the area, of whom nobody knows when he came
+        return Found(float("nan"))
     return Found(post_encroachment(leaves, enters), (second, first), enters)
 
 
-def crossings(ways: dict[str, Way]) -> Iterator[tuple[str, str, Crossing]]:
+def crossings(ways: list[Way]) -> Iterator[tuple[Way, Way, Crossing]]:
     """All crossings of the ways of different vehicles."""
-    names = list(ways)
-    pieces = Pieces.of([pieces_of(ways[name]) for name in names])
+    pieces = Pieces.of(ways)
     for a, b in candidates(pieces).tolist():
         crossing = crossing_of(pieces.ends[:, :, a], pieces.ends[:, :, b])
         if crossing is not None:
-            yield names[pieces.vehicle[a]], names[pieces.vehicle[b]], crossing
+            yield ways[pieces.way[a]], ways[pieces.way[b]], crossing
 
 
 def pieces_of(way: Way) -> np.ndarray:
@@ -126,16 +149,21 @@ def pieces_of(way: Way) -> np.ndarray:
 
 
 class Pieces(NamedTuple):
-    """Pieces of the ways of all vehicles, those of one after those of another: float64[3, 2, piece], and whose each is."""
+    """Pieces of all ways, those of one after those of another: float64[3, 2, piece], the number of the vehicle and of the way of each."""
 
     ends: np.ndarray
     vehicle: np.ndarray
+    way: np.ndarray
 
     @classmethod
-    def of(cls, each: list[np.ndarray]) -> "Pieces":
+    def of(cls, ways: list[Way]) -> "Pieces":
         """All of them."""
-        ends = np.concatenate([np.zeros((3, 2, 0)), *each], axis=2)
-        return cls(ends, np.repeat(np.arange(len(each)), [part.shape[2] for part in each]))
+        each = [pieces_of(way) for way in ways]
+        way = np.repeat(np.arange(len(each)), [part.shape[2] for part in each])
+        numbers = {name: number for number, name in enumerate(dict.fromkeys(way.vehicle for way in ways))}
+        return cls(
+            np.concatenate([np.zeros((3, 2, 0)), *each], axis=2), np.array([numbers[each.vehicle] for each in ways], dtype=int)[way], way
+        )
 
 
 def candidates(pieces: Pieces) -> np.ndarray:

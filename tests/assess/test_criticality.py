@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from studio.assess import following, rss
-from studio.assess.encroachment import Pieces, candidates, crossings, encroachments, passes, pieces_of, way_of
+from studio.assess.encroachment import Pieces, candidates, crossings, encroachments, passes, ways_of
 from studio.assess.following import Pair
 from studio.assess.impact import speed_change
 from studio.assess.measure import measure_all
+from studio.execution.record import Body
 from studio.kind import registry
 from studio.kind.slot import chosen
 from tests.assess.drive import NAMES, behind, braking, record
@@ -138,6 +139,46 @@ def test_post_encroachment_of_two_crossing_ways(angle):
     assert found.subject == ("b", "a") and found.time == pytest.approx(6.0 - (e + 2.25) / 10.0, abs=1e-6)
 
 
+def test_post_encroachment_of_one_who_backs():
+    """He backs across a street with his rear first, 2 m/s, the other comes with 10 m/s 8 s later: PET by hand, with what goes first."""
+    time = np.arange(0.0, 25.0, 0.02)
+    back, along = 10.0 - 2.0 * time, 10.0 * time - 130.0
+    x, y = np.array([np.zeros(time.size), along]), np.array([back, np.zeros(time.size)])
+    bodies = {"a": Body(4.5, 1.8, 1.5, 1500.0, 0.3), "b": Body(4.5, 1.8, 2.25, 1500.0, 0.3)}
+    speed = np.array([np.full(time.size, -2.0), np.full(time.size, 10.0)])
+    (found,) = encroachments(record(time, bodies=bodies, x=x, y=y, speed=speed, heading=np.array([[np.pi / 2], [0.0]])))
+    leaves = (10.0 + 0.9 + 1.5) / 2.0  # his front, now at the back, 1.5 m behind, is past the street's strip
+    enters = (130.0 - 0.9 - 2.25) / 10.0
+    assert found.value == pytest.approx(enters - leaves, abs=1e-6) and found.subject == ("b", "a")
+
+
+def test_who_turns_round_where_another_crosses_has_not_passed_there():
+    """He comes to the street, stands on its strip, and backs again before the other comes: no way through it is made of both of his."""
+    time = np.arange(0.0, 20.0, 0.02)
+    speed = np.where(time < 10.0, 1.0, -1.0)
+    y = np.cumsum(speed) * 0.02 - 9.9
+    made = record(
+        time,
+        x=np.array([np.zeros(time.size), 10.0 * time - 170.0]),
+        y=np.array([y, np.zeros(time.size)]),
+        speed=np.array([speed, np.full(time.size, 10.0)]),
+    )
+    assert y.max() < 0.9 + 0.5 and list(encroachments(made)) == []
+
+
+def test_who_begins_on_a_crossing_came_to_it_at_no_time():
+    """He stands over the street at first and drives off after the other is past: when he came there nobody knows, so nothing is told."""
+    time = np.arange(0.0, 20.0, 0.02)
+    y = np.maximum(2.0 * (time - 10.0), 0.0) - 1.0
+    made = record(
+        time,
+        x=np.array([np.zeros(time.size), 10.0 * time - 60.0]),
+        y=np.array([y, np.zeros(time.size)]),
+        speed=np.array([np.where(time > 10.0, 2.0, 0.0), np.full(time.size, 10.0)]),
+    )
+    assert list(encroachments(made)) == []
+
+
 def test_who_follows_on_the_same_way_crosses_nobody():
     time = np.arange(0.0, 10.0, 0.02)
     made = record(time, x=np.array([10.0 * time, 10.0 * time - 20.0]), y=0.1 * np.sin(np.array([time, 2.0 * time])), speed=10.0)
@@ -182,9 +223,10 @@ def test_crossings_among_many_vehicles():
     x, y = (np.array(each) for each in zip(*along, *across, strict=True))
     names = [*(f"along_{i}" for i in range(200)), *(f"across_{i}" for i in range(20))]
     made = record(time, names, x=x, y=y, speed=12.0)
-    pieces = Pieces.of([pieces_of(way_of(made, row)) for row in range(len(names))])
+    ways = [way for row in range(len(names)) for way in ways_of(made, row)]
+    pieces = Pieces.of(ways)
     assert len(candidates(pieces)) < 200_000
-    pairs = {(a, b) for a, b, _ in crossings({name: way_of(made, row) for row, name in enumerate(names)})}
+    pairs = {(a.vehicle, b.vehicle) for a, b, _ in crossings(ways)}
     wanted = {
         (f"along_{i}", f"across_{j}") for i in range(200) for j in range(20) if passes_by(x[i], 3.5 * (i % 4), x[200 + j], y[200 + j])
     }

@@ -264,7 +264,7 @@ def let_across(v, other, gap, gone, state, parameter, places, points, path_first
     """Somebody is on a place `gap` [m] ahead, and will be gone after so long [s]: v follows one who would be there just then."""
     follow(v, number[other], gap, gap / gone, state, drivers, mind)
     if is_in_the_way(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, parameter, places, points, path_first, path_count):
-        is_ahead(v, other, number[other], gap, 0.0, mind)
+        is_ahead(v, other, number[other], gap, 0.0, parameter, mind)
 
 
 @inlined
@@ -285,7 +285,7 @@ def lead(v, other, gap, speed, state, parameter, places, points, path_first, pat
     ):  # fmt: skip
         follow(v, number[other], gap, speed, state, drivers, mind)
     if gap > 0.0 and is_in:
-        is_ahead(v, other, number[other], gap, speed, mind)
+        is_ahead(v, other, number[other], gap, speed, parameter, mind)
 
 
 @inlined

@@ -1,6 +1,6 @@
 """Regard: what a driver minds, as he finds it out. Who ahead permits least, who goes first and permits least, who is nearest."""
 
-from math import inf, nan
+from math import cos, inf, nan, sin
 
 from studio.compiled import inlined
 from studio.model import driver
@@ -15,6 +15,7 @@ from studio.world.table.mind import (
     BRAKE_COMFORT,
     CAREFUL,
     COMFORT,
+    D_PSI,
     FIRST,
     FIRST_GAP,
     FIRST_SPEED,
@@ -24,6 +25,7 @@ from studio.world.table.mind import (
     GAP,
     HEADWAY,
     MINDED,
+    OFFSET,
     OUT_BY,
     SIGHT,
     STANDSTILL,
@@ -91,8 +93,21 @@ def is_in_the_way(v, other, s_guess, parameter, places, points, first, count):
 
 
 @inlined
-def is_ahead(v, other, number, gap, speed, mind):
+def is_beside_its_path(v, parameter, mind):
+    """Whether no part of v's body is over the strip that it would sweep along its path: parked, or gone another way.
+
+    A box of length L and width W that is turned by ψ reaches (L |sin ψ| + W |cos ψ|)/2 to either side of its middle.
+    """
+    beside, width = abs(mind[OFFSET, v]), parameter[WIDTH, v]
+    turned = mind[D_PSI, v]
+    return beside > width and beside > 0.5 * (width + parameter[LENGTH, v] * abs(sin(turned)) + width * abs(cos(turned)))
+
+
+@inlined
+def is_ahead(v, other, number, gap, speed, parameter, mind):
     """The other car, of this number in its world, is what the gap is measured to, if it is the nearest, or the first of the nearest."""
+    if is_beside_its_path(v, parameter, mind):
+        return
     if not gap >= mind[GAP, v] or (gap == mind[GAP, v] and number < mind[AHEAD, v]):  # true too while the gap is not a number
         mind[GAP, v] = gap
         mind[AHEAD, v] = number

@@ -279,7 +279,7 @@ def led_by(v, own, most, key, is_over, state, parameter, places, points, path_fi
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
         found += 1
         if gap > 0.0 and is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):
-            is_ahead(v, other, number[other], gap, state[V_X, other], mind)
+            is_ahead(v, other, number[other], gap, state[V_X, other], parameter, mind)
     return found
 
 
