@@ -205,7 +205,7 @@ def test_8_the_last_change_is_taken_back_and_made_again_by_keys(page):
 
 def test_8_a_parameter_is_chosen_by_its_title_with_its_unit_and_range(page):
     page.goto("/validate/known_truth?tab=calibration")
-    page.get_by_role("textbox", name="Parameter of the vehicle").fill("rolling res")
+    page.get_by_placeholder("by title or path").fill("rolling res")
     page.get_by_role("option", name=re.compile("Rolling resistance over load")).click()
     new = page.get_by_role("region", name="Another parameter")
     expect(new.get_by_label("Lowest")).to_have_value("0.01")
