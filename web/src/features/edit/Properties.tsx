@@ -17,6 +17,7 @@ import { notifyError } from "../../ui/notify";
 import { ProblemList } from "../../ui/Problems";
 import { SchemaForm } from "../../ui/SchemaForm";
 import classes from "./Edit.module.css";
+import { Parts } from "./Parts";
 
 interface Props {
   id: string;
@@ -128,6 +129,7 @@ function Form({ state, path, name, schema, kinds, onDeed, middle }: FormProps) {
         </Alert>
       ) : null}
       <SchemaForm sections={titled(shown, path)} problems={problems} open={open} expanded={false} onOpen={setOpen} onChange={change} onExchange={exchange} />
+      <Parts state={state} kinds={kinds} path={path} onDeed={(deed) => void onDeed(deed).catch(tell)} middle={middle} />
       {path.startsWith("script.") ? <Lists state={state} path={path} onDeed={onDeed} /> : null}
       {path.startsWith("script.") ? <Ends state={state} path={path} name={name} onDeed={onDeed} /> : null}
     </ScrollArea>
