@@ -131,13 +131,13 @@ def sweep(path: Path, table: np.ndarray, first: int, count: int) -> np.ndarray:
     return np.array(inside).reshape(-1, len(SWEEP)).T.copy()
 
 
-def passed(apart: np.ndarray, heading: float, station: float, row: np.ndarray) -> tuple[float, float]:
-    """Station [m] at which a path comes to an object that is `apart` from its point, and how far aside its edge stays [m]."""
+def passed(apart: np.ndarray, heading: float, station: float, row: np.ndarray) -> tuple[float, float, float]:
+    """Station [m] at which a path comes to an object that is `apart` from its point, how far aside its edge is, and left its middle."""
     forward = apart[0] * np.cos(heading) + apart[1] * np.sin(heading)
     left = apart[1] * np.cos(heading) - apart[0] * np.sin(heading)
     c, s = abs(np.cos(row[O_HEADING] - heading)), abs(np.sin(row[O_HEADING] - heading))
     along, across = 0.5 * (row[O_LENGTH] * c + row[O_WIDTH] * s), 0.5 * (row[O_LENGTH] * s + row[O_WIDTH] * c)
-    return float(station + forward - along), float(abs(left) - across)
+    return float(station + forward - along), float(abs(left) - across), float(left)
 
 
 @lean

@@ -7,6 +7,7 @@ import pytest
 
 from docs.figures.pace import deck, gone, run, touched
 from studio import job
+from studio.assess.encroachment import encroachments
 from studio.assess.parking import clearance, detours, errors, middle, parking_times, stays
 from studio.garage import plan, way
 from studio.garage.reeds_shepp import wrapped
@@ -68,6 +69,15 @@ def test_they_know_where_they_are_and_keep_to_their_way(ten):
 def test_they_drive_hardly_more_than_their_way(ten):
     """The way itself is the shortest with the clearance that is kept; the dead reckoning of the distance is as good as the speed."""
     assert all(1.0 <= each.value + 0.03 <= 1.15 for each in detours(ten))
+
+
+def test_nobody_is_ahead_of_a_parked_car(ten):
+    """Who drives past on the aisle is beside it: no gap, no time to collision, and no post-encroachment time of ways that only touch."""
+    for stay in stays(ten):
+        row = ten.vehicles.index(stay.vehicle)
+        parked = (trace(ten, stay.vehicle, "phase") == 3.0) & (np.abs(ten.channel("speed")[row]) < 0.01)
+        assert parked.sum() > 100 and np.isnan(ten.channel("gap")[row][parked]).all()
+    assert min((each.value for each in encroachments(ten)), default=0.0) >= 0.0
 
 
 PERSON = {"kind": "mover", "who": "pedestrian", "line": [[-14.0, -8.0]]}

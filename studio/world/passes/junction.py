@@ -28,7 +28,7 @@ from studio.world.passes.corner import READY, appears_in, has_corner, is_hidden,
 from studio.world.passes.narrow import waits_outside
 from studio.world.passes.neighbour import COS, REAR_X, REAR_Y, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, from_station
-from studio.world.passes.regard import STANDING, behind, follow, is_ahead, is_in_the_way, is_unseen, let_in
+from studio.world.passes.regard import STANDING, behind, follow, is_ahead, is_in_the_way, is_unseen, let_in, rear_offset
 from studio.world.table.mind import (
     BRAKE_COMFORT,
     CAREFUL,
@@ -263,8 +263,9 @@ def is_less_far(v, other, own_way, its_way, entity):
 def let_across(v, other, gap, gone, state, parameter, places, points, path_first, path_count, number, drivers, mind):
     """Somebody is on a place `gap` [m] ahead, and will be gone after so long [s]: v follows one who would be there just then."""
     follow(v, number[other], gap, gap / gone, state, drivers, mind)
-    if is_in_the_way(v, other, mind[STATION, v] + parameter[FRONT, v] + gap, parameter, places, points, path_first, path_count):
-        is_ahead(v, other, number[other], gap, 0.0, parameter, mind)
+    e = rear_offset(other, mind[STATION, v] + parameter[FRONT, v] + gap, places, points, path_first, path_count)
+    if is_in_the_way(v, other, e, parameter):
+        is_ahead(v, other, number[other], gap, 0.0, e, parameter, mind)
 
 
 @inlined
@@ -279,13 +280,14 @@ def together(m, web):
 def lead(v, other, gap, speed, state, parameter, places, points, path_first, path_count, number, drivers, mind):
     """Somebody is ahead where strands meet: he is followed, and if he is in the way he is who is ahead. Who stands beside is passed."""
     rear = mind[STATION, v] + parameter[FRONT, v] + gap
-    is_in = is_in_the_way(v, other, rear, parameter, places, points, path_first, path_count)
+    e = rear_offset(other, rear, places, points, path_first, path_count)
+    is_in = is_in_the_way(v, other, e, parameter)
     if gap > 0.0 or is_in or state[V_X, other] > STANDING or not is_clear(
         v, other, rear + parameter[LENGTH, other], parameter, places, points, path_first, path_count
     ):  # fmt: skip
         follow(v, number[other], gap, speed, state, drivers, mind)
     if gap > 0.0 and is_in:
-        is_ahead(v, other, number[other], gap, speed, parameter, mind)
+        is_ahead(v, other, number[other], gap, speed, e, parameter, mind)
 
 
 @inlined

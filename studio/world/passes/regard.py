@@ -86,27 +86,35 @@ def let_in(v, who, gap, speed, state, drivers, mind):
 
 
 @inlined
-def is_in_the_way(v, other, s_guess, parameter, places, points, first, count):
-    """Whether the rear of the other car overlaps the strip that v's body will sweep along its path."""
+def rear_offset(other, s_guess, places, points, first, count):
+    """How far to the left of a path [m] the rear of a car is."""
     _, e = project(points, first, count, places[REAR_X, other], places[REAR_Y, other], s_guess)
+    return e
+
+
+@inlined
+def is_in_the_way(v, other, e, parameter):
+    """Whether the rear of the other car, so far left of v's path [m], overlaps the strip that v's body will sweep along it."""
     return abs(e) < 0.5 * (parameter[WIDTH, v] + parameter[WIDTH, other])
 
 
 @inlined
-def is_beside_its_path(v, parameter, mind):
-    """Whether no part of v's body is over the strip that it would sweep along its path: parked, or gone another way.
+def is_before(v, e, half, parameter, mind):
+    """Whether v would meet what reaches from e - half to e + half [m] to the left of its path, going on as far beside it as it is:
+    nobody is ahead of who is parked beside his path, or has swerved round somebody.
 
     A box of length L and width W that is turned by ψ reaches (L |sin ψ| + W |cos ψ|)/2 to either side of its middle.
     """
-    beside, width = abs(mind[OFFSET, v]), parameter[WIDTH, v]
     turned = mind[D_PSI, v]
-    return beside > width and beside > 0.5 * (width + parameter[LENGTH, v] * abs(sin(turned)) + width * abs(cos(turned)))
+    own = 0.5 * (parameter[LENGTH, v] * abs(sin(turned)) + parameter[WIDTH, v] * abs(cos(turned)))
+    return abs(e - mind[OFFSET, v]) < own + half
 
 
 @inlined
-def is_ahead(v, other, number, gap, speed, parameter, mind):
-    """The other car, of this number in its world, is what the gap is measured to, if it is the nearest, or the first of the nearest."""
-    if is_beside_its_path(v, parameter, mind):
+def is_ahead(v, other, number, gap, speed, e, parameter, mind):
+    """The other car, of this number in its world, whose rear is so far left of the path [m], is what the gap is measured to,
+    if it is the nearest, or the first of the nearest, of those that v's body is before."""
+    if not is_before(v, e, 0.5 * parameter[WIDTH, other], parameter, mind):
         return
     if not gap >= mind[GAP, v] or (gap == mind[GAP, v] and number < mind[AHEAD, v]):  # true too while the gap is not a number
         mind[GAP, v] = gap

@@ -22,7 +22,18 @@ from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
 from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, is_none_to_follow, lane_under, waits
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
-from studio.world.passes.regard import follow, forget, is_ahead, is_in_the_way, is_least, is_passed, is_unseen, let_in
+from studio.world.passes.regard import (
+    follow,
+    forget,
+    is_ahead,
+    is_before,
+    is_in_the_way,
+    is_least,
+    is_passed,
+    is_unseen,
+    let_in,
+    rear_offset,
+)
 from studio.world.table.mind import (
     AHEAD,
     AHEAD_SPEED,
@@ -72,6 +83,7 @@ from studio.world.table.street import (
     OBJECT,
     SWEPT_ASIDE,
     SWEPT_AT,
+    SWEPT_LEFT,
     SWEPT_OBJECT,
 )  # fmt: skip
 from studio.world.table.web import ENTER, LANE, LEAVE, START
@@ -278,8 +290,9 @@ def led_by(v, own, most, key, is_over, state, parameter, places, points, path_fi
             continue
         follow(v, number[other], gap, state[V_X, other], state, drivers, mind)
         found += 1
-        if gap > 0.0 and is_in_the_way(v, other, mind[STATION, v] + gap, parameter, places, points, path_first, path_count):
-            is_ahead(v, other, number[other], gap, state[V_X, other], parameter, mind)
+        e = rear_offset(other, mind[STATION, v] + gap, places, points, path_first, path_count) if gap > 0.0 else inf
+        if is_in_the_way(v, other, e, parameter):
+            is_ahead(v, other, number[other], gap, state[V_X, other], e, parameter, mind)
     return found
 
 
@@ -296,15 +309,17 @@ def obstacles(state, parameter, sweep, sweep_first, sweep_count, standing, first
                 continue  # it is passed on the oncoming lane
             if gap >= 0.0 and standing[number] == 1 and sweep[SWEPT_ASIDE, i] < reach:
                 if gap <= drivers[SIGHT, v]:
-                    stand_before(v, number - first_object[world_of[v]], gap, 0.0, state, drivers, mind)
+                    left = sweep[SWEPT_LEFT, i]
+                    half = abs(left) - sweep[SWEPT_ASIDE, i]
+                    stand_before(v, number - first_object[world_of[v]], gap, 0.0, left, half, state, parameter, drivers, mind)
                 break
 
 
 @lean
-def stand_before(v, number, gap, speed, state, drivers, mind):
-    """Object `number` of the world is followed as a car with its speed [m/s]."""
+def stand_before(v, number, gap, speed, e, half, state, parameter, drivers, mind):
+    """Object `number` of the world, from e - half to e + half [m] left of the path, is followed as a car with its speed [m/s]."""
     follow(v, OBJECT - number, gap, speed, state, drivers, mind)
-    if not gap >= mind[GAP, v]:
+    if not gap >= mind[GAP, v] and is_before(v, e, half, parameter, mind):
         mind[GAP, v], mind[AHEAD, v], mind[AHEAD_SPEED, v] = gap, OBJECT - number, speed
 
 
@@ -334,7 +349,7 @@ def mind_mover(v, i, number, state, parameter, points, first, count, table, driv
     gap = s - along - mind[STATION, v] - parameter[FRONT, v]
     beside = min(abs(e), abs(e - mind[OUT_BY, v])) - aside  # of the path, and of where one passes on the oncoming lane
     if gap >= 0.0 and beside < 0.5 * parameter[WIDTH, v] + ELBOW_ROOM:
-        stand_before(v, number, gap, max(table[O_SPEED, i] * cos(across), 0.0), state, drivers, mind)
+        stand_before(v, number, gap, max(table[O_SPEED, i] * cos(across), 0.0), e, aside, state, parameter, drivers, mind)
 
 
 @inlined

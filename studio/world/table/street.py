@@ -43,6 +43,7 @@ OBJECT = -2  # where the number of a vehicle may stand, object i of its world is
 SWEEP = Table("sweep", Role.PARAMETER, per="object on a path")
 SWEPT_AT = SWEEP.row("station", "m", "at which the path comes to it")
 SWEPT_ASIDE = SWEEP.row("aside", "m", "from the path to its near edge")
+SWEPT_LEFT = SWEEP.row("left", "m", "of its middle from the path, left positive")
 SWEPT_OBJECT = SWEEP.row("object", "1", "number of the object")
 
 # Zebra crossings that somebody on foot comes to on his line.
