@@ -5,9 +5,9 @@ and gives back what it has left when it is there. A step is granted when its til
 there can come to the end of their ways.
 
 Mostly there is an order in which one car after the other could do so while all others stand (the banker's algorithm, E. W. Dijkstra,
-EWD 623, 1977), which is soon looked up. In a circle there is none as soon as each stands before the next one, and yet all can move on by
-turns. So where the banker says no it is searched, depth first: who could go on, and is one of the states after that safe? What is searched is
-bounded by SEARCHED, for in general the question is as hard as any; what is not found by then is taken for unsafe.
+EWD 623, 1977), which is soon looked up. In a circle there is none as soon as each stands before the next one, and yet all can move on
+by turns. So where the banker says no it is searched, depth first: who could go on, and is one of the states after that safe? What is
+searched is bounded by SEARCHED, for in general the question is as hard as any; what is not found by then is taken for unsafe.
 
 From a safe state some car can always go on, also where the search was bounded: the first step that was found leads to a state whose own
 search looks at some of the same states and at no other ones, so it ends within the same bound.
