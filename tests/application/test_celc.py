@@ -241,7 +241,7 @@ def in_the_way(**who):
 
 
 def test_whoever_is_in_the_way():
-    """A person who steps into the lane, in the corridor 0.4 s later; a cyclist who rides there at 4 m/s; a box without the margin."""
+    """A person who steps into the lane from 2 m beside; a cyclist who rides there at 4 m/s; a box without the margin."""
     person = in_the_way(who="pedestrian", line=[[0.0, 2.0], [0.0, 0.0]], speed=2.0, after=0.4)
     cyclist = in_the_way(who="cyclist", line=[[0.5, 0.0], [150.0, 0.0]], speed=4.0)
     box = in_the_way(who="box", line=[[0.0, 0.0]], width=1.8)
@@ -249,7 +249,8 @@ def test_whoever_is_in_the_way():
     for record in records:
         assert survived(record) and stages(record, "A") == [IDLE, ASKING, COMMITTED, EVADING, ASIDE]
         assert stages(record, "B")[:4] == [IDLE, WEIGHING, YIELDING, RESUMING]
-    assert begun(records[0]) == pytest.approx(APPEARS + 0.4 + FOUR_LOOKS, abs=0.05)
+    into = (2.0 - 0.3 - celc.CORRIDOR) / 2.0  # [s] until the nearest of him, 0.3 m before his middle, is in the way
+    assert begun(records[0]) == pytest.approx(APPEARS + into, abs=0.05), "the sensor has been sure of him before"
 
 
 FOUR_LOOKS = 0.06  # [s] from the first look at which the sensor's confidence is 0.5 to the fourth one, 0.94
