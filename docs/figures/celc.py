@@ -56,7 +56,7 @@ def draw_distance(axes) -> None:
     axes.plot(wide, [stopping_distance(v / 3.6, GRIP, 0.2, 0.2) for v in wide], color="black", linewidth=1.0, label="braking alone")
     axes.plot(wide, [bound(v / 3.6) for v in wide], color="#777777", linewidth=1.0, linestyle="--", label="bound of the tyres")
     axes.set(xlabel="speed [km/h]", ylabel="distance [m]", ylim=(0.0, 75.0))
-    axes.set_title(FROM, fontsize="small", wrap=True)
+    axes.set_title(FROM, fontsize="small")
 
 
 def print_long() -> None:
