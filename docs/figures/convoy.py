@@ -87,7 +87,7 @@ def run(documents: list[dict[str, Any]], *, lanes: int = 2) -> list[Record]:
     """The records of scenarios that are run side by side, on a road with so many lanes each way."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        longest = max(map(way, documents))
+        longest = float(max(map(way, documents)))
         (folder / "motorway.xodr").write_text(motorway(length=longest + 2500.0, lanes=lanes, radius=20_000.0), encoding="utf-8")
         prepared = []
         for i, document in enumerate(documents):

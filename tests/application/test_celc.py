@@ -9,7 +9,10 @@ from scipy.optimize import minimize_scalar
 from docs.figures.convoy import run
 from docs.figures.situation import APPEARS, FRONT, WIDTH, car, formula, least, situation, survived, way_aside
 from studio import job
+from studio.application.contract import Heard, Inbox
 from studio.conventions import GRAVITY
+from studio.kinds.application import celc
+from studio.kinds.message.maneuver import ACCEPT, REJECT, Payload
 from studio.model.evasion import left_over
 
 IDLE, ASKING, COMMITTED, EVADING, ASIDE, BRAKING, WEIGHING, YIELDING, REFUSING, FOLLOWING, RESUMING = range(11)
@@ -225,6 +228,60 @@ def test_it_brakes_no_more_than_the_tyres_have_left():
     both = np.hypot(hard.trace("A.acceleration"), hard.trace("A.lateral_acceleration"))
     assert both.max() < 8.0 and survived(hard)
     assert hard.trace("A.speed").min() < easy.trace("A.speed").min() - 1.0
+
+
+def in_the_way(**who):
+    """Somebody else than a box, at the distance at which the box would lie, in the middle of A's lane or on the way there."""
+    document = together(duration=8.0)
+    box = document["script"]["obstacle"]["do"]
+    (near, lateral), after = box["line"][0], who.pop("after", 0.0)
+    line = [[near + FAST * after + x, lateral + y] for x, y in who.pop("line")]
+    document["script"]["obstacle"]["do"] = {"kind": "mover", "route": "along", "line": line} | who
+    return document
+
+
+def test_whoever_is_in_the_way():
+    """A person who steps into the lane from 2 m beside; a cyclist who rides there at 4 m/s; a box without the margin."""
+    person = in_the_way(who="pedestrian", line=[[0.0, 2.0], [0.0, 0.0]], speed=2.0, after=0.4)
+    cyclist = in_the_way(who="cyclist", line=[[0.5, 0.0], [150.0, 0.0]], speed=4.0)
+    box = in_the_way(who="box", line=[[0.0, 0.0]], width=1.8)
+    records = run([person, cyclist, box])
+    for record in records:
+        assert survived(record) and stages(record, "A") == [IDLE, ASKING, COMMITTED, EVADING, ASIDE]
+        assert stages(record, "B")[:4] == [IDLE, WEIGHING, YIELDING, RESUMING]
+    into = (2.0 - 0.3 - celc.CORRIDOR) / 2.0  # [s] until the nearest of him, 0.3 m before his middle, is in the way
+    assert begun(records[0]) == pytest.approx(APPEARS + into, abs=0.05), "the sensor has been sure of him before"
+
+
+FOUR_LOOKS = 0.06  # [s] from the first look at which the sensor's confidence is 0.5 to the fourth one, 0.94
+
+
+def begun(record):
+    """When A asks [s]."""
+    return float(record.time[np.argmax(record.probes["A.evasion.stage"].values == ASKING)])
+
+
+@pytest.mark.parametrize(
+    ("confidence", "recognition", "after"), [(0.0, 0.0, 0.0), (0.9, 0.0, FOUR_LOOKS), (0.99, 0.0, 0.12), (0.9, 0.3, 0.3), (0.99, 0.1, 0.12)]
+)
+def test_what_recognition_takes(confidence, recognition, after):
+    """A look every 20 ms closes half of what the confidence lacks: 0.94 at the fourth, 0.992 at the seventh; and it must have lasted."""
+    (record,) = run([together(parameters={"confidence": confidence, "recognition": recognition}, duration=2.0)])
+    assert begun(record) - APPEARS == pytest.approx(after, abs=0.025)
+    assert record.probes["A.evasion.distance"].values[-1] == pytest.approx(1.25 * formula(FAST, 0.02) - FAST * after, abs=0.03 * FAST)
+
+
+def test_an_answer_to_another_maneuver_is_none():
+    """Two accept the own maneuver, 5, with 6 and 4 m/s²; somebody accepts, and somebody refuses, another one."""
+
+    def told(identity, step, braking):
+        payload = Payload()._replace(identity=identity, step=step, acceleration=-braking)
+        return Heard(True, 0.0, 0.02, 0.01, 0.0, payload)
+
+    heard = (told(5.0, ACCEPT, 6.0), told(6.0, ACCEPT, 1.0), told(7.0, REJECT, 0.0), told(5.0, ACCEPT, 4.0))
+    memory = celc.Memory()._replace(identity=5.0)
+    assert celc.answer.py_func(memory, Inbox(4, heard)) == (2, False, 4.0, 0.02)
+    assert celc.answer.py_func(memory, Inbox(1, heard[1:2]))[0] == 0
 
 
 def slippery(kmh, distance, friction, *, sees=True, **changes):

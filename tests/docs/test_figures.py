@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from docs.figures import feasibility, story
+from docs.figures import celc, feasibility, story
 from docs.figures.feasibility import Grid, bounds, colour, found, kept, mapped, needed, sample
 
 GRID = Grid((50.0, 90.0), (12.0, 40.0, 60.0), 3)
@@ -59,6 +59,12 @@ def test_a_map_in_short(tmp_path, monkeypatch):
     text = file.read_text()
     mapped(more, file)
     assert file.read_text() == text
+
+
+def test_the_figure_of_distances_in_short():
+    """A point of it, with the numbers of an array as the script has them: 1.00 to 1.30 times the formula's way."""
+    ((way,),) = celc.ways(celc.SPEEDS[2:3], (0.02,))
+    assert 1.0 <= way / celc.formula(celc.SPEEDS[2] / 3.6, 0.02) <= 1.3
 
 
 def test_the_story_is_told_as_it_happens():

@@ -11,7 +11,7 @@ It is a unit without a vehicle. At every look of the cameras it
     tells       all of it, to everybody
 
 All aisles are one-way and every car asks for tiles ahead of those that it holds: tiles are taken in the order of their numbers, which
-alone excludes a circle of cars that wait for each other. The banker's check holds for any other plan, too.
+alone excludes a circle of cars that wait for each other. That all can arrive is looked up all the same, for any other plan.
 """
 
 from typing import Annotated, Any, Literal, NamedTuple
