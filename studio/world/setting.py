@@ -357,9 +357,9 @@ def standing_first(found: tuple[Site, ...]) -> Iterator[tuple[str, Thing]]:
             yield name, each
 
 
-def thing_at(each: Thing) -> tuple[float, float, float, float, float]:
-    """Place, heading and size of a thing."""
-    return each.x, each.y, each.heading, each.length, each.width
+def thing_at(each: Thing) -> tuple[float, float, float, float, float, float]:
+    """Place, heading and size of a thing, and the height of what it stands on."""
+    return each.x, each.y, each.heading, each.length, each.width, each.tread.at(0.0).height
 
 
 def face_to_face(one: Car, other: Car, where: str) -> Problem:
