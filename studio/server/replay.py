@@ -134,9 +134,8 @@ class Replay:
     def treads(self) -> dict[str, Tread]:
         """What is under all that the script brings, by name."""
         found = list(things(self.setting.sites))
-        return dict(zip(names(self.setting.sites, found), (each.tread for each in found), strict=True)) | dict.fromkeys(
-            self.brought.keys() - set(names(self.setting.sites, found)), GROUND
-        )
+        known = dict(zip(names(self.setting.sites, found), (each.tread for each in found), strict=True))
+        return {name: known.get(name, GROUND) for name in self.brought}
 
 
 def replay(runs: Runs, run: int, path: Path) -> Replay:

@@ -37,7 +37,7 @@ class Overlap(NamedTuple):
 def depth(one: Footprint, other: Footprint) -> float:
     """How far [m] one must be moved so that both are apart; zero or less when they are.
 
-    Two convex boxes are apart exactly when one of their four edge directions separates them, and on other roads when one is above the other.
+    Two convex boxes are apart exactly when one of their four edge directions separates them, and when one is on a bridge.
     """
     if abs(one.height - other.height) > OTHER_LEVEL:
         return -inf

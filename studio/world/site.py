@@ -1,7 +1,7 @@
 """The script of a scenario in its place: what each entry does to the road, and where that lies.
 
-place_problems(scenario, network, where)   what is wrong with their places, all of it
-sites(scenario, network, locks)            →  Site, one for each entry of the script, in the order of the file
+place_problems(scenario, network, where, locks)   what is wrong with their places, all of it
+sites(scenario, network, locks)                   →  Site, one for each entry of the script, in the order of the file
 """
 
 import traceback
@@ -190,9 +190,9 @@ def joins(start: str, roads: list[str], network: Network, lock: float) -> float:
 # -- what may be wrong ---------------------------------------------------------------------------------
 
 
-def place_problems(scenario: Scenario, network: Network, where: str) -> list[Problem]:
-    """Roads and lanes that do not exist, stretches and stations beyond what they lie on."""
-    place, effects, found = Place(scenario, network), {}, []
+def place_problems(scenario: Scenario, network: Network, where: str, locks: Mapping[str, float]) -> list[Problem]:
+    """Roads and lanes that do not exist, stretches and stations beyond what they lie on; on routes of vehicles of these locks [1/m]."""
+    place, effects, found = Place(scenario, network, locks), {}, []
     for name, entry in scenario.script.items():
         effects[name], wrong = attempted(entry, place, f"{where}: script.{name}.do")
         found += wrong
@@ -202,9 +202,9 @@ def place_problems(scenario: Scenario, network: Network, where: str) -> list[Pro
         for effect in [each for each in effects[name] if isinstance(each, OnRoad)]:
             found += effect_problems(effect, place, f"{at}.do") or work_problems(effect, closed, place, f"{at}.do")
         for path, part in conditions(entry, at):
-            found += station_problems(part, scenario, network, path) + ground_problems(part, place, path)
+            found += station_problems(part, place, path) + ground_problems(part, place, path)
         found += off_map_problems(entry.do, place, f"{at}.do")
-        found += ground_problems(entry.do, place, f"{at}.do") + station_problems(entry.do, scenario, network, f"{at}.do")
+        found += ground_problems(entry.do, place, f"{at}.do") + station_problems(entry.do, place, f"{at}.do")
         found += [each for effect in effects[name] for each in deed_problems(effect, scenario, f"{at}.do")]
         found += [each for effect in effects[name] if isinstance(effect, Walk) for each in level_problems(effect, network, f"{at}.do")]
     return found + list(overlap_problems(effects, place, where))
@@ -323,25 +323,25 @@ def area_problem(area: Area, place: Place, at: str) -> list[Problem]:
     return [Problem(f"{at}.{field}", what, f"{last} m", f"≤ {length:.0f} m")] if last > length else []
 
 
-def station_problems(part, scenario: Scenario, network: Network, at: str) -> list[Problem]:
+def station_problems(part, place: Place, at: str) -> list[Problem]:
     """A vehicle must come by the stations of its route."""
-    return list(too_far(part, scenario, network, at))
+    return list(too_far(part, place, at))
 
 
-def too_far(part, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
+def too_far(part, place: Place, at: str) -> Iterator[Problem]:
     """The stations of a condition that its vehicle never comes to."""
     for name, field in type(part).model_fields.items():
         for mark in marks(field, StationOf):
             vehicle, station = getattr(part, mark.field), getattr(part, name)
-            length = route_length(vehicle, scenario, network)
+            length = route_length(vehicle, place)
             if station > length:
                 what = f"lies beyond the end of the route of {vehicle!r}"
                 yield Problem(f"{at}.{name}", what, f"{station} m", f"≤ {length:.0f} m")
 
 
-def route_length(vehicle: str, scenario: Scenario, network: Network) -> float:
+def route_length(vehicle: str, place: Place) -> float:
     """Length of a vehicle's route [m]; without an end when there is none or it does not connect, which is told elsewhere."""
     try:
-        return Place(scenario, network).route(scenario.vehicles[vehicle].route).length
+        return place.route(place.scenario.vehicles[vehicle].route).length
     except (KeyError, RouteError):
         return np.inf

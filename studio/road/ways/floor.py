@@ -4,7 +4,7 @@ floors_at(network, x, y)                      →  Floor, ...   who may stand th
 followed(network, line, level, height)        →  Tread        the floor under a line, all along it
 
 At the beginning of a line the floor is the one of a level or a height that is told; else the land, or what is nearest to it. From there on
-it is always the one that is nearest in height to that before: whoever walks up a ramp comes onto the bridge, whoever walks below it stays below.
+it is always the one that is nearest in height to that before: up a ramp one comes onto the bridge, and below it one stays below.
 """
 
 from collections.abc import Sequence
