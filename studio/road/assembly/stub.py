@@ -1,4 +1,4 @@
-"""Stubs: roads of which the junctions at both ends leave next to nothing. Nobody starts there, and the report says where the metres went."""
+"""Stubs: roads of which the junctions at both ends leave next to nothing. Nobody starts there, and the report says so."""
 
 from collections.abc import Callable
 
