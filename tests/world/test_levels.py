@@ -183,7 +183,7 @@ def test_who_stands_where_roads_cross_stands_on_one_of_them(tmp_path, do, height
 
 
 def test_who_walks_up_a_ramp_comes_onto_the_bridge(tmp_path):
-    """Along the street that climbs, and on the same line 12 m beside it, where there is only land."""
+    """Along the street, which climbs over 350 m from its end to the bridge, and on the same line 12 m beside it, on the land."""
 
     def both(x, y):
         return [{"kind": "mover", "line": [[x - 300.0, each], [x + 300.0, each]], "speed": 30.0} for each in (y, y + 12.0)]
@@ -197,7 +197,7 @@ def test_who_walks_up_a_ramp_comes_onto_the_bridge(tmp_path):
     x -= middle
     deck = np.abs(x[0]) < 40.0
     assert height[0, deck] == pytest.approx(5.5, abs=0.3) and (level[0, deck] == 1.0).all()
-    assert height[0, [0, -1]] == pytest.approx(0.0, abs=0.1) and np.abs(np.diff(height[0])).max() < 0.1
+    assert height[0, [0, -1]] == pytest.approx(5.5 * 100.0 / 350.0, abs=0.15) and np.abs(np.diff(height[0])).max() < 0.1
     assert lift[0] == pytest.approx(height[0], abs=0.1)
     assert height[1, np.abs(x[1]) > 8.0] == pytest.approx(0.0, abs=0.1)
 

@@ -14,7 +14,7 @@ from studio.scenario.schema import Scenario
 def known_locks(scenario: Scenario, folder: Path) -> "Locks":
     """The locks of all vehicles of a scenario that there are; that one is not is told elsewhere."""
     models = {}
-    for name in {*(each.model for each in scenario.vehicles.values()), *scenario.traffic.named_models().values()}:
+    for name in {*(each.model for each in scenario.vehicles.values()), *scenario.traffic.named_models().values(), *scenario.traffic.types}:
         with suppress(StudioError):
             manned = scenario.traffic.manned(name).model
             models[manned] = catalogue.find_vehicle(manned, folder=folder)
