@@ -10,9 +10,9 @@ from studio.road.ways.meeting import meetings_of
 from studio.road.ways.relief import relief_of
 
 ROAD = (
-    '<road id="{id}" length="400" junction="-1"><planView><geometry s="0" x="{x}" y="{y}" hdg="{heading}" length="400"><line/></geometry>'
-    '</planView>{profile}<lanes><laneSection s="0"><right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>'
-    "</right></laneSection></lanes><objects>{objects}</objects></road>"
+    '<road id="{id}" length="400" junction="-1"><planView><geometry s="0" x="{x}" y="{y}" hdg="{heading}" length="400"><line/>'
+    '</geometry></planView>{profile}<lanes><laneSection s="0"><right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>'
+    "</lane></right></laneSection></lanes><objects>{objects}</objects></road>"
 )
 
 
@@ -37,7 +37,7 @@ def told(network, kind):
 
 
 @pytest.mark.parametrize(("objects", "level"), [
-    ('<bridge id="1" s="180" length="40" type="concrete"/>', 1), ('<tunnel id="1" s="150" length="100" type="underpass" lighting="1"/>', -1),
+    ('<bridge id="1" s="180" length="40" type="concrete"/>', 1), ('<tunnel id="1" s="150" length="100" type="underpass"/>', -1),
     ('<bridge id="1" s="180" length="40"><validity fromLane="-1" toLane="-1"/></bridge>', 1),
     ('<bridge id="1" s="180" length="9"/><bridge id="2" s="189" length="31"/>', 1),
 ])  # fmt: skip
