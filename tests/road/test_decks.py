@@ -11,7 +11,8 @@ from studio.road.ways.relief import relief_of
 
 ROAD = (
     '<road id="{id}" length="400" junction="-1"><planView><geometry s="0" x="{x}" y="{y}" hdg="{heading}" length="400"><line/>'
-    '</geometry></planView>{profile}<lanes><laneSection s="0"><right><lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>'
+    '</geometry></planView>{profile}<lanes><laneSection s="0"><right>'
+    '<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>'
     "</lane></right></laneSection></lanes><objects>{objects}</objects></road>"
 )
 
