@@ -18,15 +18,14 @@ LENGTH, BOARD, STRIPES = 1.5, 0.25, 6  # [m] of a barrier, [m] height of its boa
 
 
 class Place(NamedTuple):
-    """An object: one of `SHAPES`, where it stands [m], the heading of its length [rad], its length and width [m], which those of
-    `STRETCHED` obey, and how high above the land its road is [m]."""
+    """An object: one of `SHAPES`, where it stands [m], the heading of its length [rad], and its length and width [m], which those of
+    `STRETCHED` obey."""
 
     kind: str
     x: float
     y: float
     heading: float
     size: tuple[float, float] = (1.0, 1.0)
-    lift: float = 0.0
 
 
 def cone() -> Surface:
@@ -110,8 +109,7 @@ class Obstacles:
             if any(place.kind == kind for place in places)
         ]
         self.shown = np.zeros(len(places), np.int8)
-        self.lift = np.array([each.lift for each in places], np.float32)
-        self.where = np.array([each[1:4] for each in places], np.float32).reshape(-1, 3).T.copy()
+        self.where = np.array([(*each[1:4], 0.0) for each in places], np.float32).reshape(-1, 4).T.copy()
 
     def batch(self, server: viser.ViserServer, kind: str, members: np.ndarray, places: Sequence[Place]) -> tuple:
         """Members and node of all objects of a kind."""
@@ -125,12 +123,12 @@ class Obstacles:
         return members, node
 
     def show(self, standing: np.ndarray, where: np.ndarray) -> None:
-        """Shows those that stand, int8[object], where they are, float32[x, y and heading, object]; quick when nothing has changed."""
+        """Shows those that stand, int8[object], where they are, float32[x, y, heading and lift, object]; quick when nothing has changed."""
         if np.array_equal(standing, self.shown) and np.array_equal(where, self.where):
             return
         for members, node in self.batches:
-            x, y, heading = where[:, members]
-            at = np.stack([x, y, self.lift[members]], axis=1)
+            x, y, heading, lift = where[:, members]
+            at = np.stack([x, y, lift], axis=1)
             node.batched_positions = np.where(standing[members, None] > 0, at, HIDDEN).astype(np.float32)
             if not np.array_equal(heading, self.where[2, members]):
                 node.batched_wxyzs = turns(heading)

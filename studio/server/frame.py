@@ -14,7 +14,7 @@ from studio.vehicle.parameter import L_F, L_R, LENGTH, RADIUS, TRACK_F, WIDTH, H
 from studio.vehicle.state import ACTIVE, DELTA, PITCH, PSI, ROLL, ROTATION, X, Y, Z
 from studio.world.build import at_start
 from studio.world.setting import Setting
-from studio.world.table.street import O_HEADING, O_X, O_Y
+from studio.world.table.street import O_HEADING, O_LIFT, O_X, O_Y
 from studio.world.thing import things
 from studio.world.world import Vehicles, World
 
@@ -24,7 +24,7 @@ MOTION = (pose.X, pose.Y, pose.Z, pose.YAW, pose.ROLL, pose.PITCH, pose.STEER, p
 
 class Frame(NamedTuple):
     """One picture: poses float32[POSE_ROWS, vehicle], lights int8[link], which objects stand int8[object], and where they are,
-    float32[x, y and heading, object]."""
+    float32[x, y, heading and lift, object]."""
 
     poses: np.ndarray
     lights: np.ndarray
@@ -35,25 +35,22 @@ class Frame(NamedTuple):
 def frame(world: World, seen: np.ndarray) -> Frame:
     """The picture of a world in which the vehicles are seen at these poses."""
     o = world.obstacles
-    return Frame(seen, world.roads.shown.astype(np.int8), o.standing.astype(np.int8), o.table[[O_X, O_Y, O_HEADING]].astype(np.float32))
+    return Frame(
+        seen, world.roads.shown.astype(np.int8), o.standing.astype(np.int8), o.table[[O_X, O_Y, O_HEADING, O_LIFT]].astype(np.float32)
+    )
 
 
 def first_frame(setting: Setting) -> Frame:
     """The picture at the start."""
     found = list(things(setting.sites))
     standing = [int(setting.sites[each.entry].is_there_from_the_start) for each in found]
-    objects = np.array([(each.x, each.y, each.heading) for each in found], np.float32).reshape(-1, 3).T
+    objects = np.array([(each.x, each.y, each.heading, each.tread.at(0.0).lift) for each in found], np.float32).reshape(-1, 4).T
     return Frame(poses(at_start(setting), relief_of(setting.network)), first_lights(setting), np.array(standing, dtype=np.int8), objects)
 
 
 def places(setting: Setting) -> list[Place]:
     """All objects that may stand on the road."""
-    found, relief = list(things(setting.sites)), relief_of(setting.network)
-    at = np.array([(each.x, each.y, each.height) for each in found]).reshape(-1, 3).T
-    lift = relief.at(*at)[0] if relief is not None and found else np.zeros(len(found))
-    return [
-        Place(each.looks, each.x, each.y, each.heading, (each.length, each.width), float(z)) for each, z in zip(found, lift, strict=True)
-    ]
+    return [Place(each.looks, each.x, each.y, each.heading, (each.length, each.width)) for each in things(setting.sites)]
 
 
 def poses(vehicles: Vehicles, relief: Relief | None) -> np.ndarray:

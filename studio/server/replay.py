@@ -17,6 +17,7 @@ from studio.execution.brought import Brought, acting_since, turns_of
 from studio.execution.cast import Cast
 from studio.execution.happening import Happening
 from studio.execution.record import SAME_TIME, Body, Record
+from studio.road.ways.floor import GROUND, Tread
 from studio.road.ways.relief import Relief, height_at, relief_of
 from studio.scene import pose
 from studio.server import answer
@@ -28,6 +29,7 @@ from studio.world.deed import SHOWN
 from studio.world.effect import Lights
 from studio.world.passes import traffic
 from studio.world.setting import Setting
+from studio.world.thing import names, things
 
 PLACE = ("x", "y", "heading")  # without these nobody can be shown
 POSED = {"x": pose.X, "y": pose.Y, "heading": pose.YAW, "roll": pose.ROLL, "pitch": pose.PITCH, "steering": pose.STEER}
@@ -117,15 +119,23 @@ class Replay:
         ]
 
     def objects(self, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """Which objects stand, int8[object], and where they are, float32[3, object]."""
-        found = [self.place(each, t) for each in self.brought.values()]
+        """Which objects stand, int8[object], and where they are, float32[x, y, heading and lift, object]."""
+        found = [self.place(name, each, t) for name, each in self.brought.items()]
         standing = np.array([each is not None for each in found], np.int8)
-        return standing, np.array([each or (nan, nan, nan) for each in found], np.float32).reshape(-1, 3).T
+        return standing, np.array([each or (nan, nan, nan, nan) for each in found], np.float32).reshape(-1, 4).T
 
-    def place(self, each: Brought, t: float) -> tuple[float, float, float] | None:
+    def place(self, name: str, each: Brought, t: float) -> tuple[float, float, float, float] | None:
         """Where something was that the script brought; None while it was not there."""
         since = acting_since(self.turns.get(each.entry, ()), t)
-        return None if since is None else each.after(t - since)
+        at = None if since is None else each.after(t - since)
+        return None if since is None or at is None else (*at, self.treads[name].at(each.speed * (t - since)).lift)
+
+    @cached_property
+    def treads(self) -> dict[str, Tread]:
+        """What is under all that the script brings, by name."""
+        found = list(things(self.setting.sites))
+        known = dict(zip(names(self.setting.sites, found), (each.tread for each in found), strict=True))
+        return {name: known.get(name, GROUND) for name in self.brought}
 
 
 def replay(runs: Runs, run: int, path: Path) -> Replay:

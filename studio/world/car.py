@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from studio.kind.driver import Driver
-from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.road.ways.path import PATH_HEADING, PATH_HEIGHT, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.scenario.catalogue import VehicleModel
 from studio.scenario.schema import Gps, Intervention
 from studio.world.footprint import Footprint
@@ -54,4 +54,6 @@ def footprint(name: str, model: VehicleModel, path: Path, station: float) -> Foo
     x, y, heading = pose(path, station)
     body = model.values.body
     ahead = body.front_distance + body.front_overhang - 0.5 * body.length
-    return Footprint(name, x + ahead * np.cos(heading), y + ahead * np.sin(heading), heading, body.length, body.width)
+    return Footprint(
+        name, x + ahead * np.cos(heading), y + ahead * np.sin(heading), heading, body.length, body.width, at(path, station, PATH_HEIGHT)
+    )

@@ -28,6 +28,7 @@ from studio.road.network.curve import LOCK
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import lane_line
 from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.road.ways.relief import height_at
 from studio.road.ways.route import connect
 from studio.scenario.schema import Scenario
 
@@ -75,7 +76,8 @@ class Shift(NamedTuple):
 class Walk(NamedTuple):
     """Somebody who moves along a line [m] on the map with a speed [m/s], and `stays` at its end or is gone; length and width [m].
 
-    Without speed it stands at the first corner, and looks towards the second.
+    Without speed it stands at the first corner, and looks towards the second. Where roads lie above each other it begins on the one of this
+    `level` of the map, or of this `height` [m]; else on the land, or what is nearest to it.
     """
 
     who: Literal["pedestrian", "cyclist", "box", "cylinder", "cone", "barrier", "wall", "tree"]
@@ -83,6 +85,8 @@ class Walk(NamedTuple):
     speed: float
     stays: bool
     size: tuple[float, float]
+    level: int | None = None
+    height: float | None = None
 
 
 class WeatherChange(NamedTuple):
@@ -231,6 +235,12 @@ class Place:
         if route is None or route not in self.scenario.routes:  # a name that there is not is told elsewhere
             return tuple(line)
         return tuple(beside(self.route(route), along, left)[:2] for along, left in line)
+
+    def height(self, route: str | None, along: float) -> float | None:
+        """Height [m] of a route at a station [m]; None without one."""
+        if route is None or route not in self.scenario.routes:
+            return None
+        return float(height_at(self.route(route), np.array(along)))
 
     def route(self, name: str) -> Path:
         """The line of a route; raises KeyError or RouteError."""

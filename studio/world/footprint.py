@@ -4,12 +4,14 @@ overlaps(footprints)   →  Overlap, ...     pairs that share ground, in the ord
 """
 
 from collections.abc import Iterator, Sequence
-from math import cos, hypot, pi, sin
+from math import cos, hypot, inf, pi, sin
 from typing import NamedTuple
+
+from studio.world.passes.level import OTHER_LEVEL
 
 
 class Footprint(NamedTuple):
-    """A box on the ground: whose, its middle [m], its heading [rad], its length and width [m]."""
+    """A box on the road: whose, its middle [m], its heading [rad], its length and width [m], and the height of the road [m]."""
 
     name: str
     x: float
@@ -17,6 +19,7 @@ class Footprint(NamedTuple):
     heading: float
     length: float
     width: float
+    height: float = 0.0
 
     def reach(self, axis: float) -> float:
         """Half its extent [m] along a direction [rad]."""
@@ -34,8 +37,10 @@ class Overlap(NamedTuple):
 def depth(one: Footprint, other: Footprint) -> float:
     """How far [m] one must be moved so that both are apart; zero or less when they are.
 
-    Two convex boxes are apart exactly when one of their four edge directions separates them.
+    Two convex boxes are apart exactly when one of their four edge directions separates them, and when one is on a bridge.
     """
+    if abs(one.height - other.height) > OTHER_LEVEL:
+        return -inf
     dx, dy = other.x - one.x, other.y - one.y
     axes = (one.heading, one.heading + 0.5 * pi, other.heading, other.heading + 0.5 * pi)
     return min(one.reach(axis) + other.reach(axis) - abs(dx * cos(axis) + dy * sin(axis)) for axis in axes)

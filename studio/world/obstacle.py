@@ -7,12 +7,13 @@ from math import cos, sin
 import numpy as np
 import shapely
 
-from studio.compiled import lean
+from studio.compiled import inlined, lean
 from studio.road.network import Crossing
 from studio.road.network.plane import lines
-from studio.road.ways.path import PATH_HEADING, PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.road.ways.path import PATH_HEADING, PATH_HEIGHT, PATH_SPACING, PATH_X, PATH_Y, Path
 from studio.world.effect import Walk
 from studio.world.line import Lines, starts
+from studio.world.passes.level import OTHER_LEVEL
 from studio.world.setting import Setting
 from studio.world.table.street import (
     ACTING,
@@ -20,8 +21,11 @@ from studio.world.table.street import (
     CONE,
     O_ENTRY,
     O_HEADING,
+    O_HEIGHT,
     O_KIND,
     O_LENGTH,
+    O_LEVEL,
+    O_LIFT,
     O_SPEED,
     O_WIDTH,
     O_X,
@@ -34,6 +38,7 @@ from studio.world.thing import Thing, headings, names, things
 from studio.world.world import Movers, Obstacles
 
 NEAR = 3.0  # [m] an object farther from a path is in nobody's way
+FLOOR = 1  # rows of what is under a line: the station along it [m], then the floor there as `Floor` names it
 EAST, NORTH, AT, ALONG = range(4)  # rows of corners: place [m], station along the line [m], heading of the leg from there on [rad]
 WIDEST = 1.6  # [m] half of the widest vehicle, with the distance that drivers keep
 
@@ -44,7 +49,7 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
     counts = np.array([len(each) for each in found])
     first, base = starts(counts), starts(np.array([len(each.sites) for each in settings]))
     rows = [
-        (each.x, each.y, each.heading, each.length, each.width, each.kind, base[w] + each.entry, 0.0)
+        (each.x, each.y, each.heading, each.length, each.width, each.kind, base[w] + each.entry, 0.0, *each.tread.at(0.0))
         for w, some in enumerate(found)
         for each in some
     ]
@@ -68,6 +73,7 @@ def obstacles_of(settings: Sequence[Setting], lines: Lines) -> Obstacles:
 def movers_of(found: Sequence[tuple[Thing, tuple[Crossing, ...]]]) -> Movers:
     """Everything that moves among the crossings of its map: the corners of all lines, and the zebra crossings on them."""
     moving = [(i, each.walk, crossings) for i, (each, crossings) in enumerate(found) if each.walk is not None]
+    tread, tread_first, tread_count = treads_of([each for each, _ in found if each.walk is not None])
     corners = [corner for _, walk, _ in moving for corner in corners_of(walk)]
     counts = np.array([len(walk.line) for _, walk, _ in moving], dtype=np.int64)
     zebras = [sorted(zebras_on(walk, crossings)) for _, walk, crossings in moving]
@@ -79,6 +85,9 @@ def movers_of(found: Sequence[tuple[Thing, tuple[Crossing, ...]]]) -> Movers:
         corner=np.array(corners).reshape(-1, 4).T.copy(),
         speed=np.array([walk.speed for _, walk, _ in moving]),
         stays=np.array([int(walk.stays) for _, walk, _ in moving], dtype=np.int64),
+        tread=tread,
+        tread_first=tread_first,
+        tread_count=tread_count,
         zebra=np.array([row for each in zebras for row in each]).reshape(-1, len(ZEBRA)).T.copy(),
         zebra_first=np.cumsum(crossed) - crossed,
         zebra_count=crossed,
@@ -96,6 +105,13 @@ def zebras_on(walk: Walk, crossings: Sequence[Crossing]) -> Iterator[tuple[float
         for piece in lines(shapely.line_merge(line.intersection(ground))):
             at = shapely.line_locate_point(line, shapely.points(piece[:, [0, -1]].T))
             yield *map(float, sorted(at)), float(x), float(y), float(np.arctan2(dy, dx)), float(np.hypot(dx, dy)), each.width
+
+
+def treads_of(found: Sequence[Thing]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What is under the lines of those who move, float64[row, place], and the first and the number of these for each."""
+    counts = np.array([each.tread.station.size for each in found], dtype=np.int64)
+    rows = np.concatenate([np.zeros((4, 0)), *(np.array(each.tread) for each in found)], axis=1)
+    return rows, np.cumsum(counts) - counts, counts
 
 
 def corners_of(walk: Walk) -> Iterator[tuple[float, float, float, float]]:
@@ -122,7 +138,7 @@ def sweep(path: Path, table: np.ndarray, first: int, count: int) -> np.ndarray:
     met = []
     for i in (i for i in range(first, first + count) if table[O_KIND, i] in (CONE, BARRIER)):  # movers are looked for at every tick
         apart = table[[O_X, O_Y], i, None] - path.points[[PATH_X, PATH_Y]]
-        near = np.flatnonzero(np.hypot(*apart) < NEAR)
+        near = np.flatnonzero((np.hypot(*apart) < NEAR) & (np.abs(path.points[PATH_HEIGHT] - table[O_HEIGHT, i]) <= OTHER_LEVEL))
         for run in np.split(near, np.flatnonzero(np.diff(near) > 1) + 1):
             if run.size:
                 k = run[np.hypot(*apart[:, run]).argmin()]
@@ -150,7 +166,7 @@ def put_up(table, phase, held, standing):
 
 
 @lean
-def walk(time, turned, mover, first, count, corner, speed, stays, table, standing):
+def walk(time, turned, mover, first, count, corner, speed, stays, tread, tread_first, tread_count, table, standing):
     """Whoever moves is where he has come since his entry began; one who does not stay is gone at the end of his line."""
     for j in range(mover.size):
         i, last = mover[j], first[j] + count[j] - 1
@@ -164,5 +180,20 @@ def walk(time, turned, mover, first, count, corner, speed, stays, table, standin
         table[O_Y, i] = corner[NORTH, k] + beyond * sin(corner[ALONG, k])
         table[O_HEADING, i] = corner[ALONG, k]
         table[O_SPEED, i] = speed[j] if k < last else 0.0
+        rise(i, corner[AT, k] + beyond, tread, tread_first[j], tread_first[j] + tread_count[j] - 1, table)
         if k == last and stays[j] == 0 and count[j] > 1:
             standing[i] = 0
+
+
+@inlined
+def rise(i, s, tread, first, last, table):
+    """Object i stands on what is under its line at a station [m]; `first` and `last` are the ends of that."""
+    k = first
+    while k < last - 1 and tread[0, k + 1] <= s:
+        k += 1
+    share, after = 0.0, min(k + 1, last)
+    if after > k and tread[0, after] > tread[0, k]:
+        share = min(max((s - tread[0, k]) / (tread[0, after] - tread[0, k]), 0.0), 1.0)
+    table[O_HEIGHT, i] = tread[FLOOR, k] + share * (tread[FLOOR, after] - tread[FLOOR, k])
+    table[O_LEVEL, i] = tread[FLOOR + 1, k] + share * (tread[FLOOR + 1, after] - tread[FLOOR + 1, k])
+    table[O_LIFT, i] = tread[FLOOR + 2, k] + share * (tread[FLOOR + 2, after] - tread[FLOOR + 2, k])

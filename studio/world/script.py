@@ -47,7 +47,8 @@ def turn(world: World) -> None:
     obstacle.put_up(o.table, s.phase, d.held, o.standing)
     m = o.movers
     if m.object.size:
-        obstacle.walk(world.clock.time, s.turned, m.object, m.first, m.count, m.corner, m.speed, m.stays, o.table, o.standing)
+        lines, treads = (m.object, m.first, m.count, m.corner, m.speed, m.stays), (m.tread, m.tread_first, m.tread_count)
+        obstacle.walk(world.clock.time, s.turned, *lines, *treads, o.table, o.standing)
 
 
 def ask(world: World) -> None:

@@ -30,7 +30,7 @@ from studio.world.channel import catalogue as channels
 from studio.world.cycle import circles
 from studio.world.demand.count import Counted, counted
 from studio.world.demand.imported import imported
-from studio.world.demand.lock import Locks
+from studio.world.demand.lock import Locks, known_locks
 from studio.world.demand.population import CAR_LENGTH, END_CLEARANCE, traffic
 from studio.world.demand.source import Detour, Source, sources_of, streams
 from studio.world.demand.style import type_problems
@@ -87,7 +87,7 @@ class Setting:
 def setting(scenario: Scenario, folder: FilePath, where: str) -> Setting:
     """Resolves map, routes, models and starts; raises ScenarioError, MapError or RouteError."""
     network = place(scenario, folder, where)
-    refuse(name_problems(scenario, where) + place_problems(scenario, network, where), where)
+    refuse(name_problems(scenario, where) + place_problems(scenario, network, where, known_locks(scenario, folder).of_routes()), where)
     asked = imported(scenario, network, folder, where)
     models = models_of(asked.scenario, folder, where)
     locks = Locks(scenario, models)
@@ -357,9 +357,9 @@ def standing_first(found: tuple[Site, ...]) -> Iterator[tuple[str, Thing]]:
             yield name, each
 
 
-def thing_at(each: Thing) -> tuple[float, float, float, float, float]:
-    """Place, heading and size of a thing."""
-    return each.x, each.y, each.heading, each.length, each.width
+def thing_at(each: Thing) -> tuple[float, float, float, float, float, float]:
+    """Place, heading and size of a thing, and the height of what it stands on."""
+    return each.x, each.y, each.heading, each.length, each.width, each.tread.at(0.0).height
 
 
 def face_to_face(one: Car, other: Car, where: str) -> Problem:

@@ -1,14 +1,14 @@
 """The script of a scenario in its place: what each entry does to the road, and where that lies.
 
-place_problems(scenario, network, where)   what is wrong with their places, all of it
-sites(scenario, network, locks)            →  Site, one for each entry of the script, in the order of the file
+place_problems(scenario, network, where, locks)   what is wrong with their places, all of it
+sites(scenario, network, locks)                   →  Site, one for each entry of the script, in the order of the file
 """
 
 import traceback
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, get_args
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
@@ -16,15 +16,17 @@ from studio.errors import Problem, RouteError, ScenarioError, nearest
 from studio.kind import registry
 from studio.kind.area import Area
 from studio.kind.settings import StationOf, inner, marks, named, references
-from studio.kind.stretch import LaneStretch
+from studio.kind.stretch import LaneStretch, Stretch
 from studio.road.assembly.alignment import SHARPEST
 from studio.road.network import Lane, Network
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import STEEPEST, Work, lane_line
+from studio.road.ways.floor import GROUND, Tread, floors_at, followed
 from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.road.ways.relief import SPACING, height_at
 from studio.road.ways.route import connect
 from studio.scenario.schema import Entry, Scenario, moment_of
-from studio.world.effect import Closing, Effect, OnRoad, Place, Row, Shift, length_problem, row_problem
+from studio.world.effect import Closing, Effect, OnRoad, Place, Row, Shift, Walk, length_problem, row_problem
 from studio.world.refusal import deed_problems
 
 Effects = dict[str, list[Effect]]  # by the name of the entry
@@ -41,6 +43,14 @@ class Laid:
     line: Path
     work: Work | None = None
     edges: tuple[int, ...] = ()
+    tread: Tread = GROUND  # under the line where it acts
+
+
+class Walked(NamedTuple):
+    """Somebody who moves, and what there is under his line."""
+
+    walk: Walk
+    tread: Tread
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +61,7 @@ class Site:
     entry: Entry
     effects: tuple[Effect, ...]
     laid: tuple[Laid, ...]
+    walked: tuple[Walked, ...] = ()
 
     @property
     def is_momentary(self) -> bool:
@@ -95,7 +106,9 @@ def sites(scenario: Scenario, network: Network, locks: Mapping[str, float]) -> t
 
 def site(name: str, entry: Entry, effects: list[Effect], place: Place, closed: list[LaneStretch]) -> Site:
     """One entry in its place."""
-    return Site(name, entry, tuple(effects), tuple(laid(each, place, closed) for each in effects if isinstance(each, OnRoad)))
+    found = tuple(laid(each, place, closed) for each in effects if isinstance(each, OnRoad))
+    walked = [Walked(each, followed(place.network, each.line, each.level, each.height)) for each in effects if isinstance(each, Walk)]
+    return Site(name, entry, tuple(effects), found, tuple(walked))
 
 
 def effects_of(entry: Entry, place: Place) -> list[Effect]:
@@ -107,7 +120,18 @@ def effects_of(entry: Entry, place: Place) -> list[Effect]:
 def laid(effect: OnRoad, place: Place, closed: list[LaneStretch]) -> Laid:
     """An effect in its place."""
     line = place.line(effect.stretch)
-    return laid_work(effect, line, place, closed) if isinstance(effect, Closing | Shift) else Laid(effect, line)
+    made = laid_work(effect, line, place, closed) if isinstance(effect, Closing | Shift) else Laid(effect, line)
+    return replace(made, tread=under(line, effect.stretch, place.network)) if isinstance(effect, Row | Closing) else made
+
+
+def under(line: Path, stretch: Stretch | LaneStretch, network: Network) -> Tread:
+    """What there is under a line along a stretch with its taper, at stations of the line."""
+    first = max(stretch.start - (stretch.taper if isinstance(stretch, LaneStretch) else 0.0), 0.0)
+    (x, y), grid = line.points[[PATH_X, PATH_Y]], np.arange(line.points.shape[1]) * PATH_SPACING
+    stations = np.linspace(first, stretch.end, max(int((stretch.end - first) / SPACING), 1) + 1)
+    places = np.column_stack([np.interp(stations, grid, x), np.interp(stations, grid, y)])
+    tread = followed(network, places.tolist(), height=float(height_at(line, stations[0])))
+    return tread._replace(station=tread.station + first)
 
 
 def laid_work(effect: Closing | Shift, line: Path, place: Place, closed: list[LaneStretch]) -> Laid:
@@ -166,9 +190,9 @@ def joins(start: str, roads: list[str], network: Network, lock: float) -> float:
 # -- what may be wrong ---------------------------------------------------------------------------------
 
 
-def place_problems(scenario: Scenario, network: Network, where: str) -> list[Problem]:
-    """Roads and lanes that do not exist, stretches and stations beyond what they lie on."""
-    place, effects, found = Place(scenario, network), {}, []
+def place_problems(scenario: Scenario, network: Network, where: str, locks: Mapping[str, float]) -> list[Problem]:
+    """Roads and lanes that do not exist, stretches and stations beyond what they lie on; on routes of vehicles of these locks [1/m]."""
+    place, effects, found = Place(scenario, network, locks), {}, []
     for name, entry in scenario.script.items():
         effects[name], wrong = attempted(entry, place, f"{where}: script.{name}.do")
         found += wrong
@@ -178,10 +202,11 @@ def place_problems(scenario: Scenario, network: Network, where: str) -> list[Pro
         for effect in [each for each in effects[name] if isinstance(each, OnRoad)]:
             found += effect_problems(effect, place, f"{at}.do") or work_problems(effect, closed, place, f"{at}.do")
         for path, part in conditions(entry, at):
-            found += station_problems(part, scenario, network, path) + ground_problems(part, place, path)
+            found += station_problems(part, place, path) + ground_problems(part, place, path)
         found += off_map_problems(entry.do, place, f"{at}.do")
-        found += ground_problems(entry.do, place, f"{at}.do") + station_problems(entry.do, scenario, network, f"{at}.do")
+        found += ground_problems(entry.do, place, f"{at}.do") + station_problems(entry.do, place, f"{at}.do")
         found += [each for effect in effects[name] for each in deed_problems(effect, scenario, f"{at}.do")]
+        found += [each for effect in effects[name] if isinstance(effect, Walk) for each in level_problems(effect, network, f"{at}.do")]
     return found + list(overlap_problems(effects, place, where))
 
 
@@ -267,6 +292,14 @@ def ground_problems(part: Any, place: Place, at: str) -> list[Problem]:
     return found
 
 
+def level_problems(walk: Walk, network: Network, at: str) -> Iterator[Problem]:
+    """A level that is told must be one of those at the beginning of the line."""
+    known = sorted({round(each.level) for each in floors_at(network, *walk.line[0])})
+    if walk.level is not None and walk.level not in known:
+        what, remedy = "is no level of the roads where it begins", "leave it out, or begin elsewhere"
+        yield Problem(f"{at}.level", what, str(walk.level), " or ".join(map(str, known)), remedy)
+
+
 def off_map_problems(action: Any, place: Place, at: str) -> Iterator[Problem]:
     """Areas in which an action would do nothing; that a condition never holds in one is told as an event."""
     for name in type(action).model_fields:
@@ -290,25 +323,25 @@ def area_problem(area: Area, place: Place, at: str) -> list[Problem]:
     return [Problem(f"{at}.{field}", what, f"{last} m", f"≤ {length:.0f} m")] if last > length else []
 
 
-def station_problems(part, scenario: Scenario, network: Network, at: str) -> list[Problem]:
+def station_problems(part, place: Place, at: str) -> list[Problem]:
     """A vehicle must come by the stations of its route."""
-    return list(too_far(part, scenario, network, at))
+    return list(too_far(part, place, at))
 
 
-def too_far(part, scenario: Scenario, network: Network, at: str) -> Iterator[Problem]:
+def too_far(part, place: Place, at: str) -> Iterator[Problem]:
     """The stations of a condition that its vehicle never comes to."""
     for name, field in type(part).model_fields.items():
         for mark in marks(field, StationOf):
             vehicle, station = getattr(part, mark.field), getattr(part, name)
-            length = route_length(vehicle, scenario, network)
+            length = route_length(vehicle, place)
             if station > length:
                 what = f"lies beyond the end of the route of {vehicle!r}"
                 yield Problem(f"{at}.{name}", what, f"{station} m", f"≤ {length:.0f} m")
 
 
-def route_length(vehicle: str, scenario: Scenario, network: Network) -> float:
+def route_length(vehicle: str, place: Place) -> float:
     """Length of a vehicle's route [m]; without an end when there is none or it does not connect, which is told elsewhere."""
     try:
-        return Place(scenario, network).route(scenario.vehicles[vehicle].route).length
+        return place.route(place.scenario.vehicles[vehicle].route).length
     except (KeyError, RouteError):
         return np.inf

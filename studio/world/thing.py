@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from studio.road.ways.detour import Work
+from studio.road.ways.floor import GROUND, Tread
 from studio.road.ways.path import Path
-from studio.road.ways.relief import height_at
 from studio.world.effect import Closing, Row, Walk, beside
-from studio.world.site import Site
+from studio.world.site import Laid, Site, Walked
 from studio.world.table.street import BARRIER, BOX, CONE, CYCLIST, PEDESTRIAN
 
 SIZES = {CONE: (0.3, 0.3), BARRIER: (1.5, 0.25)}  # [m] length and width
@@ -25,7 +25,7 @@ CONE_INSET, ROW_INSET = 0.15, 0.35  # [m] from the edge of the ground that is le
 
 class Thing(NamedTuple):
     """One object: kind, place [m], heading [rad], the entry of the script that it belongs to, its size [m], how it moves, if at all, and
-    the height of the road where it stands [m], 0 for one that moves."""
+    what is under it: where it stands, or all along its line."""
 
     kind: int
     x: float
@@ -35,7 +35,7 @@ class Thing(NamedTuple):
     length: float
     width: float
     walk: Walk | None = None
-    height: float = 0.0
+    tread: Tread = GROUND
 
     @property
     def looks(self) -> str:
@@ -46,46 +46,49 @@ class Thing(NamedTuple):
 def things(sites: Sequence[Site]) -> Iterator[Thing]:
     """All objects of a script."""
     for number, site in enumerate(sites):
-        yield from (moving(each, number) for each in site.effects if isinstance(each, Walk))
+        yield from (moving(each, number) for each in site.walked)
         for each in site.laid:
             if isinstance(each.effect, Row):
-                yield from row(each.effect, each.line, number)
+                yield from row(each.effect, each, number)
             elif isinstance(each.effect, Closing) and each.work:
-                yield from fence(each.work, each.edges, number)
+                yield from fence(each.work, each, number)
 
 
-def row(effect: Row, line: Path, number: int) -> Iterator[Thing]:
+def row(effect: Row, laid: Laid, number: int) -> Iterator[Thing]:
     """Objects along a stretch."""
     kind = {"cones": CONE, "barriers": BARRIER}[effect.what]
     for station in np.arange(effect.stretch.start, effect.stretch.end + 1e-9, effect.spacing):
-        yield at(line, station, effect.offset, kind, number)
+        yield at(laid.line, station, effect.offset, kind, number, laid.tread)
 
 
-def fence(work: Work, edges: tuple[int, ...], number: int) -> Iterator[Thing]:
+def fence(work: Work, laid: Laid, number: int) -> Iterator[Thing]:
     """What a lane is closed with: cones on the taper, boards across both ends, a row of them along its open sides."""
+    edges, tread = laid.edges, laid.tread
     for end, inwards in ((work.start, 1.0), (work.end, -1.0)):
         for aside in (-1.0, 1.0):
             offset = aside * 0.26 * work.width
-            yield at(work.line, end + inwards, offset, BARRIER, number, turned=0.5 * np.pi)
+            yield at(work.line, end + inwards, offset, BARRIER, number, tread, turned=0.5 * np.pi)
     for side in edges:
         for station in np.arange(work.start + ROW_SPACING, work.end - 0.5 * ROW_SPACING, ROW_SPACING):
-            yield at(work.line, station, side * (0.5 * work.width - ROW_INSET), BARRIER, number)
+            yield at(work.line, station, side * (0.5 * work.width - ROW_INSET), BARRIER, number, tread)
     if work.target is not None and work.side in edges:
         stations = np.arange(work.start - work.taper, work.start, CONE_SPACING)
         for station, edge in zip(stations, work.edge(stations), strict=True):
-            yield at(work.line, station, edge - work.side * CONE_INSET, CONE, number)
+            yield at(work.line, station, edge - work.side * CONE_INSET, CONE, number, tread)
 
 
-def at(line: Path, station: float, offset: float, kind: int, entry: int, *, turned: float = 0.0) -> Thing:
+def at(line: Path, station: float, offset: float, kind: int, entry: int, tread: Tread, *, turned: float = 0.0) -> Thing:
     """An object at a station of a line, `offset` [m] to its left, its length along the line or `turned` [rad] from it."""
     x, y, heading = beside(line, station, offset)
-    return Thing(kind, x, y, heading + turned, entry, *SIZES[kind], height=float(height_at(line, np.array(station))))
+    floor = tread.at(float(station))
+    return Thing(kind, x, y, heading + turned, entry, *SIZES[kind], tread=Tread(*np.array([[0.0, *floor]]).T))
 
 
-def moving(walk: Walk, number: int) -> Thing:
+def moving(walked: Walked, number: int) -> Thing:
     """Somebody at the beginning of his line."""
+    walk = walked.walk
     (x, y), *_ = walk.line
-    return Thing(KINDS.get(walk.who, BOX), x, y, headings(walk.line)[0], number, *walk.size, walk)
+    return Thing(KINDS.get(walk.who, BOX), x, y, headings(walk.line)[0], number, *walk.size, walk, walked.tread)
 
 
 def headings(line: Sequence[tuple[float, float]]) -> list[float]:

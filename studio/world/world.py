@@ -267,6 +267,9 @@ class Movers:
     corner: np.ndarray  # [row, corner], as obstacle.py names the rows
     speed: np.ndarray
     stays: np.ndarray  # 1 for one who stays at the end of his line
+    tread: np.ndarray  # [row, place along a line]: its station [m], then height [m], level and lift [m] of the floor there
+    tread_first: np.ndarray
+    tread_count: np.ndarray
     zebra: np.ndarray  # [row, zebra crossing on somebody's line]
     zebra_first: np.ndarray
     zebra_count: np.ndarray  # 0 of one who does not walk

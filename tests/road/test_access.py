@@ -54,6 +54,8 @@ def test_who_may_drive_there_finds_one(tmp_path, own_cache, tags, told):
 @pytest.mark.parametrize(
     ("tags", "east", "west"),
     [
+        ({"access:lanes:forward": "no"}, 0, 1), ({"lanes": "4", "vehicle:lanes:backward": "no|bus"}, 2, 0),
+        ({"lanes": "4", "access:lanes:forward": "no|yes"}, 2, 2),
         ({"motor_vehicle:backward": "no"}, 1, 0), ({"vehicle:forward": "no"}, 0, 1), ({"access:backward": "private"}, 1, 0),
         ({"motorcar:forward": "no", "lanes": "3", "lanes:forward": "1", "lanes:backward": "2"}, 0, 2),
         ({"vehicle:backward": "no", "motorcar:backward": "yes"}, 1, 1), ({"access": "no", "motor_vehicle:forward": "yes"}, 1, 0),

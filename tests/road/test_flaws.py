@@ -338,3 +338,10 @@ def test_a_road_of_nothing_breaks_nothing(tmp_path, length, junction):
     assert path(network, connect(network, ["1", "3"])).length == pytest.approx(400.0, abs=1.5)
     assert all(np.isfinite(lane.centre).all() and lane.centre.shape[1] > 1 for lane in network.lanes)
     assert all_routes(network) and trip(network).length > 60.0
+
+
+def test_a_reference_to_a_signal_that_there_is_not_is_told(tmp_path):
+    extra = '<signals><signalReference id="99" s="150" t="0" orientation="+"/></signals>'
+    network = load(written(tmp_path, SOUND, road("7", extra=extra)))
+    (told,) = (each for each in network.report.skipped if each.kind == "signal")
+    assert (told.what, told.where) == ("signalReference 99", "road 7, s = 150.0 m") and len(network.signals) == 0

@@ -501,9 +501,10 @@ def test_what_is_not_built_is_told_with_its_place(tmp_path):
     assert found == {
         ("superelevation", "road 1, s = 20.0 m"),
         ("object", "road 1, s = 60.0 m"),
-        ("bridge", "road 1, s = 70.0 m"),
         ("surface", "road 1, s = 1.0 m"),
     }
+    (bridge,) = (each for each in network.report.guesses if each.kind == "level")
+    assert (bridge.what, bridge.where) == ("level 1 for 9.0 m", "road 1, s = 70.0 m")
     tree = next(each for each in network.report.skipped if each.kind == "object")
     assert tree.latitude == pytest.approx(52.0, abs=1e-6) and tree.longitude == pytest.approx(13.0 + 60.0 / 68_678.0, abs=1e-6)
 

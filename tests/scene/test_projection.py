@@ -218,7 +218,7 @@ def test_objects_come_and_go(scene):
     scene.show_obstacles([Place("cone", 1.0, 2.0, 0.0), Place("barrier", 5.0, 6.0, np.pi / 2), Place("cone", 3.0, 4.0, 0.0)])
     cones, barriers = node(scene, "/obstacles/cones"), node(scene, "/obstacles/barriers")
     assert (cones.batched_positions[:, 2] < -100.0).all() and (barriers.batched_positions[:, 2] < -100.0).all()
-    where = np.array([[1.0, 5.0, 3.0], [2.0, 6.0, 4.0], [0.0, np.pi / 2, 0.0]], np.float32)
+    where = np.array([[1.0, 5.0, 3.0], [2.0, 6.0, 4.0], [0.0, np.pi / 2, 0.0], [0.0, 0.0, 5.5]], np.float32)
     scene.update_obstacles(np.array([1, 1, 0], np.int8), where)
     np.testing.assert_allclose(cones.batched_positions[0], [1.0, 2.0, 0.0])
     assert cones.batched_positions[1, 2] < -100.0
@@ -235,11 +235,12 @@ def test_who_walks_is_shown_where_he_is(scene):
     """Somebody on foot, a cyclist who turns, and a box of its size."""
     start = [Place("pedestrian", 1.0, 2.0, 0.0), Place("cyclist", 5.0, 6.0, 0.0), Place("box", 7.0, 8.0, 0.0, (2.0, 0.5))]
     scene.show_obstacles(start)
-    where = np.array([[1.5, 5.0, 7.0], [2.0, 6.5, 8.0], [0.0, np.pi / 2, 0.0]], np.float32)
+    where = np.array([[1.5, 5.0, 7.0], [2.0, 6.5, 8.0], [0.0, np.pi / 2, 0.0], [0.0, 0.0, 5.5]], np.float32)
     scene.update_obstacles(np.ones(3, np.int8), where)
     np.testing.assert_allclose(node(scene, "/obstacles/pedestrians").batched_positions[0], [1.5, 2.0, 0.0])
     np.testing.assert_allclose(node(scene, "/obstacles/cyclists").batched_wxyzs[0], [np.sqrt(0.5), 0, 0, np.sqrt(0.5)], atol=1e-6)
     np.testing.assert_allclose(node(scene, "/obstacles/boxs").batched_scales[0], [2.0, 0.5, 1.0])
+    np.testing.assert_allclose(node(scene, "/obstacles/boxs").batched_positions[0], [7.0, 8.0, 5.5])  # on a bridge
 
 
 def test_fog_hides_what_is_farther_than_one_sees(scene, monkeypatch):

@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 
+from studio.errors import ScenarioError
+from studio.road import load
 from studio.scenario.setup import complete
 from studio.vehicle.parameter import FRONT, LENGTH, PARAMETER, WIDTH
 from studio.vehicle.state import V_X, VEHICLE, X, Z
 from studio.world.build import build
 from studio.world.passes.collision import touching
 from studio.world.setting import setting
+from studio.world.table.street import O_HEIGHT, O_LEVEL, O_LIFT, O_X
 from studio.world.tick import tick
 from tests.road.plot import plot
 
@@ -129,3 +132,82 @@ def test_on_a_ramp_who_is_ahead_is_seen(tmp_path):
         seen.append(bool(each.out[0, 0]))
         height.append(float(world.vehicles.state[Z, 0]))
     assert max(height) - height[0] > 3.0 and np.mean(seen) > 0.99
+
+
+# -- who walks, and what stands --------------------------------------------------------------------
+
+FLYOVER = {1: (-400, 0), 2: (-50, 0), 3: (50, 0), 4: (400, 0), 5: (0, -200), 6: (0, 200)}
+STREETS = {11: ([1, 2], {}), 12: ([2, 3], {"bridge": "yes"}), 13: ([3, 4], {}), 14: ([5, 6], {})}
+
+
+def beset(tmp_path, do, vehicle="east", along=365.0):
+    """A street that climbs onto a bridge over another one, what the script brings, by where they cross, and a car with a radar, on either,
+    that comes there."""
+    path = plot(tmp_path / "map.osm", FLYOVER, {way: (line, {"oneway": "yes"} | tags) for way, (line, tags) in STREETS.items()})
+    network = load(path)
+    at = (float(network.lanes_of("14")[0].centre[0].mean()), float(network.lanes_of("11")[0].centre[1].mean()))
+    script = {f"it_{number}": {"do": each} for number, each in enumerate(do(*at))}
+    car = {"route": vehicle, "position": {"along": along}, "speed": 8.0, "sensors": {"front": {"kind": "front_radar"}}}
+    document = {
+        "title": "levels", "map": {"file": "map.osm"}, "vehicles": {"east": car}, "clock": {"duration": 10},
+        "routes": {"east": {"roads": ["11"]}, "north": {"roads": ["14"]}}, "script": script,
+    }  # fmt: skip
+    return build([setting(complete(document, "levels"), tmp_path, "levels")])
+
+
+def walker(**more):
+    return lambda x, y: [{"kind": "mover", "who": "pedestrian", "line": [[x, y]], "speed": 0} | more]
+
+
+def box(**more):
+    return lambda x, y: [{"kind": "object", "x": x, "y": y} | more]
+
+
+def barriers(x, y):
+    return [{"kind": "objects", "route": "east", "start": 395, "end": 400, "what": "barriers"}]
+
+
+@pytest.mark.parametrize(("do", "height"), [
+    (walker(), 0.0), (walker(level=1), 5.5), (box(level=0), 0.0), (box(level=1), 5.5), (barriers, 5.5),
+    (walker(route="east", line=[[400, 0]]), 5.5), (walker(route="north", line=[[200, 0]]), 0.0),
+])  # fmt: skip
+def test_who_stands_where_roads_cross_stands_on_one_of_them(tmp_path, do, height):
+    """On that he is seen, braked for, and drawn; who drives on the other one passes."""
+    for vehicle, along in (("east", 365.0), ("north", 165.0)):
+        world = beset(tmp_path, do, vehicle, along)
+        assert world.obstacles.table[O_HEIGHT] == pytest.approx(height, abs=0.3)
+        assert world.obstacles.table[O_LIFT] == pytest.approx(height, abs=0.3)
+        seen, least = looked(world, 4.5)
+        is_his = (vehicle == "east") == (height > 1.0)
+        assert (seen, least < 5.0, world.events.hits_found) == (is_his, is_his, 0)
+
+
+def test_who_walks_up_a_ramp_comes_onto_the_bridge(tmp_path):
+    """Along the street, which climbs over 350 m from its end to the bridge, and on the same line 12 m beside it, on the land."""
+
+    def both(x, y):
+        return [{"kind": "mover", "line": [[x - 300.0, each], [x + 300.0, each]], "speed": 30.0} for each in (y, y + 12.0)]
+
+    world = beset(tmp_path, both, along=5.0)
+    middle, found = float(world.obstacles.table[O_X, 0]) + 300.0, []
+    while world.clock.time < 19.9:
+        tick(world)
+        found.append(world.obstacles.table[[O_X, O_HEIGHT, O_LIFT, O_LEVEL]].copy())
+    x, height, lift, level = np.array(found).transpose(1, 2, 0)
+    x -= middle
+    deck = np.abs(x[0]) < 40.0
+    assert height[0, deck] == pytest.approx(5.5, abs=0.3) and (level[0, deck] == 1.0).all()
+    assert height[0, [0, -1]] == pytest.approx(5.5 * 100.0 / 350.0, abs=0.15) and np.abs(np.diff(height[0])).max() < 0.1
+    assert lift[0] == pytest.approx(height[0], abs=0.1)
+    assert height[1, np.abs(x[1]) > 8.0] == pytest.approx(0.0, abs=0.1)
+
+
+def test_a_level_that_there_is_not_is_refused(tmp_path):
+    with pytest.raises(ScenarioError, match=r"script\.it_0\.do\.level.*2.*0 or 1"):
+        beset(tmp_path, box(level=2))
+
+
+def test_what_lies_below_a_bridge_keeps_nobody_from_starting_on_it(tmp_path):
+    assert beset(tmp_path, box(), along=400.0).events.hits_found == 0
+    with pytest.raises(ScenarioError, match="it_0"):
+        beset(tmp_path, box(level=1), along=400.0)

@@ -20,6 +20,8 @@ MOVES = True
 Corner = Annotated[tuple[float, float], Field(json_schema_extra={"unit": "m"})]
 SIZES = {"pedestrian": (0.6, 0.5), "cyclist": (1.9, 0.6), "box": (1.0, 1.0)}  # [m] length and width
 
+LEVEL = "where roads lie above each other, on which it begins, 1 on a bridge, -1 in a tunnel; left out: on the route, or the land"
+
 
 class Settings(Part):
     """Who, where, and how fast."""
@@ -34,12 +36,15 @@ class Settings(Part):
         description="its corners: station along the route and how far to its left, or east and north on the map; one: it stands there",
     )
     speed: float = number(1.39, unit="m/s", title="Speed", ge=0, le=30)
+    level: int | None = Field(None, ge=-10, le=10, title="Level", description=LEVEL)
     stays: bool = Field(True, title="Stays", description="at the end of its line; else it is gone")
     length: float | None = Field(None, gt=0.05, le=20, title="Length", json_schema_extra={"unit": "m"})
     width: float | None = Field(None, gt=0.05, le=5, title="Width", json_schema_extra={"unit": "m"})
 
     @model_validator(mode="after")
     def goes_on(self):
+        if self.route is not None and self.level is not None:
+            raise ValueError("a line along a route begins on the level of the route: leave out the level")
         if any(one == other for one, other in pairwise(self.line)):
             raise ValueError("two corners of the line that follow each other must not be one")
         return self
@@ -49,7 +54,8 @@ def effects(settings, place):
     """One who moves."""
     length, width = SIZES[settings.who]
     size = (settings.length or length, settings.width or width)
-    return [Walk(settings.who, place.on_map(settings.route, settings.line), settings.speed, settings.stays, size)]
+    line, height = place.on_map(settings.route, settings.line), place.height(settings.route, settings.line[0][0])
+    return [Walk(settings.who, line, settings.speed, settings.stays, size, settings.level, height)]
 
 
 def told(settings):

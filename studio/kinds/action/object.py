@@ -20,6 +20,8 @@ MOVES = True
 SIZES = {"cuboid": (1.0, 1.0), "cylinder": (0.6, 0.6), "cone": (0.3, 0.3), "barrier": (1.5, 0.25), "wall": (4.0, 0.25), "tree": (0.4, 0.4)}
 AHEAD = 0.1  # [m] the second corner of a line that nobody goes along: it says which way the object looks
 
+LEVEL = "where roads lie above each other, on which it stands, 1 on a bridge, -1 in a tunnel; left out: on the land"
+
 
 class Settings(Part):
     """Which, where, and how large."""
@@ -27,6 +29,7 @@ class Settings(Part):
     shape: Literal["cuboid", "cylinder", "cone", "barrier", "wall", "tree"] = Field("cuboid", title="Shape")
     x: float = number(..., unit="m", title="East", ge=-100_000, le=100_000)
     y: float = number(..., unit="m", title="North", ge=-100_000, le=100_000)
+    level: int | None = Field(None, ge=-10, le=10, title="Level", description=LEVEL)
     heading: float = number(0.0, unit="rad", title="Heading", description="of its length; 0 is east, left positive", ge=-7, le=7)
     length: float | None = Field(
         None, gt=0.05, le=50, title="Length", description="left out: as usual for its shape", json_schema_extra={"unit": "m"}
@@ -40,8 +43,9 @@ def effects(settings, place):
     """One who does not move."""
     length, width = SIZES[settings.shape]
     ahead = (settings.x + AHEAD * cos(settings.heading), settings.y + AHEAD * sin(settings.heading))
+    size = (settings.length or length, settings.width or width)
     who = "box" if settings.shape == "cuboid" else settings.shape
-    return [Walk(who, ((settings.x, settings.y), ahead), 0.0, True, (settings.length or length, settings.width or width))]
+    return [Walk(who, ((settings.x, settings.y), ahead), 0.0, True, size, settings.level)]
 
 
 def told(settings):

@@ -126,7 +126,7 @@ def nearest_barrier(view, me, kappa, beyond, best, nearest):
     """The same among the barriers that stand there."""
     first, sight = view.first_object[me.world], view.sight
     for i in range(first, first + view.object_count[me.world]):
-        if is_thing(view, i, False):
+        if is_thing(view, me, i, False):
             put_object(view, me, i, 0)
             if (
                 sight[SEEN_X, 0] > 0.0

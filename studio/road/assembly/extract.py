@@ -58,7 +58,7 @@ def part(path: Path, wish: Wish) -> Part:
 
 def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -> Plan:
     """The plan of a part. What is needed only here is imported only here: a kept map opens at once."""
-    from studio.road.assembly import audit, elevation, level, narrow, shared, storey, turn
+    from studio.road.assembly import audit, elevation, level, narrow, shared, storey, stub, turn
     from studio.road.assembly.alignment import aligned
     from studio.road.assembly.priority import mapped_law
     from studio.road.assembly.side import drive_side
@@ -79,6 +79,7 @@ def plan(path: Path, data: bytes, kept: Part, progress: Callable[[str], None]) -
     progress("building lanes and junctions")
     raw, forks, bans = lanes_of(path, found, ways, box, ids, left_hand)
     smooth = narrow.drivable(aligned(raw), lambda each: end_of(raw, each, ways, box), found.notes)
+    stub.tell(smooth, lambda each: end_of(smooth, each, ways, box), found.notes)
     smooth = shared.brought_together(smooth, cut, found.notes)
     grid = elevation.grid_of(cut, box)
     land = elevation.mapped_heights(found, grid, cut, box)

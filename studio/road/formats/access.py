@@ -40,7 +40,14 @@ def closed(tags: Mapping[str, str], direction: str = BOTH) -> str:
     if tags.get("area") == "yes":
         return "area=yes is no way"
     key, value = access(tags, direction)
-    return f"{key}={value}" if value is not None and not is_open(value) else ""
+    if value is not None and not is_open(value):
+        return f"{key}={value}"
+    return next((f"{key}={tags[key]}" for key in lanewise(direction) if key in tags and not any(map(is_open, tags[key].split("|")))), "")
+
+
+def lanewise(direction: str) -> list[str]:
+    """The keys that say for each lane of a direction who may drive there."""
+    return [f"{key}:lanes{each}" for key in KEYS for each in dict.fromkeys((direction, BOTH))]
 
 
 def access(tags: Mapping[str, str], direction: str = BOTH) -> tuple[str, str | None]:

@@ -141,8 +141,9 @@ def lane_of(graph: Graph, road: XRoad, atoms: tuple[Atom, ...], spot, notes: Not
     """The lane of some atoms; its place in the network is not known yet."""
     lines = [graph.pieces[name][k].lines[lane] for name, k, lane in sorted(atoms, key=lambda atom: atom[1])]
     centre, height = np.concatenate([each.centre for each in lines], axis=1), np.concatenate([each.height for each in lines])
+    level = np.concatenate([each.level for each in lines])
     if not graph.is_forward(atoms[0]):
-        centre, height = centre[:, ::-1], height[::-1]
+        centre, height, level = centre[:, ::-1], height[::-1], level[::-1]
     keep = np.append(True, np.hypot(*np.diff(centre)) > 1e-6)
     centre, height, width = centre[:, keep].copy(), height[keep].copy(), np.concatenate([each.width for each in lines])
     usual, piece = float(np.median(width)), graph.pieces[road.id][atoms[0][1]]
@@ -151,7 +152,8 @@ def lane_of(graph: Graph, road: XRoad, atoms: tuple[Atom, ...], spot, notes: Not
         at = spot(road.id, piece.start)
         notes.guess("lane width", what, at, source=f"{width.min():.2f} to {width.max():.2f} m wide", sure="medium")
     strip = graph.strip(atoms[0])
-    return Lane(0, "", 0, max(usual, NARROWEST), piece.speeds[strip.id], centre, False, curve.length(centre), strip.open, height)
+    made = Lane(0, "", 0, max(usual, NARROWEST), piece.speeds[strip.id], centre, False, curve.length(centre), strip.open, height)
+    return replace(made, level=level[keep].copy()) if level.any() else made
 
 
 def connections(lanes: list[Lane], onward: dict[int, list[int]], origin: dict[int, str]) -> Iterator[Connection]:

@@ -5,6 +5,7 @@ lanes   are numbered from the middle: 1, 2, … to the left of the reference lin
 """
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from studio.road.opendrive.reference_line import Profile, ReferenceLine
 
@@ -79,6 +80,14 @@ class Signal:
     rule: str = "light"
 
 
+class Deck(NamedTuple):
+    """A bridge or a tunnel: from where to where it is along its road [m], and on which level it lies."""
+
+    start: float
+    end: float
+    level: int
+
+
 @dataclass(frozen=True)
 class XRoad:
     """A road of the document. `kinds` are (s [m], type, country, limit [m/s] or not a number)."""
@@ -96,6 +105,7 @@ class XRoad:
     offset: Profile
     sections: tuple[Section, ...]
     signals: tuple[Signal, ...]
+    decks: tuple[Deck, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -139,6 +139,7 @@ def plan(path: Path, data: bytes, kept: str, progress: Callable[[str], None]) ->
 def planned(found: Document) -> Plan:
     """The same; messages do not name the file."""
     from studio.road.assembly import narrow
+    from studio.road.opendrive import deck
     from studio.road.opendrive.build import build
 
     notes, middle = Notes(), middle_of(found)
@@ -160,6 +161,7 @@ def planned(found: Document) -> Plan:
     tell(found, earth, spot, notes)
     net, places = shifted(made.net, middle), [place - middle for place in made.places]
     net = narrow.drivable(net, lambda each: end_of(net, each, earth, middle), notes)
+    net = deck.with_heights(net, lambda road: spot_of(net, road, earth, middle), notes)
     return Plan(
         net=net,
         signalled=net.signalled,
@@ -192,6 +194,11 @@ def end_of(net: Net, connection: Connection, earth: "Earth", middle: np.ndarray)
     """Where a connection begins."""
     lane = net.lanes[connection.from_lane]
     return Spot(f"road {lane.road}", *earth.degrees(lane.centre[:, -1] + middle))
+
+
+def spot_of(net: Net, road: str, earth: "Earth", middle: np.ndarray) -> Spot:
+    """Where a road begins."""
+    return Spot(f"road {road}", *earth.degrees(net.lanes[net.roads[road].lanes[0]].centre[:, 0] + middle))
 
 
 # -- the place -------------------------------------------------------------------------------------

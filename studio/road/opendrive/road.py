@@ -1,13 +1,13 @@
 """Reads the roads of an OpenDRIVE document."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from studio.errors import MapError
-from studio.road.opendrive.document import Document, Link, XRoad
+from studio.road.opendrive.document import Deck, Document, Link, XRoad
 from studio.road.opendrive.element import number, place, spared
 from studio.road.opendrive.lane import read_sections
 from studio.road.opendrive.reference_line import NOTHING, Bend, Cubic, Profile, ReferenceLine
@@ -70,6 +70,7 @@ def read_road(element: Element, name: str, found: Document) -> XRoad:
         offset=profile(element.findall("lanes/laneOffset"), name, found),
         sections=sections,
         signals=tuple(read_signals(element, length, name, found)),
+        decks=tuple(read_decks(element, length, name, found)),
     )
 
 
@@ -189,14 +190,34 @@ def read_kind(element: Element, road: str, found: Document) -> tuple[float, str,
     return s, element.get("type") or "unknown", element.get("country") or "", math.nan if limit is None else limit
 
 
+def read_decks(element: Element, length: float, road: str, found: Document) -> Iterator[Deck]:
+    """The bridges and tunnels of a road, each told with the level on which its lanes lie there."""
+    for tag, level in (("bridge", 1), ("tunnel", -1)):
+        for each in element.findall(f"objects/{tag}"):
+            s = place(each, "s")
+            deck = spared(found, tag, road, s, lambda each=each, tag=tag, level=level: read_deck(each, tag, level, length, f"road {road}"))
+            if deck is not None:
+                what = f"level {deck.level} for {deck.end - deck.start:.1f} m"
+                found.derive("level", what, road, s, f"{tag} {each.get('id')}: on its whole width, whichever lanes it names")
+                yield deck
+
+
+def read_deck(element: Element, tag: str, level: int, length: float, where: str) -> Deck:
+    """One bridge or tunnel, as far as its road goes; raises MapError where it is beside its road."""
+    s, far = number(element, "s", where), number(element, "length", where)
+    start, end = max(s, 0.0), min(s + far, length)
+    if not start < end:
+        raise MapError(f"{where}: <{tag}> is from s = {s:g} m on {far:g} m long; allowed: on its road, 0 to {length:g} m")
+    return Deck(start, end, level)
+
+
 def note_unused(element: Element, road: str, found: Document) -> None:
     """Notes objects, cross slopes and surfaces, which are not built."""
     for each in element.findall("objects/object"):
         what = " ".join(filter(None, ["object", each.get("id"), each.get("type") or each.get("name")]))
         found.remark("object", what, road, place(each, "s"), "objects beside the road are not built")
-    for name in ("tunnel", "bridge", "objectReference"):
-        for each in element.findall(f"objects/{name}"):
-            found.remark(name, f"{name} {each.get('id')}", road, place(each, "s"), "objects are not built")
+    for each in element.findall("objects/objectReference"):
+        found.remark("objectReference", f"objectReference {each.get('id')}", road, place(each, "s"), "objects are not built")
     for name in ("superelevation", "crossfall", "shape"):
         steep = [each for each in element.findall(f"lateralProfile/{name}") if any(place(each, k) for k in "abcd")]
         if steep:

@@ -35,7 +35,10 @@ def read_signals(element: Element, length: float, road: str, found: Document) ->
         if made is not None:
             yield made
     for each in element.findall("signals/signalReference"):
-        rule = found.rules.get(each.get("id") or "")
+        name = each.get("id") or ""
+        rule = found.rules.get(name)
+        if name not in found.rules:
+            found.remark("signal", f"signalReference {name}", road, place(each, "s"), "names no signal of the document")
         made = rule and spared(found, "signal", road, place(each, "s"), lambda each=each, rule=rule: signal(each, length, road, rule))
         if made:
             yield made

@@ -35,7 +35,7 @@ USED = {
     "junctionGroup": {"junctionReference"},
 }
 SINGLY = {  # told one by one where they stand (road.py), with all that is in them
-    *("object", "tunnel", "bridge", "objectReference", "superelevation", "crossfall", "shape", "CRG", "switch"),
+    *("object", "bridge", "tunnel", "objectReference", "superelevation", "crossfall", "shape", "CRG", "switch"),
 }
 LIGHTS = "lights change as the studio programmes them"
 EVEN = "roads are even"

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from studio.road.network import Lane, Network, curve
+from studio.road.network import Lane, Net, Network, curve
 from studio.road.network.index import once
 from studio.road.ways.path import PATH_HEIGHT, PATH_SPACING, Path
 
@@ -191,7 +191,7 @@ def nearest(stations: np.ndarray, first: np.ndarray, lane: int, s: float) -> int
     return int(first[lane] + np.abs(stations[first[lane] : first[lane + 1]] - s).argmin())
 
 
-def links(network: Network, first: np.ndarray, points: np.ndarray, level: np.ndarray):
+def links(network: Network | Net, first: np.ndarray, points: np.ndarray, level: np.ndarray):
     """How far it is from place to place [m], along lanes and from each to the next; on one mapped level off the ground it costs nothing."""
     from scipy.sparse import coo_matrix
 

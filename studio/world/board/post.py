@@ -34,7 +34,7 @@ from studio.world.board.air import EARLY, Air, remembered
 from studio.world.board.host import Fault
 from studio.world.board.log import Log, log_link
 from studio.world.board.sensing import stored
-from studio.world.passes.sight import OTHER_LEVEL, STEEPNESS
+from studio.world.passes.level import OTHER_LEVEL, STEEPNESS
 from studio.world.table.cause import ABSENT, DROPPED, JAMMED, OUT_OF_RANGE, RECEIVED
 from studio.world.table.unit import (
     COSINE,

@@ -17,16 +17,19 @@ import numpy as np
 from studio.errors import Problem, RouteError, ScenarioError
 from studio.kind.driver import Driver
 from studio.road.network import Network
+from studio.road.network.curve import LOCK
 from studio.road.ways.route import connect
 from studio.scenario import catalogue
 from studio.scenario.schema import Scenario
 from studio.scenario.traffic import CarType, Normal
+from studio.world.demand.lock import Locks, known_locks
 from studio.world.demand.routes_file import SETTING_OF, Departure, Vtype, read
 from studio.world.demand.source import Stream
 from studio.world.demand.style import range_of
 
 CAR_MODELS = ("smart_fortwo", "electric_compact", "ford_escort", "bmw_320i", "suv")
 THEIRS = {mine: theirs for theirs, mine in SETTING_OF.items()}
+NO_WAY = "cars whose route does not lead over this map"
 MOST_TOLD = 12  # kinds of what is not used
 
 
@@ -49,15 +52,16 @@ def imported(scenario: Scenario, network: Network, folder: Path, where: str) -> 
     plan = read(path, scenario.seed_of("traffic"), scenario.clock.duration, where)
     mine = scenario.traffic.types
     types = types_of({name: each for name, each in plan.types.items() if name not in mine}, scenario, where)
-    streams, lost = streams_of(plan.departures, network, {*types, *mine})
+    traffic = scenario.traffic.model_copy(update={"types": types | mine})
+    asked = scenario.model_copy(update={"traffic": traffic})
+    streams, lost = streams_of(plan.departures, network, {*types, *mine}, known_locks(asked, folder))
     if not streams:
         reasons = "; ".join(f"{what}: {count}" for what, count in (lost + plan.unused).most_common(3)) or "nobody departs in it"
         problem = Problem(f"{where}: traffic.routes", "brings no car onto this map", named, remedy=reasons)
         raise ScenarioError(f"The route file of {where} cannot be used.", [problem])
-    traffic = scenario.traffic.model_copy(update={"types": types | mine})
     told = (*summary(streams, lost), *unused(plan.unused))
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    return Imported(scenario.model_copy(update={"traffic": traffic}), tuple(streams), told, digest)
+    return Imported(asked, tuple(streams), told, digest)
 
 
 # -- what is told ----------------------------------------------------------------------------------
@@ -128,13 +132,14 @@ def type_problems(vtype: Vtype, driver: type[Driver], where: str) -> Iterator[Pr
 # -- streams ---------------------------------------------------------------------------------------
 
 
-def streams_of(departures: list[Departure], network: Network, types: set[str]) -> tuple[list[Stream], Counter]:
+def streams_of(departures: list[Departure], network: Network, types: set[str], locks: Locks) -> tuple[list[Stream], Counter]:
     """The departures by what they have in common, in an order that does not hang on that of the file; and what became of others."""
+    of_type = {each: locks.of_traffic(each if each in types else None) for each in {each.vtype for each in departures}}
     together: dict[tuple, list[float]] = defaultdict(list)
     lost: Counter = Counter()
     drivable = Drivable(network, lost)
     for each in departures:
-        roads, lane = drivable.way(each.edges, each.lane)
+        roads, lane = drivable.way(each.edges, each.lane, of_type[each.vtype])
         if roads:
             together[roads, each.vtype, lane].append(each.time)
     for vtype in {vtype for _, vtype, _ in together} - types:
@@ -154,30 +159,35 @@ class Drivable:
 
     def __init__(self, network: Network, lost: Counter) -> None:
         self.network, self.lost = network, lost
-        self.known: dict[tuple[tuple[str, ...], int | None], tuple[tuple[str, ...], int | None]] = {}
+        self.known: dict[tuple[tuple[str, ...], int | None, float], tuple[tuple[str, ...], int | None]] = {}
         self.pieces: dict[str, list[str]] = defaultdict(list)
         for road in network.roads.values():
             if not road.internal:
                 for way in {road.id.partition("#")[0], *(f"{'-' * road.id.startswith('-')}{way}" for way in road.ways)}:
                     self.pieces[way].append(road.id)
 
-    def way(self, edges: tuple[str, ...], lane: int | None) -> tuple[tuple[str, ...], int | None]:
-        """The roads of a route, none when it cannot be driven here, and the lane that it may start on."""
-        key = edges, lane
+    def way(self, edges: tuple[str, ...], lane: int | None, lock: float) -> tuple[tuple[str, ...], int | None]:
+        """The roads of a route, none when a vehicle of a lock [1/m] cannot drive it here, and the lane that it may start on."""
+        if not self.looked_up(edges, lane, lock)[0]:
+            is_narrow = lock < LOCK and self.looked_up(edges, lane, LOCK)[0]
+            self.lost["cars whose route has turns that are too narrow for them" if is_narrow else NO_WAY] += 1
+        return self.looked_up(edges, lane, lock)
+
+    def looked_up(self, edges: tuple[str, ...], lane: int | None, lock: float) -> tuple[tuple[str, ...], int | None]:
+        """The same, each looked up once."""
+        key = edges, lane, lock
         if key not in self.known:
-            self.known[key] = self.found(edges, lane)
-        if not self.known[key][0]:
-            self.lost["cars whose route does not lead over this map"] += 1
+            self.known[key] = self.found(edges, lane, lock)
         return self.known[key]
 
-    def found(self, edges: tuple[str, ...], lane: int | None) -> tuple[tuple[str, ...], int | None]:
+    def found(self, edges: tuple[str, ...], lane: int | None, lock: float) -> tuple[tuple[str, ...], int | None]:
         """The same, looked up."""
         roads = tuple(dict.fromkeys(self.on_map(edges)))
         if not roads:
             return (), None
         lanes = len(self.network.roads[roads[0]].lanes)
         for start in dict.fromkeys((lane if lane is not None and lane < lanes else None, None)):
-            if self.leads_on(roads, start):
+            if self.leads_on(roads, start, lock):
                 if start != lane:
                     self.lost["routes that do not begin on the lane that the file names"] += 1
                 return roads, start
@@ -201,10 +211,10 @@ class Drivable:
         before = [(numbered(each), each) for each in self.pieces.get(way, ()) if numbered(each) <= number]
         return max(before)[1] if before else min(self.pieces.get(way, ()), key=numbered, default=None)
 
-    def leads_on(self, roads: tuple[str, ...], lane: int | None) -> bool:
-        """Whether there is a way through some roads."""
+    def leads_on(self, roads: tuple[str, ...], lane: int | None, lock: float) -> bool:
+        """Whether there is a way through some roads for a vehicle of a lock [1/m]."""
         try:
-            connect(self.network, roads, start_lane=lane)
+            connect(self.network, roads, start_lane=lane, lock=lock)
         except RouteError:
             return False
         return True

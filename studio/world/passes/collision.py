@@ -9,11 +9,11 @@ from math import cos, sin, sqrt
 from studio.compiled import inlined, lean
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, X, Y, Z
+from studio.world.passes.level import OTHER_LEVEL, is_thing_apart
 from studio.world.passes.neighbour import AT_X, AT_Y, moved, within
 from studio.world.table.street import HIT_FIRST, HIT_SECOND, HIT_SPEED, HIT_TIME, O_HEADING, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
 NEAR = 2.0  # [m] two bodies are looked at when their middles are nearer than half of both lengths and this
-OTHER_LEVEL = 3.0  # [m] of height between those who do not meet: one drives on a bridge
 ROUNDING = 1e-6  # [m] by which a bound gives way
 
 
@@ -82,6 +82,8 @@ def striking(v, i, state, parameter, table):
     x, y = centre(v, state, parameter)
     dx, dy = table[O_X, i] - x, table[O_Y, i] - y
     if dx * dx + dy * dy > 0.25 * (parameter[LENGTH, v] + table[O_LENGTH, i] + 2.0 * NEAR) ** 2:
+        return False
+    if is_thing_apart(v, i, state, parameter, table):
         return False
     return overlap(
         dx, dy, state[PSI, v], parameter[LENGTH, v], parameter[WIDTH, v], table[O_HEADING, i], table[O_LENGTH, i], table[O_WIDTH, i]

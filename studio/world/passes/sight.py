@@ -30,12 +30,13 @@ from studio.road.network.shadow import (
 )
 from studio.road.ways.path import PATH_SPACING
 from studio.rows import Role, Table
-from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
+from studio.vehicle.parameter import FRONT, LENGTH, WIDTH, H
 from studio.vehicle.state import ACTIVE, V_X, X, Y, Z
+from studio.world.passes.level import OTHER_LEVEL, STEEPNESS, is_thing_apart
 from studio.world.passes.neighbour import COS, SIN, within
 from studio.world.table.chart import LEVEL
 from studio.world.table.mind import STATION
-from studio.world.table.street import CONE, O_HEADING, O_KIND, O_LENGTH, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
+from studio.world.table.street import CONE, O_HEADING, O_HEIGHT, O_KIND, O_LENGTH, O_LEVEL, O_SPEED, O_WIDTH, O_X, O_Y, OBJECT
 
 SIGHT = Table("sight", Role.SCRATCH, per="body in the field of the sensor that looks")
 WHO = SIGHT.row("who", "1", "column of a vehicle, or OBJECT - i for object i of all worlds")
@@ -61,8 +62,6 @@ TRACK_EXISTENCE = SIGHT.row("track_existence", "1", "of the track")
 TRACK_SEEN = SIGHT.row("track_seen", "1", "1 when it has been seen at this look")
 
 ROOM = 64  # columns besides one for each body: covered bearings, and tracks
-OTHER_LEVEL = 3.0  # [m] of height between those who do not see each other when they are near: one drives on a bridge
-STEEPNESS = 0.06  # [1] rise over distance that is seen beyond that: half of what a sensor opens upwards, or a steep street
 PIECE, CLOSE = 24.0, 0.01  # [m] of a way, between which no building is looked for at once; beside a line, by rounding
 LEAST = 1e-9  # [rad] bearings below that are rounding
 
@@ -191,9 +190,9 @@ def speed_of(view, who):
 
 
 @inlined
-def is_thing(view, o, cones):
-    """Whether object o stands there, for a sensor that sees cones or does not."""
-    return view.standing[o] != 0 and (cones or view.table[O_KIND, o] != CONE)
+def is_thing(view, me, o, cones):
+    """Whether object o stands there, on the level that is seen, for a sensor that sees cones or does not."""
+    return view.standing[o] != 0 and (cones or view.table[O_KIND, o] != CONE) and not is_thing_on_other_level(view, me, o)
 
 
 @inlined
@@ -230,6 +229,16 @@ def is_on_other_level(view, me, v):
 
 
 @inlined
+def is_thing_on_other_level(view, me, o):
+    """Whether object o is clearly above or below what the unit's own vehicle sees."""
+    if me.vehicle < 0 or abs(view.state[Z, me.vehicle] - view.parameter[H, me.vehicle] - view.table[O_HEIGHT, o]) <= OTHER_LEVEL:
+        return False
+    if is_thing_apart(me.vehicle, o, view.state, view.parameter, view.table):
+        return True
+    return abs(view.table[O_LEVEL, o] - layer(view, me.vehicle)) >= 0.5
+
+
+@inlined
 def layer(view, v):
     """The level on which vehicle v is."""
     at = min(max(view.mind[STATION, v] / PATH_SPACING, 0.0), view.path_count[v] - 1.0)
@@ -255,7 +264,7 @@ def field(view, me, reach, half, cones):
             count += 1 if enlist(count, reach, view.sight) else 0
     first = view.first_object[me.world]
     for o in range(first, first + view.object_count[me.world]):
-        if is_thing(view, o, cones):
+        if is_thing(view, me, o, cones):
             put_object(view, me, o, count)
             count += 1 if enlist(count, reach, view.sight) else 0
     return count
@@ -472,7 +481,7 @@ def glimpse(view, me, half, cones, least, found):
             blocks = cover_if_nearer(near, sight, blocks)
     first = view.first_object[me.world]
     for o in range(first, first + view.object_count[me.world]):
-        if is_thing(view, o, cones) and OBJECT - o != int(sight[WHO, 0]):
+        if is_thing(view, me, o, cones) and OBJECT - o != int(sight[WHO, 0]):
             put_object(view, me, o, 1)
             blocks = cover_if_nearer(near, sight, blocks)
     has_houses = are_there_houses(view, me)

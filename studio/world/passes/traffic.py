@@ -12,6 +12,7 @@ from studio.road.network.signals import GREEN, RED, signal_state
 from studio.road.ways.path import (
     PATH_CURVATURE,
     PATH_HEADING,
+    PATH_HEIGHT,
     PATH_SPACING,
     PATH_SPEED,
     interpolate,
@@ -20,6 +21,7 @@ from studio.road.ways.path import (
 from studio.vehicle.parameter import C_FRONT, C_REAR, FRONT, L_F, L_R, LENGTH, MASS, STEER_MAX, STEER_RATE, WIDTH
 from studio.vehicle.state import ACTIVE, PSI, V_X, V_Y, YAW_RATE, X, Y
 from studio.world.passes.junction import BESIDE, ELBOW_ROOM, STANDING, has_to_let_pass, is_none_to_follow, lane_under, waits
+from studio.world.passes.level import OTHER_LEVEL
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.queue import KEY, THERE, WHO, first_drive, from_station, is_changed_to, is_met, station_on
 from studio.world.passes.regard import (
@@ -75,6 +77,7 @@ from studio.world.table.mind import (
 )  # fmt: skip
 from studio.world.table.street import (
     O_HEADING,
+    O_HEIGHT,
     O_LENGTH,
     O_SPEED,
     O_WIDTH,
@@ -343,6 +346,8 @@ def mind_mover(v, i, number, state, parameter, points, first, count, table, driv
     if distance > drivers[SIGHT, v] + parameter[FRONT, v] or dx * cos(state[PSI, v]) + dy * sin(state[PSI, v]) < 0.0:
         return
     s, e = project(points, first, count, table[O_X, i], table[O_Y, i], mind[STATION, v] + distance)
+    if abs(interpolate(points, first, PATH_HEIGHT, clip(s, count)) - table[O_HEIGHT, i]) > OTHER_LEVEL:
+        return
     across = table[O_HEADING, i] - interpolate(points, first, PATH_HEADING, clip(s, count))
     c, b = abs(cos(across)), abs(sin(across))
     along, aside = 0.5 * (table[O_LENGTH, i] * c + table[O_WIDTH, i] * b), 0.5 * (table[O_LENGTH, i] * b + table[O_WIDTH, i] * c)

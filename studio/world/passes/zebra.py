@@ -14,10 +14,11 @@ from math import cos, inf, sin, sqrt
 from studio.compiled import inlined, lean
 from studio.model import driver
 from studio.road.network.shadow import EYE, level, walls_between
-from studio.road.ways.path import PATH_HEADING, PATH_X, PATH_Y, interpolate, project
+from studio.road.ways.path import PATH_HEADING, PATH_HEIGHT, PATH_X, PATH_Y, interpolate, project
 from studio.vehicle.parameter import FRONT, LENGTH, WIDTH
-from studio.vehicle.state import ACTIVE, V_X, X, Y
+from studio.vehicle.state import ACTIVE, V_X, X, Y, Z
 from studio.world.passes.junction import ELBOW_ROOM
+from studio.world.passes.level import OTHER_LEVEL
 from studio.world.passes.neighbour import COS, SIN
 from studio.world.passes.traffic import LOOK, LOOKING, clip, yield_at_line
 from studio.world.table.mind import FIRST, SIGHT, STATION, WAY_STATION
@@ -25,6 +26,7 @@ from studio.world.table.street import (
     CONE,
     O_ENTRY,
     O_HEADING,
+    O_HEIGHT,
     O_KIND,
     O_LENGTH,
     O_WIDTH,
@@ -84,6 +86,8 @@ def edge_before(v, i, k, state, parameter, points, first, count, table, zebra, d
     if dx * dx + dy * dy > reach * reach:
         return inf
     own, turn = crossed(v, k, state, points, first, count, zebra, mind)
+    if own < inf and abs(interpolate(points, first, PATH_HEIGHT, own) - table[O_HEIGHT, i]) > OTHER_LEVEL:
+        return inf
     line = own - 0.5 * zebra[Z_WIDTH, k] / turn
     distance = line - mind[STATION, v] - parameter[FRONT, v]
     if not 0.0 <= distance < inf or not driver.can_stop(state[V_X, v], distance):
@@ -130,13 +134,13 @@ def is_hidden(v, i, state, parameter, places, world_of, place, shadow, table, st
     if walls_between(shadow, place, x, y, EYE, table[O_X, i], table[O_Y, i], EYE)[0] > 0:
         return True
     for w in range(state.shape[1]):
-        if w != v and world_of[w] == world_of[v] and state[ACTIVE, w] != 0.0:
+        if w != v and world_of[w] == world_of[v] and state[ACTIVE, w] != 0.0 and abs(state[Z, w] - state[Z, v]) <= OTHER_LEVEL:
             c, b, length = places[COS, w], places[SIN, w], parameter[LENGTH, w]
             ahead = parameter[FRONT, w] - 0.5 * length
             if covers(dx, dy, state[X, w] + ahead * c - x, state[Y, w] + ahead * b - y, c, b, length, parameter[WIDTH, w]):
                 return True
     for o in range(first, first + count):
-        if o != i and standing[o] != 0 and table[O_KIND, o] != CONE:
+        if o != i and standing[o] != 0 and table[O_KIND, o] != CONE and abs(table[O_HEIGHT, o] - table[O_HEIGHT, i]) <= OTHER_LEVEL:
             c, b = cos(table[O_HEADING, o]), sin(table[O_HEADING, o])
             if covers(dx, dy, table[O_X, o] - x, table[O_Y, o] - y, c, b, table[O_LENGTH, o], table[O_WIDTH, o]):
                 return True

@@ -36,6 +36,9 @@ O_WIDTH = OBSTACLE.row("width", "m", "of the object")
 O_KIND = OBSTACLE.row("kind", "1", "0 a cone, 1 a barrier, 2 somebody on foot, 3 a cyclist, 4 a box")
 O_ENTRY = OBSTACLE.row("entry", "1", "number of the entry of the script that it belongs to")
 O_SPEED = OBSTACLE.row("speed", "m/s", "along its heading", role=Role.STATE)
+O_HEIGHT = OBSTACLE.row("height", "m", "of the road or the land that it stands on")
+O_LEVEL = OBSTACLE.row("level", "1", "on which level of the map that is")
+O_LIFT = OBSTACLE.row("lift", "m", "how high above the land it is drawn")
 CONE, BARRIER, PEDESTRIAN, CYCLIST, BOX = range(5)
 OBJECT = -2  # where the number of a vehicle may stand, object i of its world is OBJECT - i; -1 is nothing
 
