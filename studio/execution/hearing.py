@@ -1,16 +1,19 @@
 """What every link has heard last, sample by sample, kept as what has changed: most links hear nothing from one sample to the next.
 
-hearing.take(world)            the next sample
+hearing.make_room()            so that the next sample finds room
+Chain(hearing.links(world))    writes it, and then hearing.mark() says that it is there
 hearing.ages(links, time)  →   [s] float64[link, n], the age of the newest message on some links at the first samples
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from studio.bound import bound
+from studio.bound import Link, step
 from studio.execution.shelf import Arrays, Shelf
+from studio.execution.trail import stop
 from studio.world import channel
 from studio.world.board.post import Post
 from studio.world.world import World
@@ -38,37 +41,38 @@ class Hearing:
     until: list[int] = field(default_factory=list)  # per sample, how many changes there had been
     here: np.ndarray = field(init=False)  # which units were there when they were looked at last
     there: list[tuple[int, np.ndarray]] = field(default_factory=list)  # from which sample on which units are there
-    ready: list[Callable] = field(default_factory=list)  # what looks at one post after the other, and last at who is there
 
     def __post_init__(self) -> None:
         room = max(ROOM, 2 * self.newest.size)
         self.link, self.sent = np.empty(room, np.int32), np.empty(room)
 
-    def take(self, world: World) -> None:
-        """The next sample."""
-        if self.newest.size:
-            self.ready = self.ready or self.looking(world)
-            self.make_room()
-            for note in self.ready[:-1]:
-                note()
-            self.until.append(self.written + int(self.count[0]))
-            if self.ready[-1]():
-                self.there.append((len(self.until) - 1, self.here.copy()))
+    def mark(self) -> None:
+        """One more sample has been looked at."""
+        self.until.append(self.written + int(self.count[0]))
 
-    def looking(self, world: World) -> list[Callable]:
-        """All that looks at a sample; arrays stay where they are."""
+    def links(self, world: World) -> list[Link]:
+        """All that looks at a sample: at one post after the other, and last at who is there; arrays stay where they are."""
+        if not self.newest.size:
+            return []
         present = channel.present(world)
         self.here = np.zeros(present.size, dtype=bool)
         self.there.append((0, self.here.copy()))
-        return [*self.noting(world.units.posts), bound(channel.look, present, self.here)]
+        return [*self.noting(world.units.posts), Link(step(channel.look, present, self.here), self.others)]
 
-    def noting(self, posts: Sequence[Post]) -> Iterator[Callable]:
+    def others(self, found: Any) -> None:
+        """Others are there than before."""
+        if isinstance(found, BaseException):
+            raise found
+        self.there.append((len(self.until), self.here.copy()))
+
+    def noting(self, posts: Sequence[Post]) -> Iterator[Link]:
         """What notes down who has heard something newer, post by post."""
         first = sender = 0
         for i, post in enumerate(posts):
             own, newest = self.looked[sender : sender + post.sender.size], self.newest[first : first + post.link_receiver.size]
             heard = (post.link_first, post.taken, post.looks, post.came, post.came_count, post.inbox)
-            yield bound(channel.note, first, *heard, own, self.seen[i : i + 1], newest, self.link, self.sent, self.count)
+            own = (own, self.seen[i : i + 1], newest, self.link, self.sent, self.count)
+            yield Link(step(channel.note, first, *heard, *own), stop)
             first, sender = first + post.link_receiver.size, sender + post.sender.size
 
     def make_room(self) -> None:

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from studio import bound
+from studio.bound import Link
 from studio.errors import UnknownError, nearest
 from studio.execution.brought import Brought, Fault, acting_since, turns_of
 from studio.execution.cast import NOBODY, Cast
@@ -17,7 +19,7 @@ from studio.execution.happening import Happening
 from studio.execution.hearing import Hearing
 from studio.execution.message import Messages, none
 from studio.execution.shelf import Roll, Shelf
-from studio.execution.trail import Trail
+from studio.execution.trail import Trail, stop
 from studio.kind import registry
 from studio.kind.registry import Kind
 from studio.world import channel
@@ -327,8 +329,11 @@ class Recorder:
     values_of: Roll = field(init=False)  # a sample lies in one piece
     progress: np.ndarray = field(init=False)  # how many samples there are, up to when [s], for who finds the shelf without its process
     now: Chunk = field(init=False)  # the last chunk
+    used: np.ndarray = field(default_factory=lambda: np.zeros(1, np.int64))  # samples in it
     count: int = 0
-    sample: Callable[[int, int], None] = field(init=False)  # writes the channels to a place of the last chunk
+    heard: list[Link] | None = None  # what of a sample is about messages
+    writing: Link = field(init=False)  # writes the channels into the last chunk
+    sample: bound.Chain = field(init=False)  # writes a whole sample
 
     def __post_init__(self) -> None:
         self.times_of = self.shelf.roll("times", (self.room,))
@@ -339,16 +344,27 @@ class Recorder:
     def take(self, world: World, k: int) -> None:
         """Takes a sample when it is time for one; commands are those of tick k."""
         if world.clock.k % self.every == 0:
-            place = self.count % self.room
-            if place == 0:
-                self.now = Chunk(self.times_of.begin(), self.values_of.begin())
-                self.sample = channel.sampler(world, self.columns, self.now.values)
-            self.now.time[place] = world.clock.time
-            self.sample(place, k)
-            self.hearing.take(world)
-            self.trail.take()
+            time = world.clock.time
+            self.make_room(world)
+            self.sample(k, time)
+            self.hearing.mark()
             self.count += 1
-            self.progress[0], self.progress[1] = self.count, world.clock.time
+            self.progress[0], self.progress[1] = self.count, time
+
+    def make_room(self, world: World) -> None:
+        """So that one more sample finds room; where something begins anew, what writes it is given that once."""
+        is_new = self.count % self.room == 0
+        if is_new:
+            self.begin(world)
+        self.hearing.make_room()
+        if self.trail.make_room() or is_new:
+            self.heard = self.hearing.links(world) if self.heard is None else self.heard
+            self.sample = bound.Chain([self.writing, *self.heard, self.trail.link])
+
+    def begin(self, world: World) -> None:
+        """The next chunk."""
+        self.now, self.used[0] = Chunk(self.times_of.begin(), self.values_of.begin()), 0
+        self.writing = Link(channel.sampler(world, self.columns, self.used, self.now.time, self.now.values), stop)
 
     @cached_property
     def room(self) -> int:

@@ -24,6 +24,7 @@ from studio.errors import StudioError
 
 ZEROS = bytes(1 << 20)
 END = "end"  # a file that tells the run to end
+LARGE = 2 << 20  # [B] of a large page
 SMALL = 32 << 20  # [B] below which room is memory in any case: a mapped file costs a descriptor
 Arrays = tuple[np.ndarray, ...]
 
@@ -41,12 +42,26 @@ class Roll:
 
     def begin(self) -> np.ndarray:
         """The next block, to be written to."""
-        self.blocks.append(np.empty(self.shape, self.dtype))
+        self.blocks.append(on_large_pages(self.shape, self.dtype))
         return self.blocks[-1]
 
     def __getitem__(self, number: int) -> np.ndarray:
         """A block that has begun."""
         return self.blocks[number]
+
+
+def on_large_pages(shape: tuple[int, ...], dtype: np.dtype) -> np.ndarray:
+    """Room in memory, from the beginning of a large page on where it needs one.
+
+    numpy asks for large pages, but where a block begins or ends within one the system hands out small ones, each at the first
+    write to it.
+    """
+    size = prod(shape) * dtype.itemsize
+    if size < LARGE:
+        return np.empty(shape, dtype)
+    whole = np.empty(size + LARGE, np.uint8)
+    first = -whole.ctypes.data % LARGE
+    return whole[first : first + size].view(dtype).reshape(shape)
 
 
 class Shelf:

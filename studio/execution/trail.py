@@ -1,6 +1,7 @@
 """What probes have read, sample by sample, kept as what has changed: a sensor measures every few samples, and most see few targets.
 
-trail.take()                    the next sample
+trail.make_room()               so that the next sample finds room
+Chain([trail.link])             writes it
 trail.parts.at(samples, probes) →   float64[sample, probe], what some probes had read at some samples
 
 What is written together is a piece: of a sensor when it has measured, how many targets there were, and these; of anything else numbers that
@@ -8,7 +9,7 @@ follow each other. A piece that has changed is written behind everything else; e
 sensor has given something since it was looked at last, the time of what it has measured and its number of targets tell.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import nan
@@ -16,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studio.bound import bound
+from studio.bound import Link, step
 from studio.compiled import inlined, lean
 from studio.execution.shelf import Roll, Shelf
 from studio.world.board.sensing import Mounted
@@ -28,6 +29,7 @@ NOTHING = 0  # where a piece stands of which nothing has been written
 # Of a piece: numbers of the buffer that follow each other, how many at most; of a sensor where it stands when it has measured, and how many
 # numbers a target has. Of a sensor the first number is that of its targets.
 FIRST, STEP, MOST, GATE, WIDTH = range(5)
+SAMPLE, NUMBER = range(2)  # of what is used of a part
 ALWAYS = -1  # in place of a gate, for what is no sensor's
 
 
@@ -94,9 +96,8 @@ class Trail:
     newest: np.ndarray = field(init=False)  # where every piece stands now
     longest: int = field(init=False)  # numbers of a piece at most
     now: Part | None = None
-    used: int = 0
-    count: int = 0  # samples so far
-    keep: Callable[[int], int] = field(init=False)  # writes what has changed into the open part
+    total: np.ndarray = field(default_factory=lambda: np.zeros(2, np.int64))  # of the open part: samples and numbers
+    link: Link = field(init=False)  # writes a sample into the open part
 
     def __post_init__(self) -> None:
         probes = self.reader.probes
@@ -112,24 +113,35 @@ class Trail:
         """Numbers of a sample at most."""
         return int(self.pieces[MOST].sum()) + self.newest.size
 
-    def take(self) -> None:
-        """The next sample."""
-        if self.now is None or self.is_full(self.now):
-            self.now = self.begin()
-        self.used = self.keep(self.used)
-        self.now.place[self.count - self.now.first] = self.newest
-        self.count += 1
+    @property
+    def count(self) -> int:
+        """Samples so far."""
+        return 0 if self.now is None else self.now.first + int(self.total[SAMPLE])
+
+    @property
+    def used(self) -> int:
+        """Numbers of the open part that are written."""
+        return int(self.total[NUMBER])
+
+    def make_room(self) -> bool:
+        """So that the next sample finds room; whether `link` is another one now."""
+        if self.now is not None and not self.is_full(self.now):
+            return False
+        self.now = self.begin(self.count)
+        return True
 
     def is_full(self, part: Part) -> bool:
         """Whether a part may not take one more sample."""
-        return self.count - part.first == len(part.place) or self.used + self.room > part.numbers.size
+        samples, numbers = self.total.tolist()
+        return samples == len(part.place) or numbers + self.room > part.numbers.size
 
-    def begin(self) -> Part:
-        """A part, into which everything is written anew."""
-        part = self.parts.begin(self.count)
+    def begin(self, first: int) -> Part:
+        """A part, into which everything from a sample on is written anew."""
+        part = self.parts.begin(first)
         part.numbers[: self.longest] = nan
-        self.newest[:], self.seen[:], self.used = NOTHING, nan, self.longest
-        self.keep = bound(keep, self.reader.numbers, self.pieces, self.seen, self.newest, part.numbers, then=(self.used,))
+        self.newest[:], self.seen[:], self.total[:] = NOTHING, nan, (0, self.longest)
+        written = (self.newest, part.place, part.numbers, self.total)
+        self.link = Link(step(keep, self.reader.numbers, self.pieces, self.seen, *written), stop)
         return part
 
 
@@ -171,9 +183,15 @@ def places_within(probes: list[Probe]) -> Iterator[int]:
 # -- keeping ---------------------------------------------------------------------------------------------
 
 
+def stop(error: BaseException) -> None:
+    """Nothing is told of a sample but what is raised."""
+    raise error
+
+
 @lean
-def keep(numbers, pieces, seen, newest, kept, used):
-    """Writes pieces that have changed behind the first `used` of `kept`; how many are used then."""
+def keep(numbers, pieces, seen, newest, place, kept, total):
+    """Writes pieces that have changed behind what is used of `kept`, and where every piece stands."""
+    sample, used = total[SAMPLE], total[NUMBER]
     for i in range(pieces.shape[1]):
         first, gate = pieces[FIRST, i], pieces[GATE, i]
         if gate == ALWAYS:
@@ -181,7 +199,8 @@ def keep(numbers, pieces, seen, newest, kept, used):
         elif numbers[gate] != seen[0, i] or numbers[first] != seen[1, i]:
             seen[0, i], seen[1, i] = numbers[gate], numbers[first]
             used = keep_targets(i, numbers[gate], numbers, first, 1 + int(numbers[first]) * pieces[WIDTH, i], newest, kept, used)
-    return used
+        place[sample, i] = newest[i]
+    total[SAMPLE], total[NUMBER] = sample + 1, used
 
 
 @inlined

@@ -1,13 +1,12 @@
 """Channels: what can be recorded of a vehicle. Every row of these tables that has a label is one, and every kind that follows from them."""
 
-from collections.abc import Callable
 from functools import cache
 from math import nan
 from typing import NamedTuple
 
 import numpy as np
 
-from studio.bound import bound
+from studio.bound import Step, step
 from studio.compiled import inlined, lean
 from studio.kind import registry
 from studio.kind.registry import Kind
@@ -61,17 +60,23 @@ def derived(kind: Kind) -> Channel:
 registry.listen(catalogue.cache_clear)
 
 
-def sampler(world: World, columns: np.ndarray, values: np.ndarray) -> Callable[[int, int], None]:
-    """What writes all channels of some vehicles to a place of `values`, float64[place, channel, vehicle], with the commands of tick k."""
+def sampler(world: World, columns: np.ndarray, count: np.ndarray, times: np.ndarray, values: np.ndarray) -> Step:
+    """What writes a time [s] and all channels of some vehicles, with the commands of tick k, behind `count` samples.
+
+    `times` are float64[sample], `values` float64[sample, channel, vehicle].
+    """
     v = world.vehicles
     adhesion = (v.tyres, v.tyres_of, v.wheels, v.ground)
-    return bound(sample, columns, *adhesion, TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite, values, then=(0, 0))
+    seen = (TABLE_OF, ROW_OF, v.state, v.mind, v.commands, world.units.satellite)
+    return step(sample, columns, *adhesion, *seen, count, times, values, takes=("k", "time"))
 
 
 @lean
-def sample(columns, tyres, tyres_of, wheels, ground, table_of, row_of, state, mind, commands, satellite, values, place, k):
+def sample(columns, tyres, tyres_of, wheels, ground, table_of, row_of, state, mind, commands, satellite, count, times, values, k,
+           time):  # fmt: skip
     """The pass behind it. A vehicle that has arrived has no values any more, and a light one none of what it does not know."""
-    n = state.shape[1]
+    n, place = state.shape[1], count[0]
+    count[0], times[place] = place + 1, time
     adhesion.use(columns, n, tyres, tyres_of, wheels, ground, values[place, row_of.size :])
     gather(columns, (k % RING) * n, table_of, row_of, state, mind, commands, satellite, values[place])
     for i in range(columns.size):

@@ -65,10 +65,10 @@ def between(world: World, refuse: Refuse = let_through) -> None:
 
     They know of themselves and around them what they knew at the tick, and what they command counts at the next one.
     """
+    if all(each.cycles == 1 for each in world.hosted):
+        return
     clock, hosted = world.clock, list(world.hosted)
     moments = instants(tuple(each.cycles for each in hosted))
-    if not moments:
-        return
     commands = world.vehicles.app_command.copy()
     for share, places in moments:
         time = clock.time + share * clock.tick
@@ -88,8 +88,7 @@ def instants(cycles: tuple[int, ...]) -> list[tuple[float, list[int]]]:
 def part(world: World) -> None:
     """What happens until the next instant."""
     move(world)
-    collide(world)
-    recirculate(world)
+    AFTERWARDS(world)
     world.clock.k += 1
 
 
@@ -444,46 +443,32 @@ def move(world: World) -> None:
     fleet.advance(world.vehicles, world.clock.k, world.clock.tick, world.clock.step)
 
 
-def collide(world: World) -> None:
-    """Contacts are found at the end of the tick; where there is no room for all of them, room is made, and the rest is added."""
-    while contacts(world):
-        world.events.grow()
-        world.ready.clear()
+@Passes
+def collide(world: World) -> Iterator[Link]:
+    """Contacts are found at the end of the tick: vehicles that touch each other, or an object."""
+    v, w, e, g, o = world.vehicles, world.worlds, world.events, world.neighbours, world.obstacles
+    near, objects = (w.of, w.number, g.grid, g.places, g.found), (w.first, w.count, o.table, o.first, o.count, o.standing)
+    own = (world.clock.tick, g.widest, v.state, v.parameter, *near, *objects, e.hits, e.found)
+    yield link(collision.contacts, *own, takes=("time",), tell=partial(find_room, world))
 
 
-def contacts(world: World) -> int:
-    """Adds the contacts of now that are not known; how many of them found no room."""
-    time = world.clock.time + world.clock.tick
-    left = touch(world, time)
-    return left + strike(world, time) if world.obstacles.standing.size else left
+def find_room(world: World, left: Any, refuse: Refuse) -> None:
+    """There is no room for some contacts: room is made, and the rest is added."""
+    let_pass(left, refuse)
+    world.events.grow()
+    world.ready.clear()
+    collide(world, refuse)
 
 
-@given
-def touch(world: World) -> tuple:
-    """Vehicles that touch each other at a time [s]."""
-    v, w, e, g = world.vehicles, world.worlds, world.events, world.neighbours
-    near = (g.widest, v.state, v.parameter, w.of, w.number, g.grid, g.places, g.found)
-    return collision.collide, *near, e.hits, e.found
-
-
-@given
-def strike(world: World) -> tuple:
-    """Vehicles that touch an object."""
-    v, w, e, o = world.vehicles, world.worlds, world.events, world.obstacles
-    objects = (o.table, o.first, o.count, o.standing)
-    return collision.strike, v.state, v.parameter, w.first, w.count, *objects, e.hits, e.found
-
-
-def recirculate(world: World) -> None:
-    """Traffic that has arrived comes in again, and whoever is due."""
-    if world.vehicles.any_returns:
-        come_in(world, world.clock.time)
-
-
-@given
-def come_in(world: World) -> tuple:
-    """At the beginning of its path, at a time [s]."""
+@Passes
+def recirculate(world: World) -> Iterator[Link]:
+    """Traffic that has arrived comes in again at the beginning of its path, and whoever is due."""
     v, r, w, q, d = world.vehicles, world.roads, world.worlds, world.queues, world.demand
     due, paths = (d.column, d.cars, d.first, d.due, d.gone, d.came), (r.points, r.path_first, r.path_count, r.raised)
     near = (r.drive_first, r.drive_count, r.web, w.of, q.first, q.place, q.at, world.neighbours.entered)
-    return entry.let_in, v.returns, v.removed, *due, *paths, *near, v.drivers, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind
+    moved = (v.drivers, v.state, v.wheels, v.ground, v.parameter, v.gears, v.mind)
+    if v.any_returns:
+        yield link(entry.let_in, v.returns, v.removed, *due, *paths, *near, *moved, takes=("time",))
+
+
+AFTERWARDS = collide + recirculate

@@ -125,6 +125,15 @@ def report(time, a, b, speed, column, hits):
 
 
 @lean
+def contacts(tick, widest, state, parameter, world_of, number, grid, places, found, first, count, table, first_object, object_count,
+             standing, hits, total, time):  # fmt: skip
+    """All contacts at the end of the tick that begins at a time [s]; how many of them found no room."""
+    end = time + tick
+    left = collide(widest, state, parameter, world_of, number, grid, places, found, hits, total, end)
+    return left + strike(state, parameter, first, count, table, first_object, object_count, standing, hits, total, end)
+
+
+@lean
 def collide(widest, state, parameter, world_of, number, grid, places, found, hits, total, time):
     """Adds new contacts to `hits` and counts them in `total`, vehicle by vehicle, each with those of higher numbers.
 
