@@ -32,20 +32,25 @@ function remembered(key: string): number | null {
   return Number.isInteger(kept) && kept > 0 ? kept : null;
 }
 
-/** Where the scene of this page is; asked again when all stages are taken, or nobody answers, as another tab may have been closed. */
+/** Asked again when all stages are taken, or nobody answers, as another tab may have been closed. */
+const patient = {
+  staleTime: Number.POSITIVE_INFINITY,
+  retry: (_count: number, error: Error) => !(error instanceof Refusal),
+  retryDelay: 1000,
+  refetchInterval: ({ state }: { state: { status: string } }) => (state.status === "error" ? (3000 as const) : (false as const)),
+};
+
+/** Where the scene of this page is. */
 export const scenePlace = queryOptions({
   queryKey: ["stage"],
   queryFn: async () => addressOf(await stage()),
-  staleTime: Number.POSITIVE_INFINITY,
+  ...patient,
   gcTime: Number.POSITIVE_INFINITY,
-  retry: (_count, error) => !(error instanceof Refusal),
-  retryDelay: 1000,
-  refetchInterval: ({ state }) => (state.status === "error" ? 3000 : false),
 });
 
 /** The stage of the scene beside the plan, and where it is; given up when that is closed. */
 export const board = queryOptions({
-  ...scenePlace,
+  ...patient,
   queryKey: ["stage beside the plan"],
   queryFn: async () => {
     const number = await allotted(BOARD);

@@ -45,7 +45,11 @@ export function SceneBoard(props: Props) {
   const { ready, send } = useBridge(frame, nothing, useCallback(() => void refetch(), [refetch]));
   const there = useMap(frame, shown.data?.map ?? "");
   const vehicles = shown.data?.vehicles ?? NOBODY;
-  const hand = useHand(props, plan, send);
+  const onMenu: Props["onMenu"] = (at, ground, item) => {
+    const { left = 0, top = 0 } = frame.current?.getBoundingClientRect() ?? {};
+    props.onMenu({ x: left + at.x, y: top + at.y }, ground, item);
+  };
+  const hand = useHand({ ...props, onMenu }, plan, send);
 
   // A scene that has just come up, or was built again, must be told everything.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
