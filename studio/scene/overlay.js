@@ -3,7 +3,7 @@
  * The page posts     {studio: "cast", cars: [{name, index, color, length, width, height, middle}]}
  *                    {studio: "layers", on: [name, ...]}
  *                    {studio: "seen", layers: {cars, fields, messages, trails, paths} | null}   as the server tells it
- *                    {studio: "marks", marks: {lines: [{points, closed, strong, filled}], knobs, words: [{at, text}], told}}   of the editor
+ *                    {studio: "marks", marks: {lines: [{points, closed, strong, filled}], knobs, words: [{at, text, strong}], told}}   of the editor
  *
  * It is drawn when the scene has been drawn, where that has the cars, so that nothing lags behind them; and when one of these comes. Nothing
  * hides it: what is behind a house is seen too. What is drawn stands in words in the canvas's label.
@@ -232,7 +232,8 @@
     }
     ink.globalAlpha = 1;
     for (const at of knobs.map(spot)) if (at) knob(ink, at);
-    for (const { at, text } of names) if (spot(at)) plate(ink, spot(at), text, "#0b5cad");
+    const taken = [];
+    for (const { at, text, strong } of names) if (spot(at)) plate(ink, spot(at), text, strong ? "#0b5cad" : "#101418", null, taken);
     return told;
   }
 

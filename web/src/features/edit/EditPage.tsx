@@ -226,7 +226,12 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     const deed = deeds.moved(state, held, drag, lanes);
     const stay = deeds.staying(state, held, drag, lanes).map(({ name }) => name);
     if (deed && stay.length > 0) notify(`${stay.join(", ")} ${stay.length > 1 ? "stay" : "stays"} behind.`, LYING, "yellow");
-    if (deed) perform((now) => made(deeds.moved(now, same(now, held), drag, lanes)));
+    if (deed)
+      perform((now) => {
+        const left = same(now, held);
+        if (left.length === 0) notify(`${named(held.map(({ path }) => path))} is not there any more.`, "Somebody has deleted it meanwhile; nothing else was changed.", "yellow");
+        return made(deeds.moved(now, left, drag, lanes));
+      });
     else notify("It stays where it is.", LYING, "yellow");
   };
 

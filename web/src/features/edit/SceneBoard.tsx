@@ -8,7 +8,7 @@ import type { SceneVehicle } from "../../api/types";
 import { offLand } from "../../charts/ground";
 import { boundsOfItems } from "../../model/editing/hit";
 import { type Editing, type Item, named } from "../../model/editing/item";
-import type { Marks, Question } from "../../model/editing/mark";
+import type { Question } from "../../model/editing/mark";
 import { liftOf, type Place } from "../../model/editing/sight";
 import type { Plan } from "../../model/map";
 import { useDark } from "../../ui/dark";
@@ -29,14 +29,13 @@ interface Props extends Omit<World, "aloft" | "onGone" | "state"> {
   id: string;
   plan: Plan;
   state: Editing;
-  names: boolean;
 }
 
 const NOBODY: SceneVehicle[] = [];
 const nothing = () => undefined;
 
 export function SceneBoard(props: Props) {
-  const { onlooker, id, plan, state, names } = props;
+  const { onlooker, id, plan, state } = props;
   const frame = useRef<HTMLIFrameElement>(null);
   const dark = useDark();
   const stage = useQuery(board);
@@ -49,18 +48,11 @@ export function SceneBoard(props: Props) {
     const { left = 0, top = 0 } = frame.current?.getBoundingClientRect() ?? {};
     props.onMenu({ x: left + at.x, y: top + at.y }, ground, item);
   };
-  const hand = useHand({ ...props, onMenu }, plan, send);
+  const hand = useHand({ ...props, onMenu }, frame, ready, send);
 
   // A scene that has just come up, or was built again, must be told everything.
   useEffect(() => send({ studio: "theme", dark }), [dark, ready, send]);
-  useEffect(() => send({ studio: "layers", on: names ? ["names"] : [] }), [names, ready, send]);
   useEffect(() => send({ studio: "cast", cars: vehicles }), [vehicles, ready, send]);
-  useEffect(() => {
-    const found = handIn(frame.current);
-    if (found) found.ask = hand.ask;
-    if (ready > 1 && hand.cancel()) notify("The scene was lost while something was dragged.", "Nothing was changed: drag it again.", "yellow");
-    hand.renew();
-  }, [hand, ready]);
   useImperativeHandle(onlooker, () => ({ cancel: hand.cancel, focus: (items) => lookAt(frame.current, items) }), [hand]);
 
   const problem = stage.error?.message || (shown.data ? "" : shown.error?.message);
@@ -87,14 +79,35 @@ export function SceneBoard(props: Props) {
 }
 
 /** The hand, which sees what is there now, and whose marks go to the scene past React, as often as the pointer moves. */
-function useHand(props: Props, plan: Plan, send: ReturnType<typeof useBridge>["send"]): Hand {
+function useHand(props: Props, frame: RefObject<HTMLIFrameElement | null>, ready: number, send: ReturnType<typeof useBridge>["send"]): Hand {
+  const { plan } = props;
   const aloft = useMemo(() => plan.lanes.flatMap(offLand), [plan]);
   const world = useRef<World>(undefined as never);
   world.current = { ...props, aloft, onGone: tellGone };
-  const [hand] = useState(() => new Hand(() => world.current, changed((marks) => send({ studio: "marks", marks }))));
-  const { state, items, chosen, locked, tool } = props;
-  // biome-ignore lint/correctness/useExhaustiveDependencies: what is drawn depends on them
-  useEffect(() => hand.renew(), [hand, state, items, chosen, locked, tool]);
+  const last = useRef("");
+  const [hand] = useState(
+    () =>
+      new Hand(
+        () => world.current,
+        (marks) => {
+          // Only what differs from what was shown last.
+          const text = JSON.stringify(marks);
+          if (text !== last.current) send({ studio: "marks", marks });
+          last.current = text;
+        },
+      ),
+  );
+  const { state, items, chosen, locked, tool, names } = props;
+  // What is drawn depends on all of them.
+  useEffect(() => hand.renew(), [hand, state, items, chosen, locked, tool, names]);
+  useEffect(() => {
+    // A scene that has just come up, or was built again, knows of no hand and has no marks.
+    const found = handIn(frame.current);
+    if (found) found.ask = hand.ask;
+    if (ready > 1 && hand.cancel()) notify("The scene was lost while something was dragged.", "Nothing was changed: drag it again.", "yellow");
+    last.current = "";
+    hand.renew();
+  }, [hand, frame, ready]);
   useEffect(() => {
     // What is dragged is let go of when the window is left by other means than the pointer.
     const leave = () => hand.cancel();
@@ -106,16 +119,6 @@ function useHand(props: Props, plan: Plan, send: ReturnType<typeof useBridge>["s
 
 const tellGone = (items: readonly Item[]) =>
   notify(`${named(items.map(({ path }) => path))} is not there any more.`, "Somebody has deleted it while it was dragged; nothing else was changed.", "yellow");
-
-/** Only what differs from what was shown last. */
-function changed(show: (marks: Marks) => void): (marks: Marks) => void {
-  let last = "";
-  return (marks) => {
-    const text = JSON.stringify(marks);
-    if (text !== last) show(marks);
-    last = text;
-  };
-}
 
 interface HandFrame extends Window {
   __studioHand?: { ask: ((question: Question) => boolean) | null; look: (place: Place, distance: number) => void };

@@ -40,7 +40,7 @@ function handOf(more: Partial<World> = {}) {
   const did: unknown[][] = [];
   const note = (what: string) => (...how: unknown[]) => void did.push([what, ...how]);
   const world = {
-    state, items: state.items, chosen: [], locked: [], tool: { is: "select" }, lanes, aloft: [],
+    state, items: state.items, chosen: [], locked: [], tool: { is: "select" }, lanes, aloft: [], names: false,
     onChoose: note("choose"), onMove: note("move"), onPoint: note("point"), onMenu: note("menu"), onGone: note("gone"),
     onTurn: note("turn"), onPull: note("pull"), onHandle: note("handle"), ...more,
   } as World;

@@ -26,6 +26,8 @@ export interface World extends Doer {
   lanes: readonly Lane[];
   /** What of the lanes lies on bridges. */
   aloft: readonly Stretch[];
+  /** Whether everything has its name, and not only what is chosen. */
+  names: boolean;
   onChoose: (paths: string[]) => void;
   onMove: (items: Item[], drag: Drag) => void;
   onPoint: (point: Point) => void;
@@ -43,6 +45,7 @@ type Press = { start: Point; height: number; to: Point; moved: boolean } & (
 const STILL = 4;
 /** So near a grip is taken hold of [px]. */
 const HOLD = 12;
+const MOST_NAMES = 80;
 /** How far before its end the handle to turn something by lies [m]. */
 const BEFORE = 1.5;
 const arm = (length: number) => length / 2 + BEFORE;
@@ -207,7 +210,7 @@ export class Hand {
   // -- what is drawn -------------------------------------------------------------------------------
 
   private marks(): Marks {
-    const { items, chosen } = this.world();
+    const { items, chosen, names } = this.world();
     const mine = items.filter(({ path }) => chosen.includes(path));
     const picture = this.picture();
     const height = this.press?.is === "things" ? this.press.items.map(({ figures }) => figures[0]?.height ?? 0) : [];
@@ -221,7 +224,7 @@ export class Hand {
         ...(picture.lines ?? []).map((line) => flat(line, lift, false)),
       ],
       knobs: this.press?.moved ? [] : this.grips().map(({ grip, point }) => [point.x, point.y, this.heightOf(grip)] as const),
-      words: [...over, ...mine].flatMap((item) => named(item)),
+      words: [...new Set([...over, ...mine, ...(names ? items : [])])].slice(0, MOST_NAMES).flatMap((item) => named(item, mine.includes(item))),
       told: toldOf(mine, over, this.press?.moved ? this.heldItems() : []),
     };
   }
@@ -267,9 +270,9 @@ function rim(figure: Figure, strong: boolean): Marks["lines"] {
   return [{ ...flat(line, lift, shape !== "line"), strong }];
 }
 
-function named({ name, figures: [figure] }: Item): Marks["words"] {
+function named({ name, figures: [figure] }: Item, strong: boolean): Marks["words"] {
   if (!figure || (figure.shape !== "body" && figure.shape !== "point")) return [];
-  return [{ at: [figure.x, figure.y, figure.lift + figure.height + 0.8], text: name }];
+  return [{ at: [figure.x, figure.y, figure.lift + figure.height + 0.8], text: name, strong }];
 }
 
 function toldOf(mine: readonly Item[], over: readonly Item[], held: readonly Item[]): string {

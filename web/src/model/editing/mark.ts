@@ -18,6 +18,6 @@ export interface Question {
 export interface Marks {
   lines: { points: Place[]; closed: boolean; strong: boolean; filled: boolean }[];
   knobs: Place[];
-  words: { at: Place; text: string }[];
+  words: { at: Place; text: string; strong: boolean }[];
   told: string;
 }
