@@ -1,4 +1,4 @@
-"""The viser client as the studio serves it: viser's own file with our style, bridge and overlay in its head."""
+"""The viser client as the studio serves it: viser's own file with our style, bridge, overlay and hand in its head."""
 
 from functools import cache
 from pathlib import Path
@@ -8,7 +8,7 @@ import viser
 from studio.errors import ServerError
 
 HERE = Path(__file__).parent
-SCRIPTS = ("bridge.js", "overlay.js")
+SCRIPTS = ("bridge.js", "overlay.js", "hand.js")
 CLIENT = Path(viser.__file__).parent / "client" / "build" / "index.html"
 
 

@@ -3,6 +3,7 @@
  * The page posts     {studio: "cast", cars: [{name, index, color, length, width, height, middle}]}
  *                    {studio: "layers", on: [name, ...]}
  *                    {studio: "seen", layers: {cars, fields, messages, trails, paths} | null}   as the server tells it
+ *                    {studio: "marks", marks: {lines: [{points, closed, strong, filled}], knobs, words: [{at, text, strong}], told}}   of the editor
  *
  * It is drawn when the scene has been drawn, where that has the cars, so that nothing lags behind them; and when one of these comes. Nothing
  * hides it: what is behind a house is seen too. What is drawn stands in words in the canvas's label.
@@ -17,9 +18,9 @@
   // Viridis (S. van der Walt, N. Smith, 2015): even to the eye, and for the colour-blind
   const SCALE = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
   const FASTEST = 40; // [m/s] at the end of the scale
-  const RED = "#ff2a1f", AMBER = "#ffb000";
+  const RED = "#ff2a1f", AMBER = "#ffb000", MARK = "#1c7ed6";
 
-  const state = { cars: [], of: new Map(), on: new Set(), seen: null, known: new Map(), canvas: null, told: "", drawn: 0 };
+  const state = { cars: [], of: new Map(), on: new Set(), seen: null, known: new Map(), canvas: null, told: "", drawn: 0, marks: null, spot };
   const bridge = () => window.__studioBridge;
 
   // ---- from the scene to the picture
@@ -71,10 +72,10 @@
     return found.length > 1;
   }
 
-  const spot = (point) => {
-    const found = project(point);
-    return found[2] >= NEAR ? [...flat(found), found[2]] : null;
-  };
+  function spot(point) {
+    const found = project?.(point);
+    return found && found[2] >= NEAR ? [...flat(found), found[2]] : null;
+  }
 
   // ---- cars
 
@@ -218,6 +219,31 @@
       return count;
     },
   };
+
+  // what is chosen in the editor, what is held, and where it can be taken hold of
+  function mark(ink, { lines: some, knobs, words: names, told }) {
+    for (const { points, closed, strong, filled } of some) {
+      if (points.length < 2 || !trace(ink, points, closed)) continue;
+      Object.assign(ink, { strokeStyle: MARK, fillStyle: MARK, lineWidth: strong ? 2.5 : 1.5, lineJoin: "round" });
+      ink.globalAlpha = 0.35;
+      if (filled) ink.fill();
+      ink.globalAlpha = strong ? 1 : 0.7;
+      ink.stroke();
+    }
+    ink.globalAlpha = 1;
+    for (const at of knobs.map(spot)) if (at) knob(ink, at);
+    const taken = [];
+    for (const { at, text, strong } of names) if (spot(at)) plate(ink, spot(at), text, strong ? "#0b5cad" : "#101418", null, taken);
+    return told;
+  }
+
+  function knob(ink, [x, y]) {
+    Object.assign(ink, { fillStyle: "#ffffff", strokeStyle: MARK, lineWidth: 2.5 });
+    ink.beginPath();
+    ink.arc(x, y, 6, 0, 7);
+    ink.fill();
+    ink.stroke();
+  }
 
   function nearestFirst() {
     const found = [];
@@ -411,6 +437,10 @@
       ink.restore();
       told.push(`${name} ${count}`);
     }
+    if (state.marks) {
+      ink.font = FONT;
+      told.push(...[mark(ink, state.marks)].filter(Boolean));
+    }
     tell(told.join(", "));
     state.drawn++;
   }
@@ -454,6 +484,8 @@
     } else if (data.studio === "seen") {
       state.seen = data.layers;
       state.known = new Map((data.layers?.cars ?? []).map((car) => [car.car, car]));
+    } else if (data.studio === "marks") {
+      state.marks = data.marks;
     } else return;
     soon();
   });

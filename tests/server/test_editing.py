@@ -12,18 +12,24 @@ from websockets.sync.client import connect
 from studio import job
 from studio.errors import ConflictError, RouteError, SealedError, StudioError
 from studio.road import load
+from studio.road.assembly.storey import STOREY
 from studio.road.network.curve import LOCK
 from studio.scenario import catalogue, figures
 from studio.scenario.text.patch import operation
+from studio.scene import pose
+from studio.scene.obstacle import SHAPES
 from studio.server.desk import Desk
 from studio.server.editing.answer import NewEdit, NewTurn
 from studio.server.editing.figure import lock_of
 from studio.server.editing.history import Change, steps
 from studio.server.editing.merge import changed_places, conflicts
 from studio.server.editing.way import driven, way
+from studio.server.frame import first_frame
 from studio.store.runs import open_runs
 from tests.conftest import ROOT
 from tests.patience import PATIENCE
+from tests.road.plot import plot
+from tests.server.test_replay import FLYOVER
 
 
 @pytest.fixture
@@ -360,6 +366,21 @@ def test_an_object_stands_where_it_is_put_and_looks_where_it_is_turned(desk, fol
     (body,) = item.figures
     assert item.group == "object" and (body.x, body.y) == (-150.0, -300.0)
     assert body.heading == pytest.approx(1.25) and body.line == []
+    # as high as it is drawn in the scene, on the ground
+    drawn = SHAPES["box" if shape == "cuboid" else shape]()
+    assert body.height == pytest.approx(float(drawn.vertices[:, 2].max()), abs=0.01) and body.height > 0.5 and body.lift == 0.0
+
+
+def test_who_starts_on_a_bridge_is_told_as_high_as_its_road_is_drawn(desk, folder):
+    nodes = {1: (-400, 0), 2: (-50, 0), 3: (50, 0), 4: (400, 0), 5: (0, -300), 6: (0, 300)}
+    plot(folder / "map.osm", nodes, {11: ([1, 2], {}), 12: ([2, 3], {"bridge": "yes"}), 13: ([3, 4], {}), 14: ([5, 6], {})})
+    path = folder / "flyover.yaml"
+    path.write_text(FLYOVER, encoding="utf-8")
+    bodies = {each.name: each.figures[0] for each in desk.editing.state(path).items if each.group == "vehicle"}
+    drawn = dict(zip(("up", "down", "above"), first_frame(job.prepare(job.load(path))).poses[pose.Z], strict=True))
+    assert bodies["above"].lift == pytest.approx(STOREY, abs=0.15) and bodies["down"].lift == 0.0
+    for name, body in bodies.items():
+        assert body.lift == pytest.approx(float(drawn[name]), abs=0.15) and 1.2 < body.height < 1.9
 
 
 def test_what_differs_between_documents():

@@ -31,6 +31,8 @@ class Figure(BaseModel):
     heading: float = Field(0.0, description="of its length [rad]")
     length: float = Field(0.0, description="of a body [m]")
     width: float = Field(0.0, description="of a body [m]")
+    height: float = Field(0.0, description="of a body [m]")
+    lift: float = Field(0.0, description="how high above the land its road is drawn [m]")
     anchor: Point | None = Field(None, description="the place that the document gives: of a vehicle its centre of gravity [m]")
     line: list[Point] = Field([], description="outline of a patch or area; way of a body, a route [m]")
     colour: str = Field("", description="of a vehicle")

@@ -6,6 +6,7 @@ Lengths in metres of the map, angles in radians, as everywhere.
 """
 
 from collections.abc import Collection, Iterator
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,10 @@ from studio.road.network.curve import LOCK
 from studio.road.ways import path as road_path
 from studio.road.ways.detour import lane_line
 from studio.road.ways.path import PATH_SPACING, PATH_X, PATH_Y, Path
+from studio.road.ways.relief import height_at, relief_of
 from studio.road.ways.route import connect
 from studio.scenario import figures
+from studio.scene.obstacle import SHAPES
 from studio.server.editing.answer import Figure, Handle, Item
 from studio.world.car import Car, footprint, pose
 from studio.world.effect import Jam, Row, Slippery, Walk, beside
@@ -49,7 +52,8 @@ def vehicle(car: Car, setting: Setting) -> Item:
     x, y, heading = map(float, pose(car.path, car.station))
     body = Figure(
         path=path, shape="body", x=outline.x, y=outline.y, heading=heading, length=outline.length, width=outline.width,
-        line=from_station(car.path, 0.0), colour=car.colour, anchor=(x, y),
+        line=from_station(car.path, 0.0), colour=car.colour, anchor=(x, y), height=car.model.values.body.height,
+        lift=lift(setting.network, x, y, float(height_at(car.path, np.array([car.station]))[0])),
     )  # fmt: skip
     road, lane, offset = on_lane(car.path, car.station, setting.network)
     given = setting.scenario.vehicles[car.name]
@@ -57,6 +61,12 @@ def vehicle(car: Car, setting: Setting) -> Item:
         path=path, group="vehicle", name=car.name, told=f"{car.model.name}, {car.speed:g} m/s", figures=[body],
         route=given.route, road=road, lane=lane, offset=offset, along=given.position.along, station=car.station,
     )  # fmt: skip
+
+
+def lift(network: Network, x: float, y: float, height: float = 0.0) -> float:
+    """How high above the land a place is drawn, on a road of this height [m]."""
+    relief = relief_of(network)
+    return 0.0 if relief is None else round(float(relief.at(*np.array([[x], [y], [height]]))[0][0]), 2)
 
 
 def on_lane(path: Path, station: float, network: Network) -> tuple[str, int, float]:
@@ -71,7 +81,7 @@ def station(name: str, setting: Setting) -> Item:
     """A unit that stands at a place."""
     (x, y), path = setting.spots[name], f"stations.{name}"
     heading = setting.scenario.stations[name].heading
-    figure = Figure(path=path, shape="point", x=x, y=y, heading=heading, anchor=(x, y))
+    figure = Figure(path=path, shape="point", x=x, y=y, heading=heading, anchor=(x, y), lift=lift(setting.network, x, y))
     return Item(path=path, group="station", name=name, told="road-side unit", figures=[figure])
 
 
@@ -121,7 +131,7 @@ def pairs(line: np.ndarray) -> list[tuple[float, float]]:
 def entry(site: Site, setting: Setting) -> Iterator[Item]:
     """An entry of the script, and each area that it waits for or that is jammed."""
     path, name = f"script.{site.name}", site.name
-    figures = [*walks(site, path), *stretches(site, path)]
+    figures = [*walks(site, path, setting.network), *stretches(site, path)]
     yield Item(path=path, group=group_of(site), name=name, told=site.text, figures=figures, vehicles=list(site.vehicles))
     for at, area in areas(site.entry, path):
         jammed = any(isinstance(each, Jam) for each in site.effects) and at.startswith(f"{path}.do")
@@ -140,7 +150,7 @@ def group_of(site: Site) -> Any:
     return "event"
 
 
-def walks(site: Site, path: str) -> Iterator[Figure]:
+def walks(site: Site, path: str, network: Network) -> Iterator[Figure]:
     """Whoever an entry brings, at the beginning of his line."""
     for each in site.effects:
         if isinstance(each, Walk):
@@ -148,8 +158,14 @@ def walks(site: Site, path: str) -> Iterator[Figure]:
             line = [(round(a, 2), round(b, 2)) for a, b in each.line] if each.speed > 0 else []
             yield Figure(
                 path=path, shape="body", x=x, y=y, heading=headings(each.line)[0], length=each.size[0], width=each.size[1],
-                line=line, looks=each.who, anchor=(x, y),
+                line=line, looks=each.who, anchor=(x, y), height=tall(each.who), lift=lift(network, x, y),
             )  # fmt: skip
+
+
+@cache
+def tall(looks: str) -> float:
+    """How high what looks so is in the scene [m]."""
+    return round(float(SHAPES[looks]().vertices[:, 2].max()), 2)
 
 
 def stretches(site: Site, path: str) -> Iterator[Figure]:

@@ -2205,6 +2205,18 @@ export interface components {
              */
             width: number;
             /**
+             * Height
+             * @description of a body [m]
+             * @default 0
+             */
+            height: number;
+            /**
+             * Lift
+             * @description how high above the land its road is drawn [m]
+             * @default 0
+             */
+            lift: number;
+            /**
              * Anchor
              * @description the place that the document gives: of a vehicle its centre of gravity [m]
              */

@@ -21,9 +21,11 @@ import classes from "./Edit.module.css";
 import { Head } from "./Head";
 import { useKeys } from "./keys";
 import { Outline } from "./Outline";
-import { type Looker, PlanView, type Tool } from "./PlanView";
+import type { Tool } from "./grip";
+import { type Looker, PlanView } from "./PlanView";
 import { PointMenu, type Pointed } from "./PointMenu";
 import { Properties } from "./Properties";
+import { type Onlooker, SceneBoard } from "./SceneBoard";
 import { Timetable } from "./Timetable";
 import { Toolbar } from "./Toolbar";
 
@@ -67,8 +69,35 @@ function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing;
   const { tool, setTool, chosen, choose, items, veil, looker } = editor;
   const news = useNews(id);
   const [names, setNames] = useState(true);
+  const [scene, setScene] = useLocalStorage({ key: "scene beside the plan", defaultValue: false, getInitialValueInEffect: false });
+  const onlooker = useRef<Onlooker>(null);
   const [pointed, setPointed] = useState<Pointed>();
   const mine = state.items.filter(({ path }) => chosen.includes(path));
+  const focus = (wanted: readonly Item[]) => {
+    looker.current?.focus(wanted);
+    onlooker.current?.focus(wanted);
+  };
+  const menu = (screen: Point, ground: Point, item: Item | undefined) => {
+    if (item && !chosen.includes(item.path)) choose([item.path]);
+    setPointed({ screen, ground, item });
+  };
+  const common = {
+    plan,
+    state,
+    lanes: editor.lanes,
+    items,
+    chosen,
+    locked: veil.locked,
+    tool,
+    names,
+    onChoose: choose,
+    onMove: editor.move,
+    onTurn: editor.turn,
+    onPoint: editor.point,
+    onPull: editor.pull,
+    onHandle: editor.handle,
+    onMenu: menu,
+  };
   useKeys({
     undo: editor.undo,
     redo: editor.redo,
@@ -77,11 +106,12 @@ function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing;
     duplicate: editor.duplicate,
     delete: editor.remove,
     all: () => choose(items.filter(({ group }) => group !== "route").map(({ path }) => path)),
-    focus: () => looker.current?.focus(mine.length ? mine : state.items),
+    focus: () => focus(mine.length ? mine : state.items),
     measure: () => setTool(tool.is === "measure" ? SELECT : { is: "measure", points: [] }),
     names: () => setNames(!names),
     route: () => editor.routeOf && setTool(tool.is === "route" ? SELECT : { is: "route", route: editor.routeOf }),
-    escape: () => (tool.is === "select" ? choose([]) : editor.back()),
+    scene: () => setScene(!scene),
+    escape: () => onlooker.current?.cancel() || (tool.is === "select" ? choose([]) : editor.back()),
     enough: editor.enough,
     nudge: editor.nudge,
   });
@@ -90,7 +120,7 @@ function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing;
       <Head state={state} news={news} onUndo={editor.undo} onRedo={editor.redo} />
       {broken ? <Stale id={id} error={broken} /> : null}
       {state.sealed ? <Sealed id={id} why={state.sealed} /> : null}
-      <Toolbar tool={tool} onTool={setTool} route={editor.routeOf} names={names} onNames={setNames} onEvent={editor.event} onEnough={editor.enough} state={state} onAnew={editor.anew} chosen={mine} />
+      <Toolbar tool={tool} onTool={setTool} route={editor.routeOf} names={names} onNames={setNames} scene={scene} onScene={setScene} onEvent={editor.event} onEnough={editor.enough} state={state} onAnew={editor.anew} chosen={mine} />
       <div className={classes.main}>
         <Outline
           items={state.items}
@@ -99,31 +129,12 @@ function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing;
           veil={veil}
           onVeil={editor.setVeil}
           onChoose={(paths, add) => choose(add ? paths.reduce(toggled, chosen as string[]) : paths)}
-          onFocus={(item) => looker.current?.focus([item])}
+          onFocus={(item) => focus([item])}
         />
-        <PlanView
-          looker={looker}
-          plan={plan}
-          state={state}
-          lanes={editor.lanes}
-          items={items}
-          chosen={chosen}
-          locked={veil.locked}
-          tool={tool}
-          names={names}
-          onChoose={choose}
-          onMove={editor.move}
-          onTurn={editor.turn}
-          onPoint={editor.point}
-          onPull={editor.pull}
-          onTakeOut={editor.takeOut}
-          onHandle={editor.handle}
-          onEnough={editor.enough}
-          onMenu={(screen, ground, item) => {
-            if (item && !chosen.includes(item.path)) choose([item.path]);
-            setPointed({ screen, ground, item });
-          }}
-        />
+        <div className={classes.boards}>
+          <PlanView {...common} looker={looker} onTakeOut={editor.takeOut} onEnough={editor.enough} />
+          {scene ? <SceneBoard {...common} id={id} onlooker={onlooker} /> : null}
+        </div>
         <Properties
           id={id}
           state={state}
@@ -135,7 +146,7 @@ function Editor({ id, at, onAt, state, plan, broken }: Props & { state: Editing;
         />
       </div>
       <Timetable turns={state.turns} duration={state.duration} chosen={chosen} onChoose={(path) => choose([path])} />
-      <PointMenu pointed={pointed} onClose={() => setPointed(undefined)} editor={editor} onFocus={() => looker.current?.focus(mine)} />
+      <PointMenu pointed={pointed} onClose={() => setPointed(undefined)} editor={editor} onFocus={() => focus(mine)} />
     </div>
   );
 }
@@ -215,7 +226,12 @@ function useEditor(id: string, state: Editing, plan: Plan, { wanted, choose }: {
     const deed = deeds.moved(state, held, drag, lanes);
     const stay = deeds.staying(state, held, drag, lanes).map(({ name }) => name);
     if (deed && stay.length > 0) notify(`${stay.join(", ")} ${stay.length > 1 ? "stay" : "stays"} behind.`, LYING, "yellow");
-    if (deed) perform((now) => made(deeds.moved(now, same(now, held), drag, lanes)));
+    if (deed)
+      perform((now) => {
+        const left = same(now, held);
+        if (left.length === 0) notify(`${named(held.map(({ path }) => path))} is not there any more.`, "Somebody has deleted it meanwhile; nothing else was changed.", "yellow");
+        return made(deeds.moved(now, left, drag, lanes));
+      });
     else notify("It stays where it is.", LYING, "yellow");
   };
 

@@ -2,27 +2,19 @@
 
 import { type MouseEvent, type PointerEvent, type RefObject, useCallback, useEffect, useImperativeHandle, useMemo, useRef, useState, type WheelEvent } from "react";
 import { flushSync } from "react-dom";
-import { type Addition, type Drag, ghostOf, isTurnable } from "../../model/editing/deed";
+import type { Drag } from "../../model/editing/deed";
 import { boundsOfItems, hit, placeOf, within } from "../../model/editing/hit";
-import type { Editing, Handle, Item } from "../../model/editing/item";
+import type { Editing, Item } from "../../model/editing/item";
 import type { Line } from "../../model/editing/line";
-import { type Knob, knobsOf, preview } from "../../model/editing/shape";
+import type { Knob } from "../../model/editing/shape";
 import { type Lane, onLane } from "../../model/editing/snap";
 import type { Plan } from "../../model/map";
 import { type Bounds, dragged, fitted, type Point, scaleBar, type Size, toGround, toScreen, type View, zoomed } from "../../model/view";
 import { useDark } from "../../ui/dark";
-import type { Board, Ghost, Picture } from "./Board";
+import type { Board, Picture } from "./Board";
 import classes from "./Edit.module.css";
+import { draggedThings, type Grip, ghostFor, gripsOf, grippedThing, type Held, letGo, nearest, type Tool } from "./grip";
 import { Knobs } from "./Knobs";
-
-/** What a click on the plan does. */
-export type Tool =
-  | { is: "select" }
-  | { is: "add"; what: Addition }
-  | { is: "area"; corners: Point[] }
-  | { is: "walls"; corners: Point[] }
-  | { is: "measure"; points: Point[] }
-  | { is: "route"; route: string };
 
 /** What the page may ask the plan to show. */
 export interface Looker {
@@ -63,8 +55,6 @@ const FINGER = 20;
 const HOLD = 9;
 /** How far before its middle the handle to turn something by lies [px]. */
 const ARM = 34;
-
-type Grip = { is: "turn"; item: Item } | { is: "knob"; item: Item; knob: Knob } | { is: "handle"; handle: number };
 
 type Press =
   | { is: "pan"; last: Point; moved: boolean }
@@ -110,7 +100,7 @@ export function PlanView(props: Props) {
   const ground = pointer && view ? toGround(view, size, pointer) : undefined;
   const hovered = ground && !press && tool.is === "select" ? hit(pickable, ground, reach) : undefined;
   const mine = items.filter(({ path }) => chosen.includes(path));
-  const grips = useMemo(() => (view ? gripsOf(state, mine, locked, tool, view) : []), [state, mine, locked, tool, view]);
+  const grips = useMemo(() => (view ? gripsOf(state, mine, locked, tool, armAt(view)) : []), [state, mine, locked, tool, view]);
   const drag: Drag | undefined = press?.is === "things" && press.moved && ground ? { from: press.from, to: ground } : undefined;
   const picture = useMemo(
     () => pictureOf({ plan, items, chosen, dark, hovered: hovered?.path, tool, ground, lanes, state, drag, press, grips }),
@@ -181,18 +171,10 @@ export function PlanView(props: Props) {
         else props.onChoose(press.click);
         return;
       case "grip":
-        return letGo(press.grip, isMoved, on);
+        return letGo(press.grip, isMoved, on, props);
       case "point":
         if (distance(press.start, screen) < 3 * STILL) props.onPoint(on);
     }
-  };
-
-  const letGo = (grip: Grip, moved: boolean, on: Point) => {
-    if (grip.is === "handle") return props.onHandle(grip.handle, moved ? on : undefined);
-    if (!moved) return;
-    if (grip.is === "knob") return props.onPull(grip.item, grip.knob, on);
-    const middle = placeOf(grip.item);
-    if (middle) props.onTurn(grip.item, Math.atan2(on.y - middle.y, on.x - middle.x));
   };
 
   const wheel = (event: WheelEvent) => {
@@ -241,11 +223,13 @@ export function PlanView(props: Props) {
   );
 }
 
-/** Of what can be taken hold of the nearest within reach; the first of those that are as near. */
-function nearest(grips: readonly Held[], away: (point: Point) => number, reach: number): Held | undefined {
-  const near = grips.map((held) => ({ held, by: away(held.point) })).filter(({ by }) => by <= reach);
-  return near.sort((one, other) => one.by - other.by)[0]?.held;
-}
+/** How far the handle to turn by lies from the middle [px]: not where the end is, which has a handle of its own. */
+const armAt =
+  ({ scale }: View) =>
+  (length: number): number => {
+    const end = (length / 2) * scale;
+    return (Math.abs(end - ARM) < 2 * HOLD ? end + ARM : ARM) / scale;
+  };
 
 /** The points of shapes among what can be taken hold of. */
 const knobbed = (grips: readonly Held[]) => grips.flatMap(({ grip }) => (grip.is === "knob" ? [{ item: grip.item, knob: grip.knob }] : []));
@@ -284,30 +268,6 @@ function useBoard(canvas: RefObject<HTMLCanvasElement | null>, size: Size): Boar
   return board;
 }
 
-interface Held {
-  grip: Grip;
-  point: Point;
-}
-
-/** What can be taken hold of besides the things themselves. */
-function gripsOf(state: Editing, mine: readonly Item[], locked: readonly string[], tool: Tool, view: View): Held[] {
-  if (tool.is === "route") {
-    const handles: Handle[] = state.items.find(({ path }) => path === `routes.${tool.route}`)?.figures[0]?.handles ?? [];
-    return handles.map(({ x, y }, handle) => ({ grip: { is: "handle", handle }, point: { x, y } }));
-  }
-  const [item] = mine;
-  if (!item || mine.length !== 1 || locked.includes(item.path) || tool.is !== "select") return [];
-  const knobs = knobsOf(state, item).map((knob): Held => ({ grip: { is: "knob", item, knob }, point: { x: knob.x, y: knob.y } }));
-  const middle = placeOf(item);
-  if (!middle || !isTurnable(state, item)) return knobs;
-  const { heading = 0, length = 0 } = item.figures[0] ?? {};
-  const arm = armOf((length / 2) * view.scale) / view.scale;
-  return [...knobs, { grip: { is: "turn", item }, point: { x: middle.x + arm * Math.cos(heading), y: middle.y + arm * Math.sin(heading) } }];
-}
-
-/** How far the handle to turn by lies from the middle [px]: not where the end is, which has a handle of its own. */
-const armOf = (end: number): number => (Math.abs(end - ARM) < 2 * HOLD ? end + ARM : ARM);
-
 interface Scene {
   plan: Plan;
   items: readonly Item[];
@@ -344,39 +304,6 @@ function pictureOf({ plan, items, chosen, dark, hovered, tool, ground, lanes, st
     return { ...base, lines: line.length > 1 ? [line] : [], ghosts: lane ? [{ ...lane, length: 1.5, width: 1.5 }] : [] };
   }
   return base;
-}
-
-function draggedThings(state: Editing, held: readonly Item[], drag: Drag, lanes: readonly Lane[]): Pick<Picture, "ghosts" | "outlines"> {
-  const [dx, dy] = [drag.to.x - drag.from.x, drag.to.y - drag.from.y];
-  const ghosts: Ghost[] = held.flatMap((item) =>
-    item.figures.filter(({ shape }) => shape === "body" || shape === "point").map(({ length = 0, width = 0 }) => ({ ...ghostOf(state, item, drag, lanes), length: length || 2, width: width || 2 })),
-  );
-  const outlines = held.flatMap(({ figures }) =>
-    figures.filter(({ shape }) => shape === "area" || shape === "patch").map(({ line = [] }) => line.map(([x, y]) => [x + dx, y + dy] as [number, number])),
-  );
-  return { ghosts, outlines };
-}
-
-function grippedThing(grip: Grip, to: Point, state: Editing): Partial<Picture> {
-  if (grip.is === "handle") return { ghosts: [{ ...to, heading: 0, length: 1.5, width: 1.5 }] };
-  if (grip.is === "knob") {
-    const found = preview(state, grip.item, grip.knob, to);
-    return found?.closed ? { outlines: [found.corners] } : { lines: found ? [found.corners] : [] };
-  }
-  const [figure, middle] = [grip.item.figures[0], placeOf(grip.item)];
-  if (!figure || !middle) return {};
-  const heading = Math.atan2(to.y - middle.y, to.x - middle.x);
-  return { ghosts: [{ ...middle, heading, length: figure.length || 2, width: figure.width || 2 }], lines: [[[middle.x, middle.y], [to.x, to.y]]] };
-}
-
-/** About how large what is added will be [m]. */
-const EXTENT: Partial<Record<Addition, [number, number]>> = { vehicle: [4.6, 1.8], friction: [20, 3.5], wall: [4, 0.3], barrier: [1.5, 0.3], radio: [100, 100], cyclist: [1.9, 0.6] };
-
-function ghostFor(what: Addition, ground: Point, lanes: readonly Lane[]): Ghost {
-  const foot = onLane(lanes, ground)?.foot;
-  const snapped = what === "vehicle" || what === "friction";
-  const [length, width] = EXTENT[what] ?? [1, 1];
-  return { ...(snapped && foot ? foot : ground), heading: foot?.heading ?? 0, length, width };
 }
 
 // -- over the drawing ----------------------------------------------------------------------------

@@ -5,7 +5,7 @@ import type { Addition } from "../../model/editing/deed";
 import type { Editing, Item } from "../../model/editing/item";
 import { Icon } from "../../ui/Icon";
 import classes from "./Edit.module.css";
-import type { Tool } from "./PlanView";
+import type { Tool } from "./grip";
 
 interface Props {
   tool: Tool;
@@ -16,6 +16,9 @@ interface Props {
   state: Editing;
   names: boolean;
   onNames: (names: boolean) => void;
+  /** Whether the 3D scene is beside the plan. */
+  scene: boolean;
+  onScene: (scene: boolean) => void;
   onEvent: () => void;
   onEnough: () => void;
   onAnew: () => void;
@@ -38,7 +41,7 @@ const ADDITIONS: readonly { title: string; of: readonly { what: Addition; label:
   { title: "Radio", of: [{ what: "station", label: "Road-side unit" }, { what: "radio", label: "Region without radio" }] },
 ];
 
-export function Toolbar({ tool, onTool, route, chosen, state, names, onNames, onEvent, onEnough, onAnew }: Props) {
+export function Toolbar({ tool, onTool, route, chosen, state, names, onNames, scene, onScene, onEvent, onEnough, onAnew }: Props) {
   const choose = (next: Tool) => () => onTool(next);
   return (
     <div className={classes.tools} role="toolbar" aria-label="Tools">
@@ -53,6 +56,7 @@ export function Toolbar({ tool, onTool, route, chosen, state, names, onNames, on
         onClick={() => route && onTool({ is: "route", route })}
       />
       <Press on={names} label="Names" hint="Names on the plan (N)" onClick={() => onNames(!names)} />
+      <Press on={scene} label="3D" hint="The scene beside the plan: choose, drag, turn and place there as well (3)" onClick={() => onScene(!scene)} />
       <Text size="xs" className={classes.hint} role="status" data-testid="tool-hint">
         {hintOf(tool, state)}
       </Text>

@@ -14,6 +14,7 @@ export interface Keys {
   measure: () => void;
   names: () => void;
   route: () => void;
+  scene: () => void;
   escape: () => void;
   enough: () => void;
   /** To the east and to the north [m]. */
@@ -22,7 +23,7 @@ export interface Keys {
 
 const WITH_CTRL: Record<string, keyof Keys> = { z: "undo", y: "redo", c: "copy", v: "paste", d: "duplicate", a: "all" };
 const PLAIN: Record<string, keyof Keys> = {
-  Delete: "delete", Backspace: "delete", f: "focus", m: "measure", n: "names", r: "route", Escape: "escape",
+  Delete: "delete", Backspace: "delete", f: "focus", m: "measure", n: "names", r: "route", "3": "scene", Escape: "escape",
 };
 export const ARROWS: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 /** How far a stroke of an arrow key moves what is chosen, and with Shift [m]. */

@@ -3,6 +3,7 @@
 import { type RefObject, useCallback, useEffect, useState } from "react";
 import type { SceneVehicle } from "../../api/types";
 import type { Camera } from "../../model/camera";
+import type { Marks } from "../../model/editing/mark";
 import type { Layers } from "../../model/layer";
 
 export type View = "overview" | "top" | "chase" | "driver";
@@ -15,6 +16,7 @@ export type Command =
   | { studio: "follow"; vehicle: number | null }
   | { studio: "view"; preset: View }
   | { studio: "camera"; camera: Omit<Camera, "view" | "vehicle"> }
+  | { studio: "marks"; marks: Marks }
   | { studio: "theme"; dark: boolean };
 
 interface Bridge {

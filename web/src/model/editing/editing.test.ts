@@ -17,7 +17,7 @@ const lanes = strips([lane("a", 0, 0), lane("a", 1, 3), lane("b", 0, 50)]);
 const line: [number, number][] = [[0, 0], [200, 0]];
 const car: Item = {
   path: "vehicles.ego", group: "vehicle", name: "ego", told: "a car", route: "way", road: "a", lane: 0, offset: 40, along: 40, station: 40, vehicles: [],
-  figures: [{ path: "vehicles.ego", shape: "body", looks: "", x: 41, y: 0, heading: 0, length: 4.5, width: 1.8, anchor: [40, 0], line, colour: "#0072b2", handles: [] }],
+  figures: [{ path: "vehicles.ego", shape: "body", looks: "", x: 41, y: 0, heading: 0, length: 4.5, width: 1.8, height: 1.5, lift: 0, anchor: [40, 0], line, colour: "#0072b2", handles: [] }],
 } as Item;
 const tree: Item = {
   path: "script.tree", group: "object", name: "tree", told: "a tree stands there", vehicles: [],
