@@ -197,7 +197,7 @@ def compare(
     print(result["unranked"] or f"same: differs by less than {100 * result['alike']:g} %")
 
 
-Form = Literal["fcd", "csv", "parquet", "channels"]
+Form = Literal["fcd", "csv", "parquet", "channels", "mcap"]
 
 
 @commands.command()
@@ -209,6 +209,7 @@ def export(
         typer.Option(
             "--format",
             help="Trajectories: fcd (SUMO's floating car data, .xml) or csv. All recorded channels: parquet, or channels (a .csv table). "
+            "mcap: channels, scene, events and messages for Foxglove. "
             "Left out: by the ending of the file, csv for .csv.",
         ),
     ] = None,
@@ -218,11 +219,14 @@ def export(
     """Writes a run for other programs: trajectories of the recorded vehicles, with recording.traffic of all, or all that was recorded."""
     from studio.store import trace
     from studio.store.export import export as exported
+    from studio.store.mcap import mcap
 
     form = format_of(out, format_)
     runs = existing(db)
     if form == "parquet":
         parts = iter([runs.parquet(run)])
+    elif form == "mcap":
+        parts = mcap(runs, run)
     else:
         texts = trace.lines(runs.parquet(run)) if form == "channels" else exported(runs, run, form, as_degrees=as_degrees)
         parts = (each.encode() for each in texts)
@@ -231,7 +235,7 @@ def export(
     print(f"{out}: the {what} of run {run}, {out.stat().st_size / 1e6:.1f} MB")
 
 
-ENDINGS: dict[Form, str] = {"fcd": ".xml", "csv": ".csv", "parquet": ".parquet", "channels": ".csv"}  # of an exported run
+ENDINGS: dict[Form, str] = {"fcd": ".xml", "csv": ".csv", "parquet": ".parquet", "channels": ".csv", "mcap": ".mcap"}  # of an exported run
 
 
 def format_of(out: Path, named: Form | None) -> Form:

@@ -36,6 +36,8 @@ from studio.store.export import MEDIA, Format, export
 from studio.store.ledger import MEDIA as LEDGER_MEDIA
 from studio.store.ledger import Form, ledger
 from studio.store.many import Given, Retag, judge_all, retag
+from studio.store.mcap import MEDIA as MCAP_MEDIA
+from studio.store.mcap import mcap
 from studio.store.queue import queue
 from studio.store.runs import LARGEST_RUN, Runs
 from studio.store.stretch import stretch
@@ -56,7 +58,10 @@ LEDGER: dict[int | str, dict[str, Any]] = {
     200: {"description": "a file", "content": {each: {"schema": {"type": "string", "format": "binary"}} for each in LEDGER_MEDIA.values()}}
 }
 RECORDING: dict[int | str, dict[str, Any]] = {
-    200: {"description": "a file", "content": {LEDGER_MEDIA[each]: {"schema": {"type": "string"}} for each in ("parquet", "csv")}}
+    200: {
+        "description": "a file",
+        "content": {each: {"schema": {"type": "string"}} for each in (LEDGER_MEDIA["parquet"], LEDGER_MEDIA["csv"], MCAP_MEDIA)},
+    }
 }
 MOST_CHOSEN, LONGEST_NUMBER = 10_000, 19  # runs that are named, and digits of each
 SOCKET: dict[int | str, dict[str, Any]] = {
@@ -329,7 +334,8 @@ def run_recording(
     run: int,
     kept: KeptRuns,
     form: Annotated[
-        Literal["parquet", "csv"], Query(alias="format", description="parquet: as it is kept, with units; csv: a table")
+        Literal["parquet", "csv", "mcap"],
+        Query(alias="format", description="parquet: as it is kept, with units; csv: a table; mcap: for Foxglove, with events and messages"),
     ] = "parquet",
     channels: Annotated[str, Query(description="of csv: names, separated by commas; all without it")] = "",
 ) -> Response:
@@ -338,6 +344,8 @@ def run_recording(
     named = {"Content-Disposition": f'attachment; filename="run_{run}.{form}"'}
     if form == "parquet":
         return Response(parquet, media_type=LEDGER_MEDIA["parquet"], headers=named)
+    if form == "mcap":
+        return StreamingResponse(mcap(kept, run), media_type=MCAP_MEDIA, headers=named)
     names = [name.strip() for name in channels.split(",") if name.strip()]
     return StreamingResponse(trace.lines(parquet, names), media_type="text/csv", headers=named)
 

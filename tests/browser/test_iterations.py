@@ -98,7 +98,7 @@ def test_2_columns_are_hidden_and_moved_and_it_is_remembered(page):
 
 
 def test_2_columns_are_pinned_at_the_left_and_lie_beside_each_other(page):
-    """By the menu and by a key; wherever the table is scrolled to, each begins where the one before it ends, whatever is hidden or grows."""
+    """By the menu and by a key; scrolled to the side, each begins where the one before it ends, whatever is hidden or grows."""
     page.set_viewport_size({"width": 700, "height": 800})
     page.get_by_role("button", name="Columns").click()
     page.get_by_label("Find a column").fill("headway")

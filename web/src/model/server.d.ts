@@ -8062,8 +8062,8 @@ export interface operations {
     run_recording_api_runs__run__recording_get: {
         parameters: {
             query?: {
-                /** @description parquet: as it is kept, with units; csv: a table */
-                format?: "parquet" | "csv";
+                /** @description parquet: as it is kept, with units; csv: a table; mcap: for Foxglove, with events and messages */
+                format?: "parquet" | "csv" | "mcap";
                 /** @description of csv: names, separated by commas; all without it */
                 channels?: string;
             };
@@ -8083,6 +8083,7 @@ export interface operations {
                 content: {
                     "application/vnd.apache.parquet": string;
                     "text/csv": string;
+                    "application/octet-stream": string;
                 };
             };
             /** @description The body is no JSON. */

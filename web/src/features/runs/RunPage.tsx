@@ -145,6 +145,7 @@ const reportsOf = (run: number) => [
 const exportsOf = (run: number) => [
   { label: "All channels, Parquet", href: `/api/runs/${run}/recording?format=parquet` },
   { label: "All channels, CSV", href: `/api/runs/${run}/recording?format=csv` },
+  { label: "Everything on one clock, MCAP (Foxglove)", href: `/api/runs/${run}/recording?format=mcap` },
   { label: "A notebook that reads it, Jupyter", href: `/api/runs/${run}/notebook` },
   { label: "Trajectories, CSV", href: `/api/runs/${run}/trajectories?format=csv` },
   { label: "Trajectories, SUMO FCD", href: `/api/runs/${run}/trajectories?format=fcd` },
