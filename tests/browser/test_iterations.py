@@ -172,6 +172,17 @@ def test_3_a_stroke_along_an_axis_is_the_filter(page):
     page.get_by_label("Filter the runs").fill("")
 
 
+def test_3_what_is_plotted_is_a_table_too(page):
+    page.get_by_role("button", name="As table").focus()
+    page.keyboard.press("Enter")
+    table = page.get_by_role("dialog").get_by_role("table")
+    expect(table.get_by_role("columnheader", name="Headway [s]")).to_be_visible()
+    expect(table.get_by_role("row")).to_have_count(1 + 6)
+    expect(table.get_by_role("row", name=re.compile("^#2 "))).to_contain_text("0.4")
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+
+
 def test_4_the_lineage_says_what_was_changed(page):
     page.get_by_text("Lineage", exact=True).click()
     tree = page.get_by_role("tree", name="Lineage of the runs")
