@@ -169,6 +169,32 @@ def explain(
 
 
 @commands.command()
+def aggregate(
+    runs: Annotated[str, typer.Argument(help="Numbers of up to eight runs, with commas.")],
+    channel: Annotated[str, typer.Argument(help="vehicle.quantity, such as leader.speed.")],
+    begin: Annotated[float | None, typer.Option("--begin", help="[s] From then on; from the beginning without it.")] = None,
+    end: Annotated[float | None, typer.Option("--end", help="[s] Until then; to the end without it.")] = None,
+    event: Annotated[str, typer.Option("--event", help="A kind of events: also the value at the first of them.")] = "",
+    db: Db = DEFAULT_DB,
+    as_json: AsJson = False,
+) -> None:
+    """Tells a recorded channel in a few numbers: least, greatest and mean value, percentiles, the value at an event."""
+    from studio.assess.aggregate import MEANINGS
+    from studio.store.aggregate import aggregated
+    from studio.store.comparison import numbers
+
+    found = aggregated(existing(db), numbers(runs), channel, begin=begin, end=end, event=event)
+    if as_json:
+        print_json([each._asdict() | {"aggregates": [one._asdict() for one in each.aggregates]} for each in found])
+        return
+    print_table(
+        [with_unit(channel, found[0].unit), *(f"run {each.run}" for each in found), "is"],
+        [[kind, *(text(each.aggregates[i].value) for each in found), MEANINGS[kind]] for i, kind in enumerate(MEANINGS)],
+    )
+    print("".join(f"run {each.run}: {each.samples} samples from {each.begin:g} to {each.end:g} s\n" for each in found), end="")
+
+
+@commands.command()
 def compare(
     a: Annotated[int, typer.Argument(help="Number of a run.")],
     b: Annotated[int, typer.Argument(help="Number of another run.")],

@@ -278,6 +278,27 @@ class Stretch(BaseModel):
     metrics: dict[str, Metric]
 
 
+class Aggregate(BaseModel):
+    """One number about the samples of a channel."""
+
+    kind: Literal["min", "max", "mean", "p5", "p95", "at_event"]
+    value: float | None = Field(description="in the unit of the channel; null where no sample is a number, or without an event")
+    time: float | None = Field(description="[s] when it was, of what was at a time")
+    meaning: str = Field(description="how it is made, in words")
+
+
+class Aggregated(BaseModel):
+    """A channel of a run in a few numbers."""
+
+    run: int
+    unit: str
+    begin: float = Field(description="[s] the first sample in it")
+    end: float = Field(description="[s] the last sample in it")
+    samples: int = Field(description="how many of them are numbers")
+    moment: float | None = Field(description="[s] when the event was")
+    aggregates: list[Aggregate]
+
+
 class Run(BaseModel):
     """A run in the database; `parameters` are those that were set, by path."""
 

@@ -9,6 +9,7 @@ from starlette.responses import HTMLResponse, Response, StreamingResponse
 from starlette.websockets import WebSocketDisconnect
 
 from studio import job
+from studio.assess.aggregate import MEANINGS, Aggregate
 from studio.assess.beyond import stretches
 from studio.assess.compare import ALIKE
 from studio.errors import Problem, ScenarioError, StudioError, UnknownError, short
@@ -29,6 +30,7 @@ from studio.server.news import EndNews, News, RefusedNews
 from studio.server.worker import pace_factor
 from studio.source import code_version
 from studio.store import trace
+from studio.store.aggregate import aggregated
 from studio.store.comparison import beside, numbers
 from studio.store.comparison import compare as compare_runs
 from studio.store.explanation import explanation
@@ -423,6 +425,25 @@ def side_by_side(
 ) -> answer.SideBySide:
     """Several runs side by side."""
     return answer.SideBySide(**beside(kept, numbers(runs), everything=everything))
+
+
+@router.get("/aggregates")
+def aggregates(
+    runs: Annotated[str, Query(description="numbers of up to eight runs, with commas")],
+    kept: KeptRuns,
+    channel: Annotated[str, Query(description="vehicle.quantity, recorded in all of them")],
+    begin: Annotated[float | None, Query(description="[s] from then on; from the beginning without it", allow_inf_nan=False)] = None,
+    end: Annotated[float | None, Query(description="[s] until then; to the end without it", allow_inf_nan=False)] = None,
+    event: Annotated[str, Query(description="a kind of events: the value at the first of them")] = "",
+) -> list[answer.Aggregated]:
+    """A channel of runs in a few numbers: least, greatest and mean value, percentiles, the value at an event."""
+    found = aggregated(kept, numbers(runs), channel, begin=begin, end=end, event=event)
+    return [answer.Aggregated(**each._asdict() | {"aggregates": [aggregate_of(one) for one in each.aggregates]}) for each in found]
+
+
+def aggregate_of(found: Aggregate) -> answer.Aggregate:
+    """A number with how it is made."""
+    return answer.Aggregate(**found._asdict(), meaning=MEANINGS[found.kind])
 
 
 @router.get("/live")

@@ -560,6 +560,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/aggregates": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Aggregates
+         * @description A channel of runs in a few numbers: least, greatest and mean value, percentiles, the value at an event.
+         */
+        get: operations["aggregates_api_aggregates_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/live": {
         parameters: {
             query?: never;
@@ -1585,6 +1605,64 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Aggregate
+         * @description One number about the samples of a channel.
+         */
+        Aggregate: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "min" | "max" | "mean" | "p5" | "p95" | "at_event";
+            /**
+             * Value
+             * @description in the unit of the channel; null where no sample is a number, or without an event
+             */
+            value: number | null;
+            /**
+             * Time
+             * @description [s] when it was, of what was at a time
+             */
+            time: number | null;
+            /**
+             * Meaning
+             * @description how it is made, in words
+             */
+            meaning: string;
+        };
+        /**
+         * Aggregated
+         * @description A channel of a run in a few numbers.
+         */
+        Aggregated: {
+            /** Run */
+            run: number;
+            /** Unit */
+            unit: string;
+            /**
+             * Begin
+             * @description [s] the first sample in it
+             */
+            begin: number;
+            /**
+             * End
+             * @description [s] the last sample in it
+             */
+            end: number;
+            /**
+             * Samples
+             * @description how many of them are numbers
+             */
+            samples: number;
+            /**
+             * Moment
+             * @description [s] when the event was
+             */
+            moment: number | null;
+            /** Aggregates */
+            aggregates: components["schemas"]["Aggregate"][];
+        };
         /**
          * AllottedStage
          * @description The stage that a page has to itself while its scene is connected.
@@ -9065,6 +9143,136 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SideBySide"];
+                };
+            };
+            /** @description The body is no JSON. */
+            400: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The server is open to a network, and the header `Authorization: Bearer TOKEN` is not its token. */
+            401: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Another origin or name, or something that may be read only. */
+            403: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description There is no such thing. */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The address has no such method. */
+            405: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is over, or not as the request expects it. */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It has changed meanwhile. */
+            412: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description It is too much. */
+            413: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Something in it is wrong. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description A mistake of the studio. */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description The database cannot be used now, or is damaged. */
+            503: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+        };
+    };
+    aggregates_api_aggregates_get: {
+        parameters: {
+            query: {
+                /** @description numbers of up to eight runs, with commas */
+                runs: string;
+                /** @description vehicle.quantity, recorded in all of them */
+                channel: string;
+                /** @description [s] from then on; from the beginning without it */
+                begin?: number | null;
+                /** @description [s] until then; to the end without it */
+                end?: number | null;
+                /** @description a kind of events: the value at the first of them */
+                event?: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Aggregated"][];
                 };
             };
             /** @description The body is no JSON. */

@@ -28,6 +28,7 @@ import { Empty, Failure, Loading } from "../../ui/State";
 import { StatusBadge } from "../../ui/StatusBadge";
 import { VerdictBadge } from "../../ui/VerdictBadge";
 import classes from "./Runs.module.css";
+import { Aggregates } from "./Aggregates";
 import { ExportMenu } from "./ExportMenu";
 import { VerdictCard } from "./VerdictCard";
 
@@ -77,6 +78,11 @@ function Detail({ run }: { run: RunDetail }) {
       </div>
       <div className={classes.column}>
         <Charts run={run} />
+        {isLive(run.status) || run.channels.length === 0 ? null : (
+          <Card title="A channel in numbers">
+            <Aggregates runs={[run]} />
+          </Card>
+        )}
         <Explanations run={run} onSeek={seek} />
         <Card title="Events">
           {run.events.length ? (
