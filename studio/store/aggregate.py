@@ -26,7 +26,7 @@ class Aggregated(NamedTuple):
 
 def aggregated(runs: Runs, numbers: Sequence[int], channel: str, *, begin: float | None = None, end: float | None = None,
                event: str = "") -> list[Aggregated]:  # fmt: skip
-    """Those of each run. Raises UnknownError for a channel that was not recorded, a stretch without samples, an event that did not happen."""
+    """Those of each run. Raises UnknownError for a channel or an event that is not there, and a stretch without samples."""
     check_numbers(numbers)
     return [one(runs, run, channel, begin, end, event) for run in numbers]
 
