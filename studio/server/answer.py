@@ -817,6 +817,18 @@ class LayerLine(BaseModel):
     lifts: list[float] = Field([], description="how high above the land each lies [m]; none where all lie on it")
 
 
+class LayerLink(BaseModel):
+    """A line from a car to the same one of another run, a ghost."""
+
+    car: int
+    run: int = Field(description="the other run")
+    color: str = Field(description="of its ghosts, #rrggbb")
+    x: float = Field(description="[m] of the ghost")
+    y: float = Field(description="[m]")
+    z: float = Field(description="[m] of the road as it is drawn")
+    distance: float = Field(description="[m] from one to the other, seen from above")
+
+
 class Layers(BaseModel):
     """What can be drawn over the scene at a time."""
 
@@ -826,6 +838,7 @@ class Layers(BaseModel):
     messages: list[LayerMessage]
     trails: list[LayerLine] = Field(description="where cars came from, the oldest point first")
     paths: list[LayerLine] = Field(description="where their ways lead")
+    links: list[LayerLink] = Field([], description="to the ghosts of a run that is played back")
 
 
 class Moment(BaseModel):

@@ -568,5 +568,6 @@ def scene(wanted: answer.OnStage, desk: AtDesk, runs: KeptRuns) -> answer.SceneC
 @router.put("/scene/time")
 def scene_time(moment: answer.Moment, desk: AtDesk) -> answer.Shown:
     """Another time of the run that a scene plays back."""
-    played = desk.stages[moment.stage].seek(moment.run, moment.time)
-    return answer.Shown(shown=played is not None, layers=played.layers(moment.time) if played and moment.layers else None)
+    stage = desk.stages[moment.stage]
+    played = stage.seek(moment.run, moment.time)
+    return answer.Shown(shown=played is not None, layers=stage.layers(played, moment.time) if played and moment.layers else None)

@@ -2774,6 +2774,44 @@ export interface components {
             lifts: number[];
         };
         /**
+         * LayerLink
+         * @description A line from a car to the same one of another run, a ghost.
+         */
+        LayerLink: {
+            /** Car */
+            car: number;
+            /**
+             * Run
+             * @description the other run
+             */
+            run: number;
+            /**
+             * Color
+             * @description of its ghosts, #rrggbb
+             */
+            color: string;
+            /**
+             * X
+             * @description [m] of the ghost
+             */
+            x: number;
+            /**
+             * Y
+             * @description [m]
+             */
+            y: number;
+            /**
+             * Z
+             * @description [m] of the road as it is drawn
+             */
+            z: number;
+            /**
+             * Distance
+             * @description [m] from one to the other, seen from above
+             */
+            distance: number;
+        };
+        /**
          * LayerMessage
          * @description The newest message from one to another, which was sent a moment ago.
          */
@@ -2811,6 +2849,12 @@ export interface components {
              * @description where their ways lead
              */
             paths: components["schemas"]["LayerLine"][];
+            /**
+             * Links
+             * @description to the ghosts of a run that is played back
+             * @default []
+             */
+            links: components["schemas"]["LayerLink"][];
         };
         /**
          * LayersNews
@@ -2838,6 +2882,12 @@ export interface components {
              * @description where their ways lead
              */
             paths: components["schemas"]["LayerLine"][];
+            /**
+             * Links
+             * @description to the ghosts of a run that is played back
+             * @default []
+             */
+            links: components["schemas"]["LayerLink"][];
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
